@@ -4,7 +4,9 @@
 //! repository is the map.
 
 pub mod expr;
+pub mod joints;
 pub mod motion;
+pub mod plane;
 pub mod scalar;
 pub mod solve;
 pub mod spec;

@@ -1,0 +1,85 @@
+//! Wheels that drive each other along a common tangent: gear pairs and belts.
+//!
+//! An involute gear pair is a crossed belt between the base circles: the teeth push along the
+//! line of action, which touches both (Litvin & Fuentes, *Gear Geometry*, ch. 10). An open belt is the
+//! same with the second radius counted negative. With b₁, b₂ the radii, b = b₁ + b₂, D the distance
+//! of the centres, ψ the direction of the line of centres and s = ±1 the flank or strand:
+//!
+//! s(√(D² − b²) − b arccos(b/D)) + bψ − b₁θ₁ − b₂θ₂ = constant,
+//!
+//! the length of belt that has passed. It holds for moving centres too.
+
+use super::*;
+use std::f64::consts::TAU;
+
+fn passed<S: Scalar>(r: &Relative<S>, b1: S, b2: S, side: S) -> S {
+    let b = b1 + b2;
+    let d2 = r.at().dot(r.at());
+    let free = (d2 - b * b).sqrt();
+    let lag = free.atan2(b);
+    side * (free - b * lag) + b * r.y.atan2(r.x) - b2 * r.angle
+}
+
+/// A gear pair. Numbers: pitch radii, pressure angle, 1 for an internal second wheel, flank (+1 or −1).
+pub struct Gear;
+
+impl Gear {
+    fn base<S: Scalar>(n: &Numbers<S>) -> (S, S) {
+        let (_, cos) = n.of[2].sin_cos();
+        let side = S::one() - n.of[3].scale(2.0);
+        (n.of[0] * cos, side * n.of[1] * cos)
+    }
+}
+
+impl Joint for Gear {
+    fn card(&self) -> Card {
+        Card::new("gear", "Two wheels with involute teeth, without backlash.")
+            .needs("of", FieldKind::Points, Role::Both, "m", "the centres of the wheels")
+            .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two pitch radii")
+            .takes("pressure_angle", FieldKind::Number, "rad", "20 deg", "angle of the line of action to the common tangent")
+            .takes("internal", FieldKind::Flag, "", "false", "whether the second wheel is a ring around the first")
+            .takes("flank", FieldKind::Number, "", "1", "+1 or -1: which side of the teeth carries")
+            .phased("tooth force")
+    }
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+        let (b1, b2) = Self::base(n);
+        Some(Few::of(&[passed(r, b1, b2, n.of[4])]))
+    }
+    fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
+        let (b1, b2) = Self::base(n);
+        r.at() * (b1 / (b1 + b2))
+    }
+    fn period(&self, n: &Numbers<f64>, _: usize) -> f64 {
+        let (b1, b2) = Self::base(n);
+        TAU * (b1 + b2).abs()
+    }
+}
+
+/// A belt or rope over two wheels, of which one strand is followed. Numbers: radii, 1 if crossed, strand (+1 or −1).
+pub struct Belt;
+
+impl Belt {
+    fn radii<S: Scalar>(n: &Numbers<S>) -> (S, S) {
+        let side = n.of[2].scale(2.0) - S::one();
+        (n.of[0], side * n.of[1])
+    }
+}
+
+impl Joint for Belt {
+    fn card(&self) -> Card {
+        Card::new("belt", "A belt without slip over two wheels; its reaction is the pull of one strand over that of the other.")
+            .needs("of", FieldKind::Points, Role::Both, "m", "the centres of the wheels")
+            .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two radii")
+            .takes("crossed", FieldKind::Flag, "", "false", "whether the strands cross")
+            .takes("strand", FieldKind::Number, "", "1", "+1 or -1: the strand that carries")
+            .phased("strand force")
+    }
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+        let (b1, b2) = Self::radii(n);
+        Some(Few::of(&[passed(r, b1, b2, n.of[3])]))
+    }
+    fn period(&self, n: &Numbers<f64>, _: usize) -> f64 {
+        let (b1, b2) = Self::radii(n);
+        TAU * (b1 + b2).abs()
+    }
+}

@@ -1,0 +1,27 @@
+//! Hinge: a point of one body stays on a point of the other.
+
+use super::*;
+
+/// Two points kept together; the bodies turn freely about them.
+pub struct Hinge;
+
+impl Joint for Hinge {
+    fn card(&self) -> Card {
+        Card::new("hinge", "A point of one body stays on a point of the other.")
+            .needs("of", FieldKind::Points, Role::Both, "m", "the points; more than two share one pin")
+            .turn()
+            .force("force along x")
+            .force("force along y")
+    }
+    #[inline]
+    fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
+        Some(Relative { x: S::zero(), y: S::zero(), angle: q[0] })
+    }
+    #[inline]
+    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+        Some(Few::of(&[r.x, r.y]))
+    }
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+        Some(Few::of(&[r.angle]))
+    }
+}

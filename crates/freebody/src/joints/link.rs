@@ -1,0 +1,27 @@
+//! Link: a rigid massless rod with a hinge at each end; two points at a fixed distance.
+
+use super::*;
+
+/// Two points kept at a distance.
+pub struct Link;
+
+impl Joint for Link {
+    fn card(&self) -> Card {
+        Card::new("link", "A rigid massless rod between two points, hinged at both ends.")
+            .needs("of", FieldKind::Points, Role::Both, "m", "the points at its ends")
+            .needs("length", FieldKind::Number, Role::Number, "m", "the distance")
+            .coordinate("direction", "rad")
+            .turn()
+            .force("thrust")
+    }
+    fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
+        let (sin, cos) = q[0].sin_cos();
+        Some(Relative { x: n.of[0] * cos, y: n.of[0] * sin, angle: q[1] })
+    }
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+        Some(Few::of(&[r.at().norm() - n.of[0]]))
+    }
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+        Some(Few::of(&[r.y.atan2(r.x), r.angle]))
+    }
+}
