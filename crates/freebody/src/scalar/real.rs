@@ -1,8 +1,154 @@
 //! Elementary functions of `f64` that are ours, so that every kind of number that is built on
 //! them, on every machine, gives the same bits.
 
-/// Sine and cosine of `x` radians.
-#[inline(always)]
+/// Up to here the quadrant is below 2²⁰, so its products with the 33-bit parts of π/2 are exact.
+const CAREFUL_ABOVE: f64 = 1.0e6;
+/// Adding and subtracting 1.5·2⁵² rounds to the nearest integer and leaves it in the low bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+/// π/2 in three parts: two of 33 bits, and the rest.
+const HALF_PI: [f64; 3] =
+    [1.570_796_326_734_125_614_17, 6.077_100_506_303_965_976_60e-11, 2.022_266_248_795_950_631_54e-21];
+
+/// Sine and cosine of `x` radians, within 1 unit in the last place up to |x| = 10⁶.
+///
+/// Cody and Waite's reduction by π/2 (*Software Manual for the Elementary Functions*, 1980, ch. 8),
+/// then the kernels of fdlibm (Sun Microsystems, 1993). It uses neither fused operations nor
+/// tables: the bits are the same everywhere. Infinite or undefined angles give NaN.
+#[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {
+    // Written so that NaN, too, goes the careful way.
+    if !(x.abs() <= CAREFUL_ABOVE) {
+        return careful(x);
+    }
+    let (quadrant, hi, lo) = reduce(x);
+    let (s, c) = (kernel_sin(hi, lo), kernel_cos(hi, lo));
+    let (s, c) = if quadrant & 1 == 0 { (s, c) } else { (c, s) };
+    (negate_if(s, quadrant & 2), negate_if(c, (quadrant + 1) & 2))
+}
+
+/// Beyond 160 000 turns the reduction needs hundreds of bits of π, which std's has; no motion
+/// worth repeating to the bit is there.
+#[cold]
+#[inline(never)]
+fn careful(x: f64) -> (f64, f64) {
     x.sin_cos()
+}
+
+/// The quadrant (modulo 4 in its low bits) and x − quadrant·π/2 as an unevaluated sum.
+#[inline(always)]
+fn reduce(x: f64) -> (u64, f64, f64) {
+    let shifted = x * std::f64::consts::FRAC_2_PI + ROUNDER;
+    let n = shifted - ROUNDER;
+    let first = x - n * HALF_PI[0];
+    // Where the second part is the larger of the two, the difference is exact: no error to collect.
+    let part = n * HALF_PI[1];
+    let second = first - part;
+    let rest = n * HALF_PI[2] - ((first - second) - part);
+    let hi = second - rest;
+    (shifted.to_bits(), hi, (second - hi) - rest)
+}
+
+/// sin(x + y) for |x| ≤ π/4 and y a rounding error of x.
+#[inline(always)]
+fn kernel_sin(x: f64, y: f64) -> f64 {
+    const S: [f64; 6] = [
+        -1.666_666_666_666_663_243_48e-1,
+        8.333_333_333_322_489_461_24e-3,
+        -1.984_126_982_985_794_931_34e-4,
+        2.755_731_370_707_006_767_89e-6,
+        -2.505_076_025_340_686_341_95e-8,
+        1.589_690_995_211_550_102_21e-10,
+    ];
+    let z = x * x;
+    let r = S[1] + z * (S[2] + z * S[3]) + z * (z * z) * (S[4] + z * S[5]);
+    let cube = z * x;
+    x - ((z * (0.5 * y - cube * r) - y) - cube * S[0])
+}
+
+/// cos(x + y) for |x| ≤ π/4 and y a rounding error of x.
+#[inline(always)]
+fn kernel_cos(x: f64, y: f64) -> f64 {
+    const C: [f64; 6] = [
+        4.166_666_666_666_660_190_37e-2,
+        -1.388_888_888_887_410_957_49e-3,
+        2.480_158_728_947_672_941_78e-5,
+        -2.755_731_435_139_066_330_35e-7,
+        2.087_572_321_298_174_827_90e-9,
+        -1.135_964_755_778_819_482_65e-11,
+    ];
+    let z = x * x;
+    let w = z * z;
+    let r = z * (C[0] + z * (C[1] + z * C[2])) + w * w * (C[3] + z * (C[4] + z * C[5]));
+    let half = 0.5 * z;
+    let top = 1.0 - half;
+    top + (((1.0 - top) - half) + (z * r - x * y))
+}
+
+/// `-value` where the bit of weight 2 is set.
+#[inline(always)]
+fn negate_if(value: f64, two: u64) -> f64 {
+    f64::from_bits(value.to_bits() ^ (two << 62))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Equidistributed in (−1, 1): the golden-ratio sequence.
+    fn spread(i: u32) -> f64 {
+        2.0 * (f64::from(i) * 0.618_033_988_749_894_9).fract() - 1.0
+    }
+
+    fn check(ours: f64, exact: f64, x: f64) {
+        let error = (ours - exact).abs();
+        assert!(error <= 2.3e-16, "{ours} instead of {exact} at {x}");
+        assert!(error <= 2.0 * f64::EPSILON * exact.abs(), "{ours} instead of {exact} at {x}");
+    }
+
+    #[test]
+    fn agrees_with_std_to_the_last_place() {
+        for reach in [0.8, 10.0, 1.0e3, 9.9e5, 1.0e9] {
+            for i in 0..200_000 {
+                let x = reach * spread(i);
+                let (s, c) = sin_cos(x);
+                check(s, x.sin(), x);
+                check(c, x.cos(), x);
+            }
+        }
+    }
+
+    #[test]
+    fn multiples_of_a_right_angle_keep_their_relative_accuracy() {
+        for n in -600_000..600_000 {
+            let x = f64::from(n) * std::f64::consts::FRAC_PI_2;
+            let (s, c) = sin_cos(x);
+            check(s, x.sin(), x);
+            check(c, x.cos(), x);
+        }
+    }
+
+    #[test]
+    fn zeros_keep_their_sign_and_tiny_angles_are_themselves() {
+        for x in [0.0, -0.0, 5e-324, -1e-300, 1e-9] {
+            let (s, c) = sin_cos(x);
+            assert_eq!((s.to_bits(), c), (f64::to_bits(x), 1.0));
+        }
+    }
+
+    #[test]
+    fn undefined_angles_give_nan() {
+        for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let (s, c) = sin_cos(x);
+            assert!(s.is_nan() && c.is_nan());
+        }
+    }
+
+    #[test]
+    fn parity_is_exact() {
+        for i in 0..10_000 {
+            let x = 1.0e4 * spread(i);
+            let ((s, c), (t, d)) = (sin_cos(x), sin_cos(-x));
+            assert_eq!((s, c), (-t, d));
+        }
+    }
 }

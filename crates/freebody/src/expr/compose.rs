@@ -1,0 +1,251 @@
+//! Composition of expressions. Operations on bare numbers are done at once, and those with 0 and
+//! 1 that change nothing are left out.
+
+use super::function::{power, Function};
+use super::tree::{Condition, Expr, Op};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// How far back an equal operation is looked for.
+const MEMORY: usize = 64;
+
+impl<L: Clone + PartialEq> Expr<L> {
+    /// A number.
+    pub fn constant(value: f64) -> Self {
+        Expr { ops: vec![Op::Constant(value)] }
+    }
+    /// A leaf.
+    pub fn leaf(leaf: L) -> Self {
+        Expr { ops: vec![Op::Leaf(leaf)] }
+    }
+    /// Square root.
+    pub fn sqrt(self) -> Self {
+        self.apply(Function::Sqrt)
+    }
+    /// Natural exponential.
+    pub fn exp(self) -> Self {
+        self.apply(Function::Exp)
+    }
+    /// Sine of an angle in radians.
+    pub fn sin(self) -> Self {
+        self.apply(Function::Sin)
+    }
+    /// Cosine of an angle in radians.
+    pub fn cos(self) -> Self {
+        self.apply(Function::Cos)
+    }
+    /// The angle of the point (x, self), radians in (−π, π].
+    pub fn atan2(self, x: Self) -> Self {
+        match (self.literal(), x.literal()) {
+            (Some(y), Some(x)) => Self::constant(y.atan2(x)),
+            _ => self.join(x, Op::Atan2),
+        }
+    }
+    /// √(self² + other²).
+    pub fn hypot(self, other: Self) -> Self {
+        (self.powi(2) + other.powi(2)).sqrt()
+    }
+    /// A whole power.
+    pub fn powi(self, n: i32) -> Self {
+        match (self.literal(), n) {
+            (_, 0) => Self::constant(1.0),
+            (_, 1) => self,
+            (Some(base), _) => Self::constant(base.powi(n)),
+            _ => self.extend(|a| Op::Whole(a, n)),
+        }
+    }
+    /// A real power of a positive base; a base of 0 is allowed with exponents above 1.
+    pub fn powf(self, exponent: Self) -> Self {
+        match (self.literal(), exponent.literal()) {
+            (_, Some(n)) if n.fract() == 0.0 && n.abs() < 1e6 => self.powi(n as i32),
+            (_, Some(0.5)) => self.sqrt(),
+            (Some(base), Some(exponent)) => Self::constant(power(base, exponent)),
+            _ => self.join(exponent, Op::Power),
+        }
+    }
+    /// Absolute value; `kink` names the switch.
+    pub fn abs(self, kink: usize) -> Self {
+        match self.literal() {
+            Some(value) => Self::constant(value.abs()),
+            None => self.extend(|of| Op::Abs { of, kink }),
+        }
+    }
+    /// −1, 0 or 1; `kink` names the switch.
+    pub fn sign(self, kink: usize) -> Self {
+        match self.literal() {
+            Some(0.0) => self,
+            Some(value) => Self::constant(value.signum()),
+            None => self.extend(|of| Op::Sign { of, kink }),
+        }
+    }
+    /// The smaller of two; `kink` names the switch.
+    pub fn min(self, other: Self, kink: usize) -> Self {
+        match (self.literal(), other.literal()) {
+            (Some(a), Some(b)) => Self::constant(a.min(b)),
+            _ => self.join(other, |a, b| Op::Min { a, b, kink }),
+        }
+    }
+    /// The larger of two; `kink` names the switch.
+    pub fn max(self, other: Self, kink: usize) -> Self {
+        match (self.literal(), other.literal()) {
+            (Some(a), Some(b)) => Self::constant(a.max(b)),
+            _ => self.join(other, |a, b| Op::Max { a, b, kink }),
+        }
+    }
+    /// The value of a table at this argument.
+    pub fn lookup(self, table: usize) -> Self {
+        self.extend(|of| Op::Table(table, of))
+    }
+    /// The time derivative. `None` when there is a time derivative in it already.
+    pub fn rate(self) -> Option<Self> {
+        self.derivative(Op::Rate)
+    }
+    /// The second time derivative. `None` when there is a time derivative in it already.
+    pub fn accel(self) -> Option<Self> {
+        self.derivative(Op::Accel)
+    }
+    /// Whether it is below another; `kink` names the switch.
+    pub fn less(self, other: Self, kink: usize) -> Condition<L> {
+        Condition(self.join(other, |a, b| Op::Less { a, b, kink }))
+    }
+    /// Whether it is at most another; `kink` names the switch.
+    pub fn less_equal(self, other: Self, kink: usize) -> Condition<L> {
+        Condition(self.join(other, |a, b| Op::LessEqual { a, b, kink }))
+    }
+    /// Whether it equals another to the bit. It is no switch, so it suits parameters only.
+    pub fn equal(self, other: Self) -> Condition<L> {
+        Condition(self.join(other, Op::Equal))
+    }
+
+    pub(super) fn apply(self, function: Function) -> Self {
+        match self.literal() {
+            Some(value) => Self::constant(function.apply(value)),
+            None => self.extend(|a| Op::Apply(function, a)),
+        }
+    }
+
+    fn derivative(self, op: fn(Box<Self>) -> Op<L>) -> Option<Self> {
+        if self.depends_on_rates() {
+            return None;
+        }
+        Some(match self.is_constant() {
+            true => Self::constant(0.0),
+            false => Expr { ops: vec![op(Box::new(self))] },
+        })
+    }
+
+    /// One more operation on the value.
+    fn extend(mut self, op: impl FnOnce(usize) -> Op<L>) -> Self {
+        self.ops.push(op(self.ops.len() - 1));
+        self
+    }
+
+    /// An operation on two values.
+    fn join(mut self, other: Self, op: impl FnOnce(usize, usize) -> Op<L>) -> Self {
+        let a = self.ops.len() - 1;
+        let b = self.absorb(other);
+        self.ops.push(op(a, b));
+        self
+    }
+
+    /// Takes over the operations of `other`, equal ones once, and says where its value is.
+    fn absorb(&mut self, other: Self) -> usize {
+        let mut places: Vec<usize> = Vec::with_capacity(other.ops.len());
+        for op in other.ops {
+            let op = op.moved(|i| places[i]);
+            let recent = self.ops.len().saturating_sub(MEMORY);
+            let known = self.ops[recent..].iter().position(|old| *old == op).map(|i| recent + i);
+            if known.is_none() {
+                self.ops.push(op);
+            }
+            places.push(known.unwrap_or(self.ops.len() - 1));
+        }
+        places[places.len() - 1]
+    }
+}
+
+impl<L: Clone + PartialEq> Condition<L> {
+    /// Whether both hold.
+    pub fn and(self, other: Self) -> Self {
+        Condition(self.0.join(other.0, Op::And))
+    }
+    /// Whether one of them or both hold.
+    pub fn or(self, other: Self) -> Self {
+        Condition(self.0.join(other.0, Op::Or))
+    }
+    /// `then` where it holds, else `otherwise`.
+    pub fn choose(self, then: Expr<L>, otherwise: Expr<L>) -> Expr<L> {
+        let mut all = self.0;
+        let condition = all.ops.len() - 1;
+        let then = all.absorb(then);
+        let otherwise = all.absorb(otherwise);
+        all.ops.push(Op::If { condition, then, otherwise });
+        all
+    }
+}
+
+impl<L: Clone + PartialEq> std::ops::Not for Condition<L> {
+    type Output = Self;
+    fn not(self) -> Self {
+        Condition(self.0.extend(Op::Not))
+    }
+}
+
+impl<L: Clone + PartialEq> Add for Expr<L> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        match (self.literal(), other.literal()) {
+            (Some(a), Some(b)) => Self::constant(a + b),
+            (Some(0.0), _) => other,
+            (_, Some(0.0)) => self,
+            _ => self.join(other, Op::Add),
+        }
+    }
+}
+impl<L: Clone + PartialEq> Sub for Expr<L> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        match (self.literal(), other.literal()) {
+            (Some(a), Some(b)) => Self::constant(a - b),
+            (Some(0.0), _) => -other,
+            (_, Some(0.0)) => self,
+            _ => self.join(other, Op::Subtract),
+        }
+    }
+}
+impl<L: Clone + PartialEq> Mul for Expr<L> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        match (self.literal(), other.literal()) {
+            (Some(a), Some(b)) => Self::constant(a * b),
+            (Some(0.0), _) | (_, Some(0.0)) => Self::constant(0.0),
+            (Some(1.0), _) => other,
+            (_, Some(1.0)) => self,
+            _ => self.join(other, Op::Multiply),
+        }
+    }
+}
+impl<L: Clone + PartialEq> Div for Expr<L> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        match (self.literal(), other.literal()) {
+            (Some(a), Some(b)) => Self::constant(a / b),
+            (Some(0.0), _) => self,
+            (_, Some(1.0)) => self,
+            _ => self.join(other, Op::Divide),
+        }
+    }
+}
+impl<L: Clone + PartialEq> Neg for Expr<L> {
+    type Output = Self;
+    fn neg(mut self) -> Self {
+        match (self.literal(), self.ops.last()) {
+            (Some(value), _) => Self::constant(-value),
+            // The value of a double negation is the operation before it only if that is where it points.
+            (_, Some(&Op::Negate(a))) if a + 2 == self.ops.len() => {
+                self.ops.pop();
+                self
+            }
+            _ => self.extend(Op::Negate),
+        }
+    }
+}
