@@ -28,7 +28,7 @@ impl Upper {
     pub fn column(&self, k: usize) -> std::ops::Range<usize> {
         self.starts[k]..self.starts[k + 1]
     }
-    /// y ← K x and, in `size`, max (|K| |x|).
+    /// y ← K x.
     pub fn apply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         self.each(|i, k, p| {
