@@ -101,7 +101,7 @@ impl Quotient {
     /// For each older clique that meets p's, the weight of its part outside.
     fn measure_outside(&mut self, p: usize, clique: &[usize]) {
         for &i in clique {
-            for &e in &self.cliques[i] {
+            for &e in self.cliques[i].iter().filter(|&&e| self.size[e] > 0) {
                 let (stamp, weight) = &mut self.outside[e];
                 if *stamp != p {
                     (*stamp, *weight) = (p, self.size[e]);
