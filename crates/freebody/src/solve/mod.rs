@@ -37,5 +37,10 @@ fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
 
 /// max |xᵢ|, or NaN if any entry is NaN.
 fn max_abs(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m: f64, v| if m >= v.abs() || m.is_nan() { m } else { v.abs() })
+    largest(x.iter().copied())
+}
+
+/// The largest magnitude, or NaN if any is NaN; 0 of none.
+fn largest(x: impl Iterator<Item = f64>) -> f64 {
+    x.map(f64::abs).fold(0.0, |m, v| if m >= v || m.is_nan() { m } else { v })
 }

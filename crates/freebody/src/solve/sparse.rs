@@ -2,15 +2,18 @@
 
 use super::gmres;
 use super::ldl::{running_sum, Ldl, Symbolic, Upper};
-use super::{max_abs, minimum_degree};
+use super::{axpy, largest, max_abs, minimum_degree};
 use std::fmt;
 
-/// Regularisation of bodies (+) and rows (−), relative to the equilibrated matrix. It balances the
-/// error it makes, of its own order, against the growth ε⁻¹ of round-off at a massless body.
-const SHIFT: f64 = 1e-8;
-/// The scaled residual aimed at, and the largest one accepted.
-const TARGET: f64 = 1e-14;
+/// Regularisation of bodies, ε, and of rows, μ, relative to the equilibrated matrix. A massless body
+/// eliminated first leaves round-off of order 10⁻¹⁶/ε in its rows, which must stay below μ.
+const BODY_SHIFT: f64 = 1e-6;
+const ROW_SHIFT: f64 = 1e-9;
+/// The residual aimed at, two units of round-off, and the largest one accepted.
+const TARGET: f64 = 4e-16;
 const ACCEPTED: f64 = 1e-9;
+/// A residual beyond this is more than round-off: redundant rows do not quite agree.
+const CONTRADICTION: f64 = 1e-14;
 /// Refinement cycles; each has up to twenty steps.
 const CYCLES: usize = 10;
 
@@ -148,7 +151,8 @@ impl Pattern {
 pub struct Accuracy {
     /// Solves with the factors.
     pub iterations: usize,
-    /// max |b − K x| as a fraction of max (|K| |x| + |b|), all equilibrated.
+    /// max |b − K x| as a fraction of max |K| |x| + max |b|, all equilibrated; the first two of bodies
+    /// and of joints apart, the larger fraction of the two.
     pub residual: f64,
 }
 
@@ -170,7 +174,7 @@ impl fmt::Display for Stalled {
 
 impl std::error::Error for Stalled {}
 
-/// Factors of K, regularised to [M + ε Gᵀ; G −ε]: a quasi-definite matrix, which has L D Lᵀ factors
+/// Factors of K, regularised to [M + ε Gᵀ; G −μ]: a quasi-definite matrix, which has L D Lᵀ factors
 /// in any order of elimination (Vanderbei, SIAM J. Optim. 5, 1995).
 ///
 /// K is first equilibrated symmetrically (Ruiz 2001). Solutions are refined on K itself, so that the
@@ -188,9 +192,9 @@ pub struct Factor {
 impl Factor {
     /// Memory for the factors of matrices with this pattern (of which it keeps a copy).
     pub fn new(pattern: &Pattern) -> Factor {
-        let mut shift = vec![-SHIFT; pattern.unknowns()];
+        let mut shift = vec![-ROW_SHIFT; pattern.unknowns()];
         let bodies = pattern.starts[pattern.bodies];
-        pattern.renumbering().take(bodies).for_each(|(_, place)| shift[place] = SHIFT);
+        pattern.renumbering().take(bodies).for_each(|(_, place)| shift[place] = BODY_SHIFT);
         Factor {
             values: vec![0.0; pattern.upper.rows.len()],
             scale: vec![1.0; pattern.unknowns()],
@@ -236,61 +240,92 @@ impl Factor {
         let pattern = &self.pattern;
         let n = pattern.unknowns();
         assert_eq!((rhs.len(), out.len()), (n, n), "one number for each unknown");
-        let (mut b, mut x) = (vec![0.0; n], vec![0.0; n]);
+        let (mut b, mut x, mut r) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         pattern.renumbering().for_each(|(i, p)| b[p] = rhs[i] * self.scale[p]);
-        let (accuracy, residual) = self.refine(&b, &mut x);
+        let mut accuracy = self.refine(&b, &mut x, &mut r);
+        if accuracy.residual > CONTRADICTION && accuracy.residual <= ACCEPTED {
+            accuracy.iterations += self.settle(&b, &mut x);
+        }
         pattern.renumbering().for_each(|(i, p)| out[i] = x[p] * self.scale[p]);
         if accuracy.residual <= ACCEPTED {
             return Ok(accuracy);
         }
-        let worst = pattern.renumbering().fold((0, 0.0), |w, (i, p)| {
-            let size = residual[p].abs();
-            if size > w.1 || size.is_nan() { (i, size) } else { w }
-        });
-        Err(Stalled { node: pattern.node_of(worst.0), residual: accuracy.residual })
+        Err(Stalled { node: self.worst(&r), residual: accuracy.residual })
     }
 
-    /// Refines until the residual is round-off or no longer halves; returns the residual too.
-    fn refine(&self, b: &[f64], x: &mut [f64]) -> (Accuracy, Vec<f64>) {
+    /// The node with the largest, or an undefined, entry of a residual.
+    fn worst(&self, r: &[f64]) -> usize {
+        let larger = |w: (usize, f64), (i, p): (usize, usize)| {
+            if r[p].abs() <= w.1 || w.1.is_nan() { w } else { (i, r[p].abs()) }
+        };
+        self.pattern.node_of(self.pattern.renumbering().fold((0, 0.0), larger).0)
+    }
+
+    /// Refines x until the residual r is round-off or no longer halves.
+    fn refine(&self, b: &[f64], x: &mut [f64], r: &mut [f64]) -> Accuracy {
         let upper = &self.pattern.upper;
         let apply = |x: &[f64], y: &mut [f64]| upper.apply(&self.values, x, y);
-        let mut accuracy = Accuracy { iterations: 0, residual: 0.0 };
-        let (mut r, mut best) = (b.to_vec(), x.to_vec());
-        let mut last = f64::INFINITY;
+        let precondition = |v: &mut [f64]| self.ldl.solve(&self.pattern.symbolic, v);
+        let mut accuracy = Accuracy { iterations: 0, residual: self.residual(b, x, r) };
         for _ in 0..CYCLES {
-            let size = self.residual(b, x, &mut r);
-            accuracy.residual = if size == 0.0 { 0.0 } else { max_abs(&r) / size };
-            if accuracy.residual <= TARGET || !(accuracy.residual <= 0.5 * last) {
+            if accuracy.residual <= TARGET {
                 break;
             }
-            last = accuracy.residual;
-            best.copy_from_slice(x);
-            let precondition = |v: &mut [f64]| self.ldl.solve(&self.pattern.symbolic, v);
-            accuracy.iterations +=
-                gmres::cycle(apply, precondition, &mut r, 0.5 * TARGET * size, x);
+            let (before, residual) = (x.to_vec(), accuracy.residual);
+            let target = 0.5 * TARGET / residual * max_abs(r);
+            accuracy.iterations += gmres::cycle(apply, precondition, r, target, x);
+            accuracy.residual = self.residual(b, x, r);
+            if accuracy.residual <= 0.5 * residual {
+                continue;
+            }
+            if !(accuracy.residual <= residual) {
+                x.copy_from_slice(&before);
+                accuracy.residual = self.residual(b, x, r);
+            }
+            break;
         }
-        if accuracy.residual > last {
-            x.copy_from_slice(&best);
-            accuracy.residual = last;
-            self.residual(b, x, &mut r);
-        }
-        (accuracy, r)
+        accuracy
     }
 
-    /// r ← b − K x; returns max (|K| |x| + |b|).
+    /// Frees the multipliers of what contradictions among redundant rows left in them, 1/μ times as
+    /// large: finds them anew from f − M a, with rows that agree. Returns the iterations.
+    fn settle(&self, b: &[f64], x: &mut [f64]) -> usize {
+        let clear_rows = |v: &mut [f64]| {
+            v.iter_mut().zip(&self.shift).filter(|(_, s)| **s < 0.0).for_each(|(v, _)| *v = 0.0);
+        };
+        clear_rows(x);
+        let (mut rest, mut r) = (vec![0.0; b.len()], vec![0.0; b.len()]);
+        self.residual(b, x, &mut rest);
+        clear_rows(&mut rest);
+        let mut y = vec![0.0; b.len()];
+        let iterations = self.refine(&rest, &mut y, &mut r).iterations;
+        axpy(1.0, &y, x);
+        iterations
+    }
+
+    /// r ← b − K x; returns the residual as defined by [`Accuracy`].
     fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) -> f64 {
-        let mut size: Vec<f64> = b.iter().map(|b| b.abs()).collect();
+        let mut terms = vec![0.0; b.len()];
         r.copy_from_slice(b);
         self.pattern.upper.each(|i, k, p| {
             let v = self.values[p];
             r[i] -= v * x[k];
-            size[i] += (v * x[k]).abs();
+            terms[i] += (v * x[k]).abs();
             if i != k {
                 r[k] -= v * x[i];
-                size[k] += (v * x[i]).abs();
+                terms[k] += (v * x[i]).abs();
             }
         });
-        max_abs(&size)
+        let given = max_abs(b);
+        let of_kind = |v: &[f64], body: bool| {
+            let kind = v.iter().zip(&self.shift).filter(|(_, s)| (**s > 0.0) == body);
+            largest(kind.map(|(v, _)| *v))
+        };
+        let ratio = |body| {
+            let left = of_kind(r, body);
+            if left == 0.0 { 0.0 } else { left / (of_kind(&terms, body) + given) }
+        };
+        max_abs(&[ratio(true), ratio(false)])
     }
 }
 
