@@ -6,6 +6,8 @@ use super::{axpy, dot};
 const CYCLE: usize = 20;
 /// A cycle ends at this reduction of the residual, which is then computed afresh.
 const REDUCTION: f64 = 1e-8;
+/// K P⁻¹ is near the identity; below this it is round-off, and the direction in the kernel of K.
+const KERNEL: f64 = 1e-5;
 
 /// Adds to `x` an approximate solution of K x = `residual` (the residual is overwritten) and returns
 /// the number of preconditioner solves. `target` is the 2-norm at which to stop.
@@ -35,8 +37,7 @@ pub(super) fn cycle(
         let mut column: Vec<f64> = basis.iter().map(|v| remove(v, &mut w)).collect();
         let norm = dot(&w, &w).sqrt();
         column.push(norm);
-        least.push(column);
-        if norm == 0.0 {
+        if !least.push(column) || norm == 0.0 {
             break;
         }
         w.iter_mut().for_each(|v| *v /= norm);
@@ -63,19 +64,24 @@ struct LeastSquares {
 }
 
 impl LeastSquares {
-    fn push(&mut self, mut h: Vec<f64>) {
+    /// Takes a column, unless it is dependent.
+    fn push(&mut self, mut h: Vec<f64>) -> bool {
         for (i, &(c, s)) in self.rotations.iter().enumerate() {
             (h[i], h[i + 1]) = (c * h[i] + s * h[i + 1], c * h[i + 1] - s * h[i]);
         }
         let k = self.columns.len();
         let norm = (h[k] * h[k] + h[k + 1] * h[k + 1]).sqrt();
-        let (c, s) = if norm > 0.0 { (h[k] / norm, h[k + 1] / norm) } else { (1.0, 0.0) };
+        if norm <= KERNEL {
+            return false;
+        }
+        let (c, s) = (h[k] / norm, h[k + 1] / norm);
         h[k] = norm;
         let last = self.rhs[k];
         self.rhs[k] = c * last;
         self.rhs.push(-s * last);
         self.rotations.push((c, s));
         self.columns.push(h);
+        true
     }
 
     fn residual(&self) -> f64 {
@@ -85,8 +91,7 @@ impl LeastSquares {
     fn solution(&self) -> Vec<f64> {
         let mut y = self.rhs[..self.columns.len()].to_vec();
         for k in (0..y.len()).rev() {
-            let pivot = self.columns[k][k];
-            y[k] = if pivot == 0.0 { 0.0 } else { y[k] / pivot };
+            y[k] /= self.columns[k][k];
             let s = y[k];
             axpy(-s, &self.columns[k][..k], &mut y[..k]);
         }
