@@ -130,13 +130,13 @@ impl Ldl {
         self.next.extend_from_slice(&s.columns[..n]);
         self.work.clear();
         self.work.resize(n, 0.0);
-        for k in 0..n {
+        for (k, &shift) in shift.iter().enumerate() {
             for p in upper.column(k) {
                 self.work[upper.rows[p]] = values[p];
             }
-            let pivot = shift[k] + std::mem::take(&mut self.work[k]) - self.eliminate_row(s, k);
-            let too_small = pivot * shift[k].signum() < shift[k].abs();
-            self.inverse_pivots[k] = 1.0 / if too_small { shift[k] } else { pivot };
+            let pivot = shift + std::mem::take(&mut self.work[k]) - self.eliminate_row(s, k);
+            let too_small = pivot * shift.signum() < shift.abs();
+            self.inverse_pivots[k] = 1.0 / if too_small { shift } else { pivot };
         }
     }
 

@@ -67,7 +67,7 @@ impl Orthogonal {
         self.pivoted_qr(g);
         self.rank = Rank::decide(&self.values);
         if self.rank.uncertain {
-            self.from_svd(g);
+            self.take_svd(g);
         } else {
             self.form_x();
             self.reduce_and_form_y();
@@ -189,7 +189,8 @@ impl Orthogonal {
         }
     }
 
-    fn from_svd(&mut self, g: &Matrix) {
+    /// Rank and bases from the singular values instead.
+    fn take_svd(&mut self, g: &Matrix) {
         let svd = jacobi_svd(g);
         self.rank = Rank::decide(&svd.values);
         let (r, n) = (self.rank.rank, g.cols());

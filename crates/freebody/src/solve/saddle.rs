@@ -232,8 +232,7 @@ impl Saddle {
         self.motion.add_solution(r, &mut step);
         axpy(-1.0, &self.mass.mul_vec(&step), &mut f);
         let rank = self.rank().rank;
-        let load: Vec<f64> =
-            (rank..f.len()).map(|i| dot(self.force().x().row(i), &f)).collect();
+        let load: Vec<f64> = (rank..f.len()).map(|i| dot(self.force().x().row(i), &f)).collect();
         let y = self.lu.solve(&load);
         self.add_motion(&y, &mut step);
         // What is left over, M a − f, is the constraint force.

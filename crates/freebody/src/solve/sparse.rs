@@ -256,7 +256,11 @@ impl Factor {
     /// The node with the largest, or an undefined, entry of a residual.
     fn worst(&self, r: &[f64]) -> usize {
         let larger = |w: (usize, f64), (i, p): (usize, usize)| {
-            if r[p].abs() <= w.1 || w.1.is_nan() { w } else { (i, r[p].abs()) }
+            if r[p].abs() <= w.1 || w.1.is_nan() {
+                w
+            } else {
+                (i, r[p].abs())
+            }
         };
         self.pattern.node_of(self.pattern.renumbering().fold((0, 0.0), larger).0)
     }
@@ -278,7 +282,7 @@ impl Factor {
             if accuracy.residual <= 0.5 * residual {
                 continue;
             }
-            if !(accuracy.residual <= residual) {
+            if accuracy.residual > residual || accuracy.residual.is_nan() {
                 x.copy_from_slice(&before);
                 accuracy.residual = self.residual(b, x, r);
             }
@@ -323,7 +327,11 @@ impl Factor {
         };
         let ratio = |body| {
             let left = of_kind(r, body);
-            if left == 0.0 { 0.0 } else { left / (of_kind(&terms, body) + given) }
+            if left == 0.0 {
+                0.0
+            } else {
+                left / (of_kind(&terms, body) + given)
+            }
         };
         max_abs(&[ratio(true), ratio(false)])
     }

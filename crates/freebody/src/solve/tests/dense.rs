@@ -45,8 +45,7 @@ fn condition_estimate_is_close_from_below() {
             let column = |j| (0..n).map(|i| a[(i, j)].abs()).sum::<f64>();
             (0..n).map(column).fold(0.0, f64::max)
         };
-        let columns: Vec<Vec<f64>> =
-            (0..n).map(|j| lu.solve(Matrix::identity(n).row(j))).collect();
+        let columns: Vec<Vec<f64>> = (0..n).map(|j| lu.solve(Matrix::identity(n).row(j))).collect();
         let exact = norm(&a) * norm(&Matrix::from_fn(n, n, |i, j| columns[j][i]));
         let estimate = lu.condition();
         assert!(estimate <= exact * (1.0 + 1e-9) && estimate > 0.2 * exact, "seed {seed}");

@@ -74,9 +74,9 @@ fn agrees_with_lu_of_the_whole_matrix() {
         for (b, used) in [(None, &p.g), (Some(&p.b), &p.b)] {
             let s = p.factor(b).unwrap().solve(&p.f, &p.r);
             // Refined once, both are backward stable; they differ by ε times the condition.
-            assert!(p.residual(used, &s) < 1e-13, "seed {seed}: {:e}", p.residual(used, &s));
+            assert!(p.residual(used, &s) < 2e-14, "seed {seed}");
             let both = [&s.a[..], &s.lambda].concat();
-            assert!(distance(&both, &p.whole(used)) < 1e-7, "seed {seed}");
+            assert!(distance(&both, &p.whole(used)) < 1e-9, "seed {seed}");
         }
     }
 }
@@ -97,7 +97,7 @@ fn redundant_rows_leave_the_motion_unchanged() {
             Saddle::factor(&p.mass, &short(&p.g), None, &p.rows[..rank], &p.cols).unwrap();
         let a = independent.solve(&p.f, &p.r[..rank]).a;
         // Random rows reach conditions of 1e4 or so.
-        assert!(distance(&s.a, &a) < 1e-10, "seed {seed}: {:e}", distance(&s.a, &a));
+        assert!(distance(&s.a, &a) < 1e-11, "seed {seed}: {:e}", distance(&s.a, &a));
         self_stress_balances_itself(&p, &saddle, m - rank);
         multipliers_are_least(&p, &saddle, &s);
     }
@@ -142,7 +142,11 @@ fn without_inertia(p: &mut Instant, also: Option<&[f64]>) {
     let n = p.f.len();
     let extra = also.map_or(0, |_| 1);
     let rows = Matrix::from_fn(p.g.rows() + extra, n, |i, j| {
-        if i < p.g.rows() { p.g[(i, j)] } else { also.unwrap()[j] }
+        if i < p.g.rows() {
+            p.g[(i, j)]
+        } else {
+            also.unwrap()[j]
+        }
     });
     let ones = vec![1.0; n];
     let kernel = Saddle::factor(&Matrix::identity(n), &rows, None, &vec![1.0; rows.rows()], &ones)

@@ -11,7 +11,12 @@ struct Truss {
 
 impl Truss {
     /// Bars between points, of which the first `fixed` belong to the ground.
-    fn new(points: &[[f64; 2]], bars: &[(usize, usize)], fixed: usize, mass: impl FnMut() -> f64) -> Truss {
+    fn new(
+        points: &[[f64; 2]],
+        bars: &[(usize, usize)],
+        fixed: usize,
+        mass: impl FnMut() -> f64,
+    ) -> Truss {
         let mut truss = Truss { masses: Vec::new(), levers: Vec::new(), pins: 0 };
         let mut ends = vec![Vec::new(); points.len()];
         for (k, &(i, j)) in bars.iter().enumerate() {
@@ -33,7 +38,12 @@ impl Truss {
         truss
     }
 
-    fn set_masses(&mut self, p: &[[f64; 2]], bars: &[(usize, usize)], mut mass: impl FnMut() -> f64) {
+    fn set_masses(
+        &mut self,
+        p: &[[f64; 2]],
+        bars: &[(usize, usize)],
+        mut mass: impl FnMut() -> f64,
+    ) {
         for &(i, j) in bars {
             let square: f64 = (0..2).map(|c| (p[i][c] - p[j][c]) * (p[i][c] - p[j][c])).sum();
             let m = mass();
@@ -105,7 +115,11 @@ impl Truss {
 
 /// A ladder of bays on a foot of two fixed points: rails, rungs and as many diagonals as asked for.
 /// Without diagonals each bay shears; with one it is rigid; with two it is redundant as well.
-fn ladder(random: &mut Random, bays: usize, diagonals: usize) -> (Vec<[f64; 2]>, Vec<(usize, usize)>) {
+fn ladder(
+    random: &mut Random,
+    bays: usize,
+    diagonals: usize,
+) -> (Vec<[f64; 2]>, Vec<(usize, usize)>) {
     let point = |k: usize| [(k % 2) as f64, (k / 2) as f64];
     let points = (0..2 * bays + 2).map(|k| point(k).map(|c| c + 0.1 * random.unit())).collect();
     let mut bars = Vec::new();
@@ -130,7 +144,7 @@ fn against_dense(truss: &Truss, random: &mut Random) -> f64 {
 fn agrees_with_the_dense_solver() {
     // Accelerations come with an error of ε times the condition: that of a beam of eight bays is 1e3
     // or so, and masses over six decades add to it.
-    for (diagonals, decades, tolerance) in [(0, 0.0, 1e-12), (1, 1.0, 1e-11), (2, 3.0, 1e-8)] {
+    for (diagonals, decades, tolerance) in [(0, 0.0, 1e-13), (1, 1.0, 1e-12), (2, 3.0, 1e-11)] {
         for seed in 0..60 {
             let mut random = Random(seed);
             let bays = random.index(1, 9);
@@ -154,10 +168,14 @@ fn massless_bars_are_solved_where_the_rest_carries_inertia() {
         let mut bar = 0;
         let truss = Truss::new(&points, &bars, 2, || {
             bar += 1;
-            if (bar - 1) % (3 + diagonals) < 2 { 1.0 } else { 0.0 }
+            if (bar - 1) % (3 + diagonals) < 2 {
+                1.0
+            } else {
+                0.0
+            }
         });
         let distance = against_dense(&truss, &mut random);
-        assert!(distance < 1e-11, "seed {seed}: {distance:e}");
+        assert!(distance < 1e-12, "seed {seed}: {distance:e}");
     }
 }
 
