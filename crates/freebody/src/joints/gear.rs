@@ -36,7 +36,7 @@ impl Joint for Gear {
         Card::new("gear", "Two wheels with involute teeth, without backlash.")
             .needs("of", FieldKind::Points, Role::Both, "m", "the centres of the wheels")
             .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two pitch radii")
-            .takes("pressure_angle", FieldKind::Number, "rad", "20 deg", "angle of the line of action to the common tangent")
+            .takes("pressure_angle", FieldKind::Number, "rad", "pi/9", "angle of the line of action to the common tangent")
             .takes("internal", FieldKind::Flag, "", "false", "whether the second wheel is a ring around the first")
             .takes("flank", FieldKind::Number, "", "1", "+1 or -1: which side of the teeth carries")
             .phased("tooth force")
