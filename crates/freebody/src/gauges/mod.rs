@@ -8,7 +8,7 @@
 mod place;
 mod reading;
 
-pub use place::{gradient, jet, Config, Moving, Placed, Poses, Seeded};
+pub use place::{gradient, jet, Config, Moving, Placed, Poses, Seeded, State};
 pub use reading::{Axis, Observed, Reading};
 
 use crate::expr::Expr;

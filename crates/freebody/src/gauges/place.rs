@@ -72,15 +72,16 @@ impl<S: Scalar> Poses<S> for Placed<'_, S> {
 pub struct Moving<'a, S> {
     /// The state.
     pub at: Placed<'a, S>,
-    /// Accelerations of pins and angles of all bodies.
-    pub bodies: &'a [Twist<S>],
-    /// Accelerations of the coordinates, if they are known; 0 otherwise.
+    /// Accelerations of pins and angles of all bodies; 0 when not given.
+    pub bodies: Option<&'a [Twist<S>]>,
+    /// Accelerations of the coordinates, if they are known.
     pub accelerations: Option<&'a [S]>,
 }
 
 impl<S: Scalar> Poses<Jet<S>> for Moving<'_, S> {
     fn pose(&self, body: usize) -> Pose<Jet<S>> {
-        let (pose, twist, acc) = (self.at.k.pose[body], self.at.k.twist[body], self.bodies[body]);
+        let (pose, twist) = (self.at.k.pose[body], self.at.k.twist[body]);
+        let acc = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]);
         let turn = &pose.turn;
         let (w, w2) = (twist.w, twist.w * twist.w);
         Pose {
@@ -250,6 +251,27 @@ impl<T: Scalar, P: Poses<T>> Env<T, Leaf> for Config<'_, P> {
     }
     fn arm(&self, kink: usize) -> Option<bool> {
         self.mode.arm(kink)
+    }
+}
+
+/// A state as an environment of laws, which may read rates.
+pub struct State<'a, S>(pub Placed<'a, S>);
+
+impl<S: Scalar> Env<S, Leaf> for State<'_, S> {
+    fn leaf(&self, leaf: &Leaf) -> S {
+        Config { poses: &self.0, m: self.0.m, mode: self.0.mode }.leaf(leaf)
+    }
+    fn rate(&self, of: &Law) -> S {
+        jet(&Moving { at: self.0, bodies: None, accelerations: None }, of).d1
+    }
+    fn accel(&self, _: &Law) -> S {
+        unreachable!("an acceleration in a law")
+    }
+    fn table(&self, table: usize, x: S) -> S {
+        self.0.m.tables[table].eval(x)
+    }
+    fn arm(&self, kink: usize) -> Option<bool> {
+        self.0.mode.arm(kink)
     }
 }
 

@@ -66,7 +66,7 @@ pub struct Observed<'a> {
 
 impl Observed<'_> {
     fn moving(&self) -> Moving<'_, f64> {
-        Moving { at: self.at, bodies: self.bodies, accelerations: Some(self.accelerations) }
+        Moving { at: self.at, bodies: Some(self.bodies), accelerations: Some(self.accelerations) }
     }
 }
 
