@@ -5,7 +5,7 @@ use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, SA
 use super::system::{System, Trouble};
 
 /// A value is zero when it is below this many times the size of its function.
-const NOISE: f64 = 16.0 * f64::EPSILON;
+const NOISE: f64 = 4.0 * f64::EPSILON;
 /// An extremum touches zero when it is below this many times the size of its function.
 const TOUCH: f64 = 1e-12;
 
@@ -62,8 +62,8 @@ impl Memory {
 
 /// Watches the switching functions along a run.
 ///
-/// A zero where the run starts, or where an event has just acted, does not count: the first value
-/// clearly away from zero tells on which side the function is.
+/// A zero where the run starts does not count: the first value clearly away from zero tells on
+/// which side the function is. Nor does a zero where an event has just acted.
 pub(super) struct Watcher {
     memory: Vec<Memory>,
     points: [f64; SAMPLES],
@@ -78,10 +78,7 @@ impl Watcher {
             is_spent: false,
             last_touch: f64::NAN,
         };
-        Self {
-            memory: (0..system.switches()).map(memory).collect(),
-            points: chebyshev_points(),
-        }
+        Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
     }
 
     pub fn is_idle(&self) -> bool {
@@ -147,6 +144,8 @@ impl Watcher {
             }
             let sign = memory.sign(node.value);
             if sign == 0 {
+                // Too small to tell, but the zero lies beyond it.
+                last = if node.value * f64::from(side) > 0.0 { *node } else { last };
                 continue;
             }
             if side == -sign {
@@ -155,7 +154,9 @@ impl Watcher {
                 marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
             } else if let Some(t) = touch.filter(|_| side == sign) {
                 // Neighbouring segments may both see an extremum on their border.
-                if (t - memory.last_touch).abs() > 1e-6 * probe.length() || memory.last_touch.is_nan() {
+                if (t - memory.last_touch).abs() > 1e-6 * probe.length()
+                    || memory.last_touch.is_nan()
+                {
                     marks.push(Mark { t, index: i, kind: Kind::Touch, direction: 0 });
                 }
                 memory.last_touch = t;
@@ -174,17 +175,23 @@ impl Watcher {
         }
     }
 
-    /// The run stopped at a zero of the functions `fired`; `values` are those of all functions
-    /// there. After a jump the sides are found anew: a sign that an action changed is no event.
-    pub fn stop_at(&mut self, values: &[f64], fired: &[usize], has_jumped: bool) {
-        for (i, (memory, &value)) in self.memory.iter_mut().zip(values).enumerate() {
-            memory.is_spent = fired.contains(&i);
+    /// The run stopped at a zero; `values` are those of all functions there. After a jump the
+    /// sides are found anew: a sign that an action changed is no event.
+    pub fn stop_at(&mut self, values: &[f64], has_jumped: bool) {
+        for (memory, &value) in self.memory.iter_mut().zip(values) {
+            memory.is_spent = false;
             memory.side = match memory.sign(value) {
-                _ if memory.is_spent || has_jumped => 0,
+                _ if has_jumped => 0,
                 0 => memory.side,
                 sign => sign,
             };
         }
+    }
+
+    /// Function `i` acted where the run stopped and is now heading for `side`: its zero there
+    /// is used up.
+    pub fn spend(&mut self, i: usize, side: i8) {
+        (self.memory[i].side, self.memory[i].is_spent) = (side, true);
     }
 }
 

@@ -120,8 +120,7 @@ impl Stepper for Explicit {
         for (j, (&c, a)) in table.more_c.iter().zip(table.more_a).enumerate() {
             self.stage(system, from, h, (stages + 1 + j, c, a))?;
         }
-        let mut segment =
-            Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
+        let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
         for (j, row) in table.dense.iter().enumerate() {
             segment.bend(3 + j, (0..from.y.len()).map(|i| h * combine(row, &self.k, i)));
         }

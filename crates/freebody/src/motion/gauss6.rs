@@ -161,10 +161,8 @@ impl Stepper for Gauss6 {
                 let (a, b) = (h * from.dy[i] / 3.0, h * to.dy[i] / 3.0);
                 [h * inner[0][i] - mean + b, h * inner[1][i] - mean + a]
             };
-            let (third, fourth): (Vec<f64>, Vec<f64>) = (0..n)
-                .map(lack)
-                .map(|[a, b]| (-6.75 * (a + 2.0 * b), 20.25 * (a + b)))
-                .unzip();
+            let (third, fourth): (Vec<f64>, Vec<f64>) =
+                (0..n).map(lack).map(|[a, b]| (-6.75 * (a + 2.0 * b), 20.25 * (a + b))).unzip();
             segment.bend(3, third.into_iter());
             segment.bend(4, fourth.into_iter());
         }

@@ -13,7 +13,7 @@ pub struct Method {
     pub citation: &'static str,
     /// Global error is O(hᵖ) with this p.
     pub order: u32,
-    /// Global error of the dense output is O(hᵖ) with this p.
+    /// The dense output adds an error O(hᵖ⁺¹) within a step, with this p.
     pub dense_order: u32,
     /// How the error estimate shrinks with the step, O(hᵏ); `None`: the step is fixed.
     pub estimate_order: Option<u32>,
@@ -113,12 +113,8 @@ pub(super) trait Stepper {
     ) -> Result<f64, Failure>;
 
     /// The dense output of the last attempt, after `to` has been projected.
-    fn dense(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &Point,
-    ) -> Result<Segment, Failure>;
+    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point)
+        -> Result<Segment, Failure>;
 
     /// Whether the last accepted steps look stiff.
     fn is_stiff(&self) -> bool {

@@ -8,6 +8,7 @@ mod dop853;
 mod events;
 mod explicit;
 mod gauss6;
+mod landing;
 mod linear;
 mod method;
 mod norm;

@@ -84,7 +84,10 @@ impl fmt::Display for Outcome {
             Self::TooManySteps { steps } => write!(out, "all {steps} steps allowed were used"),
             Self::Overflow => write!(out, "the state or its rate stopped being a finite number"),
             Self::ToleranceTooTight { rtol } => {
-                write!(out, "rtol = {rtol:e} is not a tolerance that can be kept; 1e-14 is the least")
+                write!(
+                    out,
+                    "rtol = {rtol:e} is not a tolerance that can be kept; 1e-14 is the least"
+                )
             }
             Self::StiffSuspected => write!(
                 out,
@@ -97,7 +100,8 @@ impl fmt::Display for Outcome {
             }
             Self::TooManyEvents => write!(
                 out,
-                "more than 10000 events happened within 1e-9 of time: the motion chatters"
+                "an event came back within one instant, or 10000 events within 1e-9: the motion \
+                 chatters, or comes to rest by ever smaller bounces"
             ),
         }
     }

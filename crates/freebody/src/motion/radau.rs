@@ -21,16 +21,8 @@ pub(super) const METHOD: Method = Method {
 const SQRT6: f64 = 2.449_489_742_783_178;
 const C: [f64; 3] = [(4.0 - SQRT6) / 10.0, (4.0 + SQRT6) / 10.0, 1.0];
 const A: [[f64; 3]; 3] = [
-    [
-        (88.0 - 7.0 * SQRT6) / 360.0,
-        (296.0 - 169.0 * SQRT6) / 1800.0,
-        (-2.0 + 3.0 * SQRT6) / 225.0,
-    ],
-    [
-        (296.0 + 169.0 * SQRT6) / 1800.0,
-        (88.0 + 7.0 * SQRT6) / 360.0,
-        (-2.0 - 3.0 * SQRT6) / 225.0,
-    ],
+    [(88.0 - 7.0 * SQRT6) / 360.0, (296.0 - 169.0 * SQRT6) / 1800.0, (-2.0 + 3.0 * SQRT6) / 225.0],
+    [(296.0 + 169.0 * SQRT6) / 1800.0, (88.0 + 7.0 * SQRT6) / 360.0, (-2.0 - 3.0 * SQRT6) / 225.0],
     [(16.0 - SQRT6) / 36.0, (16.0 + SQRT6) / 36.0, 1.0 / 9.0],
 ];
 /// The real eigenvalue of A⁻¹.
@@ -74,7 +66,12 @@ impl Radau {
     }
 
     /// Takes the Jacobian at `at`, by forward differences.
-    fn differentiate(&mut self, system: &mut Counted, at: &Point, norm: &Norm) -> Result<(), Failure> {
+    fn differentiate(
+        &mut self,
+        system: &mut Counted,
+        at: &Point,
+        norm: &Norm,
+    ) -> Result<(), Failure> {
         let n = self.n;
         let (mut values, mut y, mut dy) = (vec![0.0; n * n], at.y.clone(), vec![0.0; n]);
         for j in 0..n {
@@ -126,7 +123,13 @@ impl Radau {
     }
 
     /// Solves for the stages; returns the rate of convergence.
-    fn newton(&mut self, system: &mut Counted, from: &Point, h: f64, norm: &Norm) -> Result<f64, Failure> {
+    fn newton(
+        &mut self,
+        system: &mut Counted,
+        from: &Point,
+        h: f64,
+        norm: &Norm,
+    ) -> Result<f64, Failure> {
         let n = self.n;
         let tolerance = (10.0 * f64::EPSILON / norm.rtol).max(norm.rtol.sqrt().min(0.03));
         let mut weights = vec![0.0; n];
@@ -146,7 +149,8 @@ impl Radau {
                 return Ok(theta);
             }
             let left = (ITERATIONS - 1 - iteration) as i32;
-            if theta >= 1.0 || theta.powi(left) / (1.0 - theta) * size > tolerance && iteration > 0 {
+            if theta >= 1.0 || theta.powi(left) / (1.0 - theta) * size > tolerance && iteration > 0
+            {
                 break;
             }
             last = size;
@@ -168,7 +172,13 @@ impl Radau {
         Ok((0..3 * n).map(|at| h * sum(at / n, at % n) - self.z[at]).collect())
     }
 
-    fn error(&self, system: &mut Counted, from: &Point, to: &Point, norm: &Norm) -> Result<f64, Failure> {
+    fn error(
+        &self,
+        system: &mut Counted,
+        from: &Point,
+        to: &Point,
+        norm: &Norm,
+    ) -> Result<f64, Failure> {
         let (n, h) = (self.n, to.t - from.t);
         let stages = |i: usize| (0..3).map(|l| E[l] * self.z[l * n + i]).sum::<f64>() / h;
         let factors = self.factors.as_ref().ok_or(Failure::NoConvergence)?;

@@ -8,7 +8,7 @@ pub(super) const METHOD: Method = Method {
     name: "rk4",
     citation: "Kutta 1901; Hairer, Nørsett & Wanner, Solving ODEs I, II.1",
     order: 4,
-    dense_order: 4,
+    dense_order: 3,
     estimate_order: None,
     symplectic: false,
     growth_threshold: 1.0,

@@ -92,12 +92,13 @@ pub(super) fn bracketed<E>(
     loop {
         let x = new.0 + share * (old.0 - new.0);
         let here = (x, f(x)?);
-        let third = if (here.1 < 0.0) == (new.1 < 0.0) { new } else { std::mem::replace(&mut old, new) };
+        let third =
+            if (here.1 < 0.0) == (new.1 < 0.0) { new } else { std::mem::replace(&mut old, new) };
         new = here;
         let best = if old.1.abs() < new.1.abs() { old } else { new };
         let width = (old.0 - new.0).abs();
         let least = (2.0 * f64::EPSILON * best.0.abs() + f64::MIN_POSITIVE) / width;
-        if best.1 == 0.0 || !(least <= 0.5) {
+        if best.1 == 0.0 || least > 0.5 {
             return Ok(best.0);
         }
         share = chandrupatla(new, old, third).clamp(least, 1.0 - least);

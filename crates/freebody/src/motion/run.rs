@@ -1,12 +1,13 @@
 //! The run: step, project, look for events, act, go on.
 
 use super::dense::Segment;
-use super::events::{Kind, Mark, Probe, Watcher};
+use super::events::{Kind, Watcher};
+use super::landing::Chatter;
 use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
 use super::norm::{first_step, Norm};
-use super::outcome::{Happening, Outcome, Run};
+use super::outcome::{Outcome, Run};
 use super::pace::Pace;
-use super::system::{After, System};
+use super::system::System;
 
 /// The tightest relative tolerance that is accepted.
 const TIGHTEST: f64 = 1e-14;
@@ -59,19 +60,19 @@ pub fn run(
     runner.finish(outcome)
 }
 
-struct Runner<'a> {
-    system: Counted<'a>,
-    stepper: Box<dyn Stepper>,
-    watcher: Watcher,
-    norm: Norm,
-    pace: Pace,
+pub(super) struct Runner<'a> {
+    pub system: Counted<'a>,
+    pub stepper: Box<dyn Stepper>,
+    pub watcher: Watcher,
+    pub norm: Norm,
+    pub pace: Pace,
     estimate_order: Option<u32>,
-    now: Point,
+    pub now: Point,
     /// End of the step being made.
-    next: Point,
+    pub next: Point,
     t_end: f64,
-    run: Run,
-    chatter: Chatter,
+    pub run: Run,
+    pub chatter: Chatter,
 }
 
 impl<'a> Runner<'a> {
@@ -92,7 +93,7 @@ impl<'a> Runner<'a> {
             next: now.clone(),
             t_end,
             run: Run::new(&now),
-            chatter: Chatter { since: t0, count: 0 },
+            chatter: Chatter::new(t0),
             now,
             system: Counted { system, evaluations: 0 },
         }
@@ -120,21 +121,22 @@ impl<'a> Runner<'a> {
         if self.t_end.is_nan() || options.first_step.is_some_and(|h| h == 0.0 || !h.is_finite()) {
             return refused("the end time or the first step is not a number to step by");
         }
-        if !(options.max_step > 0.0) {
+        if options.max_step.is_nan() || options.max_step <= 0.0 {
             return refused("the longest step allowed is not positive");
         }
-        if !self.pace.is_fixed() && !(options.rtol >= TIGHTEST) {
+        let is_too_tight = options.rtol.is_nan() || options.rtol < TIGHTEST;
+        if !self.pace.is_fixed() && is_too_tight {
             return Err(Outcome::ToleranceTooTight { rtol: options.rtol });
         }
         all_finite(&self.now.y).map_err(ending)
     }
 
-    fn sign(&self) -> f64 {
+    pub fn sign(&self) -> f64 {
         (self.t_end - self.now.t).signum()
     }
 
     /// Chooses the step anew, as at the start.
-    fn restart_pace(&mut self) {
+    pub fn restart_pace(&mut self) {
         let (Some(order), sign) = (self.estimate_order, self.sign()) else { return };
         let system = &mut self.system;
         let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
@@ -222,7 +224,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Projects the end of the step onto the invariants.
-    fn settle(&mut self) -> Result<(), Outcome> {
+    pub fn settle(&mut self) -> Result<(), Outcome> {
         let before = self.next.y.clone();
         let system = &mut *self.system.system;
         let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::Trouble)?;
@@ -233,135 +235,15 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn segment(&mut self) -> Result<Segment, Outcome> {
+    pub fn segment(&mut self) -> Result<Segment, Outcome> {
         self.stepper.dense(&mut self.system, &self.now, &self.next).map_err(ending)
     }
 
     /// Makes the end of the step the present.
-    fn push(&mut self, segment: Segment) {
+    pub fn push(&mut self, segment: Segment) {
         self.run.trajectory.segments.push(segment);
         self.run.accepted += 1;
         std::mem::swap(&mut self.now, &mut self.next);
-    }
-
-    /// The zeros on a segment that count, in order.
-    fn search(&mut self, segment: &Segment) -> Result<Vec<Mark>, Outcome> {
-        if self.watcher.is_idle() {
-            return Ok(Vec::new());
-        }
-        let system = &mut *self.system.system;
-        let marks = self.watcher.search(system, segment).map_err(Outcome::Trouble)?;
-        let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
-        for mark in marks {
-            let watch = system.switch(mark.index);
-            let is_passing = mark.kind == Kind::Touch && watch.is_kink;
-            if is_passing || watch.direction * mark.direction < 0 {
-                continue;
-            }
-            segment.at(mark.t, &mut y);
-            if system.armed(mark.index, mark.t, &y).map_err(Outcome::Trouble)? {
-                counting.push(mark);
-            }
-        }
-        Ok(counting)
-    }
-
-    /// Steps to the first crossing of `marks`, lets it act and goes on from there.
-    fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
-        let mut crossings = marks.iter().filter(|mark| mark.kind == Kind::Crossing);
-        let first = *crossings.next().expect("the caller saw one");
-        let tie = 1e-12 * (1.0 + first.t.abs());
-        let together = crossings.filter(|mark| (mark.t - first.t).abs() <= tie);
-        let hits: Vec<Mark> = std::iter::once(&first).chain(together).copied().collect();
-        self.note_touches(&segment, marks, first.t);
-        self.land(&segment, first)?;
-        let has_jumped = self.act(&hits)?;
-        if has_jumped {
-            self.stepper.reset();
-            self.system.rate_of(&mut self.now).map_err(ending)?;
-            self.restart_pace();
-        }
-        let values = self.switch_values()?;
-        let fired: Vec<usize> = hits.iter().map(|hit| hit.index).collect();
-        self.watcher.stop_at(&values, &fired, has_jumped);
-        Ok(())
-    }
-
-    /// Makes a true step to a zero that was found on the dense output of a longer one, and once
-    /// more when the function is not yet zero there.
-    fn land(&mut self, segment: &Segment, hit: Mark) -> Result<(), Outcome> {
-        let (t0, t1) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
-        let mut t = hit.t;
-        for _ in 0..3 {
-            if t == self.now.t {
-                return Ok(());
-            }
-            self.step_to(t)?;
-            let mut values = vec![0.0; self.system.system.switches()];
-            let system = &mut *self.system.system;
-            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::Trouble)?;
-            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::Trouble)?;
-            let better = (t - values[hit.index] / slope).clamp(t0, t1);
-            if !((better - t).abs() > 4.0 * f64::EPSILON * t.abs()) {
-                break;
-            }
-            t = better;
-        }
-        let landed = self.segment()?;
-        self.push(landed);
-        Ok(())
-    }
-
-    /// Makes a step to `t`, which is known to be short enough.
-    fn step_to(&mut self, t: f64) -> Result<(), Outcome> {
-        self.next.t = t;
-        let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
-        attempt.map_err(ending)?;
-        self.settle()
-    }
-
-    /// Lets the events at the present act; whether the state or the law changed.
-    fn act(&mut self, hits: &[Mark]) -> Result<bool, Outcome> {
-        let (before, mut has_jumped, mut stop) = (self.now.y.clone(), false, None);
-        for hit in hits {
-            self.chatter.note(self.now.t)?;
-            let system = &mut *self.system.system;
-            let is_kink = system.switch(hit.index).is_kink;
-            let after = system.act(hit.index, self.now.t, &mut self.now.y);
-            let after = after.map_err(Outcome::Trouble)?;
-            match is_kink {
-                true => self.run.kinks += 1,
-                false => self.run.events.push(happening(hit, self.now.t, &before)),
-            }
-            has_jumped |= is_kink || after == After::Restart;
-            if after == After::Stop {
-                stop.get_or_insert(hit.index);
-            }
-        }
-        all_finite(&self.now.y).map_err(ending)?;
-        match stop {
-            Some(index) => Err(Outcome::StoppedByEvent { index }),
-            None => Ok(has_jumped || self.now.y != before),
-        }
-    }
-
-    /// Records the touches before time `until`.
-    fn note_touches(&mut self, segment: &Segment, marks: &[Mark], until: f64) {
-        let start = segment.t0;
-        for mark in marks.iter().filter(|mark| mark.kind == Kind::Touch) {
-            if (mark.t - start).abs() <= (until - start).abs() {
-                let mut y = vec![0.0; self.now.y.len()];
-                segment.at(mark.t, &mut y);
-                self.run.events.push(happening(mark, mark.t, &y));
-            }
-        }
-    }
-
-    fn switch_values(&mut self) -> Result<Vec<f64>, Outcome> {
-        let system = &mut *self.system.system;
-        let mut values = vec![0.0; system.switches()];
-        system.switch_values(self.now.t, &self.now.y, &mut values).map_err(Outcome::Trouble)?;
-        Ok(values)
     }
 
     fn finish(self, outcome: Outcome) -> Run {
@@ -393,34 +275,11 @@ impl Run {
     }
 }
 
-fn happening(mark: &Mark, t: f64, y: &[f64]) -> Happening {
-    Happening { t, y: y.to_vec(), index: mark.index, kind: mark.kind, direction: mark.direction }
-}
-
 /// The outcome of a failure that a shorter step does not cure.
-fn ending(failure: Failure) -> Outcome {
+pub(super) fn ending(failure: Failure) -> Outcome {
     match failure {
         Failure::Trouble(trouble) => Outcome::Trouble(trouble),
         Failure::NotFinite => Outcome::Overflow,
         Failure::NoConvergence => Outcome::StepUnderflow,
-    }
-}
-
-/// Guards against events that come ever more densely.
-struct Chatter {
-    since: f64,
-    count: usize,
-}
-
-impl Chatter {
-    fn note(&mut self, t: f64) -> Result<(), Outcome> {
-        if (t - self.since).abs() > 1e-9 {
-            *self = Self { since: t, count: 0 };
-        }
-        self.count += 1;
-        match self.count > 10_000 {
-            true => Err(Outcome::TooManyEvents),
-            false => Ok(()),
-        }
     }
 }

@@ -50,11 +50,16 @@ fn no_double_crossing_of_a_cubic_is_missed() {
     let mut seed = 1;
     for _ in 0..10_000 {
         let gap = 10.0_f64.powf(-6.0 * random(&mut seed));
-        let a = 0.001 + (0.998 - gap) * random(&mut seed).max(0.0);
-        let a = a.clamp(0.0005, 0.9995);
+        let a = 0.001 + (0.998 - gap) * random(&mut seed);
         let (b, c) = (a + gap, 3.0 * random(&mut seed) - 1.0);
+        // Else the function stays below its own round-off between the roots.
+        let depth = 0.25 * gap * gap * (c - a).abs().min((c - b).abs());
+        if depth < 1e-14 {
+            continue;
+        }
         let sign = if random(&mut seed) < 0.5 { -1.0 } else { 1.0 };
-        let mut expected: Vec<f64> = [a, b, c].into_iter().filter(|t| (0.0..1.0).contains(t)).collect();
+        let mut expected: Vec<f64> =
+            [a, b, c].into_iter().filter(|t| (0.0..1.0).contains(t)).collect();
         expected.sort_by(f64::total_cmp);
         let mut system = clock().watching(&[0], |_, y, g| {
             g[0] = sign * (y[0] - a) * (y[0] - b) * (y[0] - c);
@@ -147,7 +152,7 @@ fn a_ball_bounces_where_it_should() {
         });
     let run = system.run("dop853", (0.0, &[1.0, 0.0]), 3.0, &rtol(1e-10));
     let (mut t, mut speed) = ((2.0_f64 / 9.81).sqrt(), (2.0_f64 * 9.81).sqrt());
-    assert_eq!(run.events.len(), 9);
+    assert_eq!(run.events.len(), 6);
     for event in &run.events {
         assert!((event.t - t).abs() < 1e-12, "{} {t}", event.t);
         speed *= 0.8;
@@ -166,12 +171,14 @@ fn a_ball_that_comes_to_rest_is_named() {
     let run = system.run("dop853", (0.0, &[1.0, 0.0]), 3.0, &rtol(1e-10));
     println!("{:?} at {} after {} bounces", run.outcome, run.t, run.events.len());
     let rest = 3.0 * (2.0_f64 / 9.81).sqrt();
-    assert!(!run.outcome.is_ok() && (run.t - rest).abs() < 1e-6);
+    assert_eq!(run.outcome, Outcome::TooManyEvents);
+    assert!((run.t - rest).abs() < 1e-7);
 }
 
 #[test]
 fn a_stopping_event_ends_the_run() {
-    let mut system = clock().watching(&[0], |_, y, g| g[0] = y[0] - 0.3).acting(|_, _, _| After::Stop);
+    let mut system =
+        clock().watching(&[0], |_, y, g| g[0] = y[0] - 0.3).acting(|_, _, _| After::Stop);
     let run = system.run("tsit5", (0.0, &[0.0]), 1.0, &rtol(1e-9));
     assert_eq!(run.outcome, Outcome::StoppedByEvent { index: 0 });
     assert!((run.t - 0.3).abs() < 1e-16 && run.outcome.is_ok());
@@ -218,4 +225,20 @@ proptest! {
             prop_assert!(pair[0] < *x && *x < pair[1]);
         }
     }
+}
+
+/// Dry friction on a block at rest: the sliding law flips at v = 0 without end.
+#[test]
+fn sliding_on_a_kink_is_named() {
+    let side = std::cell::Cell::new(1.0);
+    let mut system = Plain::new(&[1.0], |_, _, dy| dy[0] = 0.3 - side.get())
+        .watching(&[0], |_, y, g| g[0] = y[0])
+        .acting(|_, _, _| {
+            side.set(-side.get());
+            After::Continue
+        });
+    system.watches[0].is_kink = true;
+    let run = system.run("dop853", (0.0, &[0.7]), 3.0, &rtol(1e-9));
+    assert_eq!(run.outcome, Outcome::TooManyEvents);
+    assert!((run.t - 1.0).abs() < 1e-12);
 }
