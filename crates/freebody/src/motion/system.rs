@@ -101,7 +101,9 @@ pub trait System {
         Ok(true)
     }
 
-    /// Event `i` happened at (t, y); may change `y` and the system itself.
+    /// Event `i` happened at (t, y); may change `y` and the system itself, and then answers
+    /// [`After::Restart`]. An action that stops the motion at the event must also change the law
+    /// that brings it back there: an event that returns within one instant ends the run.
     ///
     /// # Errors
     /// A named failure; the run ends with it.
