@@ -145,20 +145,20 @@ impl Sweep {
         let c = &self.full[i];
         let only_force = Resistance { h: Vec2::zero(), turn: 0.0, pm: 0.0, size: 0.0, ..*c };
         if at.m.bodies[i].particle {
-            return Ok(only_force);
+            return Ok(shift_bias(only_force, at, i));
         }
         if c.turn <= NOTHING * c.size || c.turn <= 0.0 {
             return Err(Trouble::can_move_freely(at.m, i));
         }
         let (h, inverse) = (c.h, 1.0 / c.turn);
-        Ok(Resistance {
+        let rest = Resistance {
             xx: c.xx - h.x * h.x * inverse,
             xy: c.xy - h.x * h.y * inverse,
             yy: c.yy - h.y * h.y * inverse,
             p: c.p - h * (c.pm * inverse),
             ..only_force
-        })
-        .map(|rest| shift_bias(rest, at, i))
+        };
+        Ok(shift_bias(rest, at, i))
     }
 
     /// What is left of body `i` when its joint may move along its columns.
