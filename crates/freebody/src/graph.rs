@@ -36,7 +36,7 @@ pub fn spanning_tree(nodes: usize, edges: &[Edge], mut adopt: impl FnMut(usize) 
     let mut reached = vec![false; nodes];
     let mut tree = Vec::with_capacity(nodes.saturating_sub(1));
     let mut next_orphan = 1;
-    let mut arrive = |node: usize, reached: &mut Vec<bool>, frontier: &mut std::collections::BinaryHeap<_>, age: usize| {
+    let arrive = |node: usize, reached: &mut Vec<bool>, frontier: &mut std::collections::BinaryHeap<_>, age: usize| {
         reached[node] = true;
         for &i in &at[node] {
             for (side, rank) in edges[i].rank.iter().enumerate() {

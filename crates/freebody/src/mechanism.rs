@@ -182,6 +182,8 @@ pub struct Joint {
     pub coordinates: Vec<Coordinate>,
     /// Its rows as a constraint, those that a particle does not have left out: index among the card's rows.
     pub rows: Vec<usize>,
+    /// Of each row of the card, whether only its change counts.
+    pub phased: Vec<bool>,
     /// The body that hangs on it, if it is in the tree.
     pub child: Option<usize>,
 }

@@ -119,6 +119,27 @@ impl Balance<'_> {
         vec![m, 0.0, h.x, 0.0, m, h.y, h.x, h.y, self.n.inertia[i] + m * arm.dot(arm)]
     }
 
+    /// The least motion ν (in the metric of the masses) that changes the closing rows by `asked`, in their order.
+    pub(super) fn sparse_correction(&mut self, asked: &[f64]) -> Result<Vec<f64>, Trouble> {
+        let rows = self.all_rows();
+        let starts = self.body_starts();
+        let n = starts[starts.len() - 1];
+        let mut rhs = vec![0.0; n];
+        let closing = |row: &Row| match row.source {
+            Source::Joint(j, r) => self.rows.iter().position(|c| c.source == Source::Joint(j, r)),
+            drive => self.rows.iter().position(|c| c.source == drive),
+        };
+        rhs.extend(rows.iter().map(|row| closing(row).map_or(0.0, |i| asked[i])));
+        let mut x = vec![0.0; rhs.len()];
+        self.solve_sparse(&rows, &rhs, &mut x)?;
+        let mut moved = vec![Twist::zero(); self.m.bodies.len()];
+        for i in 1..self.m.bodies.len() {
+            let part = &x[starts[i - 1]..starts[i]];
+            moved[i] = Twist { v: vec2(part[0], part[1]), w: part.get(2).copied().unwrap_or(0.0) };
+        }
+        Ok(self.joint_motion(&moved, false))
+    }
+
     fn solve_sparse(&mut self, rows: &[Row], rhs: &[f64], x: &mut [f64]) -> Result<(), Trouble> {
         if self.sparse.is_none() {
             let (pattern, groups) = self.pattern();
@@ -209,7 +230,7 @@ impl Balance<'_> {
             let part = &x[starts[i - 1]..starts[i]];
             self.solved.bodies[i] = Twist { v: vec2(part[0], part[1]), w: part.get(2).copied().unwrap_or(0.0) };
         }
-        self.joint_accelerations();
+        self.solved.nu_dot = self.joint_motion(&self.solved.bodies, true);
         self.solved.passed.fill(Wrench::zero());
         self.solved.lambda.clear();
         let mut closing = vec![];
@@ -233,16 +254,19 @@ impl Balance<'_> {
         self.order_rows();
     }
 
-    /// Joint accelerations from those of the bodies: of all that fit, by least squares over each joint's columns.
-    pub(super) fn joint_accelerations(&mut self) {
+    /// Joint accelerations (or, without drift, displacements) from those of the bodies, by least squares over each
+    /// joint's columns.
+    fn joint_motion(&self, bodies: &[Twist], drift: bool) -> Vec<f64> {
+        let mut nu = vec![0.0; self.m.freedom()];
         for i in 1..self.m.bodies.len() {
             let b = self.m.bodies[i].branch.expect("every body hangs in the tree");
-            let base = self.solved.bodies[b.parent];
+            let base = bodies[b.parent];
             let carried = Twist { v: base.at(self.k.arm[i]), w: if self.m.bodies[i].particle { 0.0 } else { base.w } };
-            let own = self.solved.bodies[i] - carried - self.k.drift[i];
+            let own = bodies[i] - carried - if drift { self.k.drift[i] } else { Twist::zero() };
             let rates = fit(&self.k.columns[i][..b.freedom], own, self.length);
-            self.solved.nu_dot[b.start..b.start + b.freedom].copy_from_slice(&rates[..b.freedom]);
+            nu[b.start..b.start + b.freedom].copy_from_slice(&rates[..b.freedom]);
         }
+        nu
     }
 
     /// Closing rows in the order of the closures, then of the drives, as the other routes have them.

@@ -150,7 +150,8 @@ fn component(load: &JointLoad, sure: [bool; 3], axis: Axis) -> f64 {
         Axis::Couple => (sure[2], load.couple),
         Axis::Along => (sure[0] && sure[1], load.in_joint_axes().x),
         Axis::Across => (sure[0] && sure[1], load.in_joint_axes().y),
-        Axis::Size | Axis::Tension => (sure[0] && sure[1], load.force.norm()),
+        Axis::Size => (sure[0] && sure[1], load.force.norm()),
+        Axis::Tension => (sure[0] && sure[1], load.tension()),
     };
     if needed {
         value

@@ -15,6 +15,15 @@ pub struct Dense {
     pub(super) saddle: Saddle,
 }
 
+/// Along what the multipliers act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Force {
+    /// The gradient of their rows.
+    Gradient,
+    /// Each actuator its own gauge.
+    OwnWay,
+}
+
 /// Largest contradiction of the rows, relative to what they ask for, that is put down to round-off.
 const CONTRADICTION: f64 = 1e-7;
 
@@ -39,7 +48,7 @@ impl Balance<'_> {
         let mut force = vec![0.0; self.m.freedom()];
         let needed = self.net_loads();
         project(self.at(), &needed, &mut force);
-        self.factor()?;
+        self.factor(Force::OwnWay)?;
         Ok(force)
     }
 
@@ -51,13 +60,13 @@ impl Balance<'_> {
     }
 
     /// Factors mass matrix and rows of the present state.
-    pub(super) fn factor(&mut self) -> Result<(), Trouble> {
+    pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
         let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         mass_matrix(at, &self.arms, &mut self.dense.mass);
         rows_in_coordinates(at, &self.rows, &mut self.dense.g, &mut self.dense.b);
         let columns = column_scales(at, self.length);
         let scales = row_scales(&self.dense.g, &columns);
-        let own = self.rows.iter().any(|row| row.force.is_some());
+        let own = force == Force::OwnWay && self.rows.iter().any(|row| row.force.is_some());
         let d = &mut self.dense;
         let b = own.then_some(&d.b);
         d.saddle.refactor(&d.mass, &d.g, b, &scales, &columns).map_err(|error| self.explain(error))
@@ -116,11 +125,6 @@ impl Balance<'_> {
             "inconsistent_constraints",
             format!("{} ask for motions that exclude each other; remove one, or make them agree", unique.join(", ")),
         ))
-    }
-
-    /// The least motion ν (in the metric of the mass matrix) with G ν = `asked`, G as last factored.
-    pub(super) fn correction(&self, asked: &[f64]) -> Vec<f64> {
-        self.dense.saddle.solve(&vec![0.0; self.m.freedom()], asked).a
     }
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.

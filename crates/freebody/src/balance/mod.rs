@@ -13,12 +13,14 @@ mod instant;
 mod load;
 mod minimal;
 mod newton_euler;
+mod project;
 mod rank;
 mod reactions;
 mod rows;
 mod sweep;
 
 pub use instant::{Instant, Observer};
+pub(crate) use project::{CLOSED, OPEN};
 pub use load::{effective, force_power, force_value};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
@@ -101,6 +103,8 @@ pub struct Balance<'m> {
     dense: minimal::Dense,
     sparse: Option<constraints::Sparse>,
     many_loops: bool,
+    /// Zero of each row of which only the change counts, by joint and row; none before a motion starts.
+    phases: std::collections::HashMap<(usize, usize), f64>,
 }
 
 impl<'m> Balance<'m> {
@@ -131,6 +135,7 @@ impl<'m> Balance<'m> {
             dense: Default::default(),
             sparse: None,
             many_loops: false,
+            phases: Default::default(),
         };
         balance.many_loops = balance.prefers_sparse();
         balance

@@ -3,7 +3,7 @@
 //! A reaction component is determinate if and only if no self-stress, a set of multipliers that loads no motion
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
-use super::minimal::{column_scales, row_scales, rows_in_coordinates};
+use super::minimal::{Force, column_scales, row_scales, rows_in_coordinates};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Source};
@@ -86,7 +86,7 @@ impl Balance<'_> {
             return vec![];
         }
         // A factorisation that fails for want of inertia has still decided the ranks.
-        let _ = self.factor();
+        let _ = self.factor(Force::OwnWay);
         let multipliers = self.dense.saddle.self_stress();
         (0..multipliers.cols()).map(|k| self.self_stress(&multipliers, k)).collect()
     }

@@ -18,6 +18,8 @@ pub struct JointLoad {
     pub couple: f64,
     /// Direction of the first body's marker, rad.
     pub axes: f64,
+    /// From the first body's marker to the second's, fixed axes.
+    pub span: Vec2,
 }
 
 impl Source {
@@ -51,7 +53,7 @@ pub(super) fn joint_load(at: Placed<'_>, index: usize, passed: &[Wrench], rows: 
             about(at, told, load, point)
         }
     };
-    JointLoad { point, force: load.f, couple: load.m, axes: axes.turn.angle }
+    JointLoad { point, force: load.f, couple: load.m, axes: axes.turn.angle, span: axes.turn.apply(place.at()) }
 }
 
 /// A load at a body's pin, told about another place.
@@ -60,6 +62,10 @@ fn about(at: Placed<'_>, body: usize, load: Wrench, place: Vec2) -> Wrench {
 }
 
 impl JointLoad {
+    /// The pull along the line of the two markers: positive when it draws the second towards the first, N.
+    pub fn tension(&self) -> f64 {
+        -self.force.dot(self.span) / self.span.norm()
+    }
     /// The force along and across the first body's marker.
     pub fn in_joint_axes(&self) -> Vec2 {
         let (sin, cos) = self.axes.sin_cos();

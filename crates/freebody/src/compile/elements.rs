@@ -81,6 +81,7 @@ impl Compiler<'_> {
             size: card.coordinates.len(),
             coordinates,
             rows: rows.map(|(i, _)| i).collect(),
+            phased: card.rows.iter().map(|row| row.phased).collect(),
             child: branch.map(|b| b.child),
         })
     }
@@ -156,6 +157,7 @@ impl Compiler<'_> {
                 size: 3,
                 coordinates: coordinates.collect(),
                 rows: vec![],
+                phased: vec![],
                 child: Some(branch.child),
             };
             self.m.notes.push(format!("`{name}` is joined to nothing: it moves freely from ground.O."));
@@ -223,6 +225,7 @@ impl Compiler<'_> {
             size: 1,
             coordinates: vec![],
             rows: vec![0, 1],
+            phased: vec![false, false],
             child: None,
         });
         Ok(())

@@ -1,7 +1,7 @@
 //! What the names in a model mean.
 
 use super::CompileError;
-use crate::expr::{self, nearest, Ast, ExprError, Expr, Kind as AstKind, Message, Scope as _};
+use crate::expr::{self, nearest, Ast, ExprError, Expr, Kind as AstKind, Message};
 use crate::gauges::{Axis, Law, Leaf, Reading};
 use crate::joints::Kind;
 use crate::mechanism::Marker;
