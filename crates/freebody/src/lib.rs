@@ -19,5 +19,6 @@ pub mod numbers;
 pub mod plane;
 pub mod scalar;
 pub mod shapes;
+pub mod simulation;
 pub mod solve;
 pub mod spec;

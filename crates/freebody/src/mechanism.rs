@@ -291,6 +291,12 @@ impl Mechanism {
     pub fn freedom(&self) -> usize {
         self.coordinates.len()
     }
+    /// The bodies in the order of the model.
+    pub fn listed_bodies(&self) -> Vec<usize> {
+        let mut bodies: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].listed.is_some()).collect();
+        bodies.sort_by_key(|&i| self.bodies[i].listed);
+        bodies
+    }
     /// The body on which a site lies.
     pub fn body_of(&self, site: usize) -> usize {
         self.sites[site].body

@@ -64,6 +64,13 @@ impl Mechanism {
         p
     }
 
+    /// The parameters of `p` that do not follow from their expressions: those that were overruled.
+    pub fn overruled(&self, p: &[f64]) -> Vec<(usize, f64)> {
+        let env = OfParameters { p, tables: &self.tables };
+        let follows = |i: usize| self.parameters[i].value.eval(&env) == p[i];
+        (0..p.len()).filter(|&i| !follows(i)).map(|i| (i, p[i])).collect()
+    }
+
     /// The numbers of the mechanism at parameters `p`.
     pub fn bind<S: Scalar>(&self, p: &[S]) -> Numbers<S> {
         let env = OfParameters { p, tables: &self.tables };

@@ -48,18 +48,43 @@ fn push_value<S: Scalar>(at: Placed<'_, S>, push: &Push) -> (Vec2<S>, Vec2<S>) {
     (turn.apply(at.n.arms[push.site]), if push.with_body { turn.apply(f) } else { f })
 }
 
+fn pull_power<S: Scalar>(at: Placed<'_, S>, pull: &Pull) -> S {
+    let value = pull_value(at, pull);
+    let mut power = S::zero();
+    for &body in &pull.bodies {
+        power += gradient(at, &pull.gauge, body).power(at.k.twist[body]) * value;
+    }
+    power
+}
+
+fn push_power<S: Scalar>(at: Placed<'_, S>, push: &Push) -> S {
+    let (arm, f) = push_value(at, push);
+    f.dot(at.k.twist[at.m.body_of(push.site)].at(arm))
+}
+
 /// The power of one force at the present motion, W.
 pub fn force_power<S: Scalar>(at: Placed<'_, S>, force: &Force) -> S {
     let mut power = S::zero();
     for pull in &force.pulls {
-        let value = pull_value(at, pull);
-        for &body in &pull.bodies {
-            power += gradient(at, &pull.gauge, body).power(at.k.twist[body]) * value;
-        }
+        power += pull_power(at, pull);
     }
     for push in &force.pushes {
-        let (arm, f) = push_value(at, push);
-        power += f.dot(at.k.twist[at.m.body_of(push.site)].at(arm));
+        power += push_power(at, push);
+    }
+    power
+}
+
+/// The power of one force at the present motion without what its potential accounts for, W.
+///
+/// A force with a potential pulls first along it; what it pulls beside that (a damper) is told here.
+pub fn unaccounted_power<S: Scalar>(at: Placed<'_, S>, force: &Force) -> S {
+    let from = usize::from(force.potential.is_some());
+    let mut power = S::zero();
+    for pull in &force.pulls[from..] {
+        power += pull_power(at, pull);
+    }
+    for push in &force.pushes {
+        power += push_power(at, push);
     }
     power
 }

@@ -21,7 +21,7 @@ mod sweep;
 
 pub use instant::{Instant, Observer};
 pub(crate) use project::{CLOSED, OPEN};
-pub use load::{effective, force_power, force_value};
+pub use load::{effective, force_power, force_value, unaccounted_power};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};

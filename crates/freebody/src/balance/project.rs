@@ -6,6 +6,7 @@ use super::{Balance, Row, Source, Trouble};
 use crate::gauges::{Law, Placed};
 use crate::kinematics::JointView;
 use crate::solve::{Lu, Matrix, Orthogonal};
+use std::collections::HashMap;
 
 /// Corrections after which a position is given up.
 const TRIES: usize = 12;
@@ -25,6 +26,16 @@ impl Balance<'_> {
                 }
             }
         }
+    }
+
+    /// Zeros of the rows of which only the change counts.
+    pub(crate) fn phases(&self) -> &HashMap<(usize, usize), f64> {
+        &self.phases
+    }
+
+    /// Takes zeros as they were in an earlier motion.
+    pub(crate) fn set_phases(&mut self, phases: HashMap<(usize, usize), f64>) {
+        self.phases = phases;
     }
 
     /// What is open at a row: its value less its zero, angles brought to the nearest turn; None where nothing
