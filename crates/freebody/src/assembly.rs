@@ -167,7 +167,10 @@ fn search(balance: &mut Balance, t: f64, wish: &Wish, first: Result<Vec<f64>, Tr
     let names: Vec<&str> = wish.branch.iter().map(|(text, ..)| text.as_str()).collect();
     Err(Trouble::new(
         "branch_not_found",
-        format!("no assembly was found in which the signs of {} are as asked; try the other sign or a nearer guess", names.join(", ")),
+        format!(
+            "no assembly was found in which the signs of {} are as asked; try the other sign or a nearer guess",
+            names.join(", ")
+        ),
     ))
 }
 

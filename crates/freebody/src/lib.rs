@@ -5,7 +5,9 @@
 
 pub mod assembly;
 pub mod balance;
+pub mod benchmark;
 pub mod compile;
+pub mod describe;
 pub mod expr;
 pub mod forces;
 pub mod gauges;

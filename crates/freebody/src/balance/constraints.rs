@@ -219,7 +219,10 @@ impl Balance<'_> {
             enter(&mut a, row.loads(), false);
         }
         super::newton_euler::solve_any(&a, rhs, x).map_err(|_| {
-            Trouble::new("singular_mass", "the bodies' equations with all constraints have no unique motion; the route `minimal` says where")
+            Trouble::new(
+                "singular_mass",
+                "the bodies' equations with all constraints have no unique motion; the route `minimal` says where",
+            )
         })
     }
 

@@ -159,7 +159,11 @@ pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
     (0..g.rows())
         .map(|i| {
             let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c).powi(2)).sum::<f64>().sqrt();
-            if norm > 0.0 { 1.0 / norm } else { 1.0 }
+            if norm > 0.0 {
+                1.0 / norm
+            } else {
+                1.0
+            }
         })
         .collect()
 }

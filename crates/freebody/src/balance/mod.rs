@@ -20,8 +20,8 @@ mod rows;
 mod sweep;
 
 pub use instant::{Instant, Observer};
-pub(crate) use project::{CLOSED, OPEN};
 pub use load::{effective, force_power, force_value, unaccounted_power};
+pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};
@@ -103,6 +103,7 @@ pub struct Balance<'m> {
     dense: minimal::Dense,
     sparse: Option<constraints::Sparse>,
     many_loops: bool,
+    preferred: Option<Route>,
     /// Zero of each row of which only the change counts, by joint and row; none before a motion starts.
     phases: std::collections::HashMap<(usize, usize), f64>,
 }
@@ -135,10 +136,16 @@ impl<'m> Balance<'m> {
             dense: Default::default(),
             sparse: None,
             many_loops: false,
+            preferred: None,
             phases: Default::default(),
         };
         balance.many_loops = balance.prefers_sparse();
         balance
+    }
+
+    /// Lets [`Balance::solve`] take a given route, or the cheapest.
+    pub fn prefer(&mut self, route: Option<Route>) {
+        self.preferred = route;
     }
 
     /// Takes other parameters.
@@ -165,8 +172,8 @@ impl<'m> Balance<'m> {
     /// # Errors
     /// `singular_mass`, `inconsistent_constraints`, named after the bodies and joints concerned.
     pub fn solve(&mut self) -> Result<(), Trouble> {
-        let route = if self.many_loops { Route::Constraints } else { Route::Minimal };
-        self.solve_by(route)
+        let cheapest = if self.many_loops { Route::Constraints } else { Route::Minimal };
+        self.solve_by(self.preferred.unwrap_or(cheapest))
     }
 
     /// Solves the present state by a given route.

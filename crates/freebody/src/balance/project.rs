@@ -103,7 +103,14 @@ impl Balance<'_> {
         if gap <= OPEN {
             return Ok(moved);
         }
-        Err(Trouble::new("branch_lost", format!("the loop at {} opened by {:.3e} m and could not be closed again", self.most_open(), gap * self.length)))
+        Err(Trouble::new(
+            "branch_lost",
+            format!(
+                "the loop at {} opened by {:.3e} m and could not be closed again",
+                self.most_open(),
+                gap * self.length
+            ),
+        ))
     }
 
     /// Makes the velocities at (t, q) keep the loops closed: returns the size of the correction.
@@ -155,7 +162,13 @@ impl Balance<'_> {
     }
 
     /// As [`Balance::align`], with further gauges whose rates must have given values.
-    pub(crate) fn align_with(&mut self, t: f64, q: &[f64], u: &mut [f64], held: &[(String, Law, f64)]) -> Result<(), Trouble> {
+    pub(crate) fn align_with(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        u: &mut [f64],
+        held: &[(String, Law, f64)],
+    ) -> Result<(), Trouble> {
         self.place(t, q, u);
         self.take_rows();
         let targets: Vec<Row> = held.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();

@@ -3,7 +3,7 @@
 //! A reaction component is determinate if and only if no self-stress, a set of multipliers that loads no motion
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
-use super::minimal::{Force, column_scales, row_scales, rows_in_coordinates};
+use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Source};
@@ -37,6 +37,27 @@ pub struct SelfStress {
     pub joints: Vec<[f64; 3]>,
     /// Of each drive: its force.
     pub drives: Vec<f64>,
+}
+
+impl Freedom {
+    /// Why the count and the true number differ, or that they agree.
+    pub fn explain(&self) -> String {
+        let (count, here) = (self.count, self.here);
+        let mut told = match (self.redundant, here as i64 - count) {
+            (0, 0) => format!("{here} degrees of freedom, as the count of coordinates less constraints says"),
+            (r, more) => format!(
+                "{here} degrees of freedom, {more} more than the count of {count}: {r} of the {} constraints say nothing new here",
+                self.rows
+            ),
+        };
+        if self.driven > 0 {
+            told += &format!("; {} prescribed by motions", self.driven);
+        }
+        if self.uncertain {
+            told += "; the rank is too close to call: the mechanism is near a singular configuration";
+        }
+        told
+    }
 }
 
 impl Balance<'_> {

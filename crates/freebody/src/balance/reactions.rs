@@ -46,7 +46,9 @@ pub(super) fn joint_load(at: Placed<'_>, index: usize, passed: &[Wrench], rows: 
             let mut load = Wrench::zero();
             let told = if second > 0 { second } else { first };
             let sign = if second > 0 { 1.0 } else { -1.0 };
-            for (row, &l) in rows.iter().zip(lambda).filter(|(r, _)| matches!(r.source, Source::Joint(j, _) if j == index)) {
+            for (row, &l) in
+                rows.iter().zip(lambda).filter(|(r, _)| matches!(r.source, Source::Joint(j, _) if j == index))
+            {
                 let on = row.motion.iter().find(|(body, _)| *body == told).map_or(Wrench::zero(), |(_, w)| *w);
                 load += on * (l * sign);
             }
@@ -108,9 +110,8 @@ impl Balance<'_> {
     pub fn residuals(&self) -> (Vec<[f64; 3]>, f64) {
         let at = self.at();
         let n = self.m.bodies.len();
-        let mut left: Vec<Wrench> = (0..n)
-            .map(|i| self.loads[i] - super::effective(at, i, self.arms[i], self.solved.bodies[i]))
-            .collect();
+        let mut left: Vec<Wrench> =
+            (0..n).map(|i| self.loads[i] - super::effective(at, i, self.arms[i], self.solved.bodies[i])).collect();
         let mut largest: f64 = 1e-300;
         let mut note = |w: &Wrench| largest = largest.max(w.f.norm()).max(w.m.abs() / self.length);
         self.loads.iter().for_each(&mut note);

@@ -93,7 +93,8 @@ impl Sweep {
             let body = &at.m.bodies[i];
             let branch = body.branch.expect("every body hangs in the tree");
             let (base, drift) = (bodies[branch.parent], at.k.drift[i]);
-            let mut a = Twist { v: base.at(at.k.arm[i]) + drift.v, w: if body.particle { 0.0 } else { base.w + drift.w } };
+            let mut a =
+                Twist { v: base.at(at.k.arm[i]) + drift.v, w: if body.particle { 0.0 } else { base.w + drift.w } };
             if branch.hinge && !body.particle {
                 let full = &self.full[i];
                 let alpha = -(full.pm + full.h.dot(a.v)) / full.turn;
@@ -165,7 +166,8 @@ impl Sweep {
     fn free_joint(&mut self, at: Placed<'_>, i: usize, freedom: usize) -> Result<Resistance, Trouble> {
         let c = self.full[i];
         let columns = &at.k.columns[i];
-        let u: [[f64; 3]; 3] = std::array::from_fn(|k| if k < freedom { c.apply(columns[k]).parts() } else { [0.0; 3] });
+        let u: [[f64; 3]; 3] =
+            std::array::from_fn(|k| if k < freedom { c.apply(columns[k]).parts() } else { [0.0; 3] });
         let mut d = [[0.0; 3]; 3];
         for (k, row) in d.iter_mut().enumerate().take(freedom) {
             for (j, entry) in row.iter_mut().enumerate().take(freedom) {

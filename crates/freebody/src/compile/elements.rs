@@ -55,7 +55,16 @@ impl Compiler<'_> {
         fields.check()?;
         let (mut first, mut second, mut curve, mut numbers) = (None, None, None, vec![]);
         for field in &card.fields {
-            read_side(&mut fields, field.name, field.kind, field.role, &mut first, &mut second, &mut curve, &mut numbers)?;
+            read_side(
+                &mut fields,
+                field.name,
+                field.kind,
+                field.role,
+                &mut first,
+                &mut second,
+                &mut curve,
+                &mut numbers,
+            )?;
         }
         let ends = pair.ends.each_ref().map(|name| self.names.bodies[name.as_str()]);
         let particle = ends.map(|body| self.m.bodies[body].particle);
@@ -112,7 +121,8 @@ impl Compiler<'_> {
             };
             let c = given.get(k).unwrap_or(&default);
             if c.absolute && reversed {
-                let what = format!("`{}` cannot be absolute: this joint carries its first body, not its second", c.name);
+                let what =
+                    format!("`{}` cannot be absolute: this joint carries its first body, not its second", c.name);
                 return Err(CompileError::new(path, what, "name the body nearer to ground first"));
             }
             if c.absolute && card.dimension != "rad" {
@@ -250,7 +260,10 @@ impl Compiler<'_> {
             let of = fields.gauge("zero")?;
             let law = Law::constant(0.0);
             let name = element.name.clone();
-            self.drive(&path, Drive { name, coupling: true, of, law, level: Level::Position, by: None, feedback: false })?;
+            self.drive(
+                &path,
+                Drive { name, coupling: true, of, law, level: Level::Position, by: None, feedback: false },
+            )?;
         }
         for motion in &self.spec.motions {
             let path = format!("motions.{}", motion.name);
@@ -266,7 +279,11 @@ impl Compiler<'_> {
                 "acceleration" => Level::Acceleration,
                 word => {
                     let what = format!("`{word}` is no level of a motion");
-                    return Err(CompileError::new(format!("{path}.level"), what, "write position, velocity or acceleration"));
+                    return Err(CompileError::new(
+                        format!("{path}.level"),
+                        what,
+                        "write position, velocity or acceleration",
+                    ));
                 }
             };
             if level != Level::Acceleration && law.depends_on_rates() {
@@ -286,7 +303,11 @@ impl Compiler<'_> {
             return Err(twice(path, &drive.name));
         }
         if self.m.bodies_of(&drive.of).is_empty() {
-            return Err(CompileError::new(path, "this gauge measures no body that can move", "name a coordinate, a point or an angle"));
+            return Err(CompileError::new(
+                path,
+                "this gauge measures no body that can move",
+                "name a coordinate, a point or an angle",
+            ));
         }
         self.m.drives.push(drive);
         Ok(())
@@ -322,7 +343,9 @@ impl Compiler<'_> {
             let path = format!("events.{}", event.name);
             let when = self.law(&format!("{path}.when"), &event.when, Reach::Instant)?;
             let condition = match &event.condition {
-                Some(text) => Some(self.scope(Reach::Instant).condition(text).map_err(|e| Names::complaint(&path, text, e))?),
+                Some(text) => {
+                    Some(self.scope(Reach::Instant).condition(text).map_err(|e| Names::complaint(&path, text, e))?)
+                }
                 None => None,
             };
             let mut then = vec![];

@@ -30,7 +30,10 @@ impl<'a, 's> Fields<'a, 's> {
         match self.element.fields.keys().find(|k| !known.contains(k)) {
             Some(field) => {
                 let what = format!("field of a {}", self.card.word);
-                Err(CompileError::from(format!("{}.{field}", self.path), super::names::unknown(&what, field, known.iter())))
+                Err(CompileError::from(
+                    format!("{}.{field}", self.path),
+                    super::names::unknown(&what, field, known.iter()),
+                ))
             }
             None => Ok(()),
         }
@@ -124,7 +127,9 @@ impl<'a, 's> Fields<'a, 's> {
     pub fn body(&mut self, field: &str) -> Result<usize> {
         let name = self.name(field, &self.value(field)?)?;
         let bodies = &self.c.names.bodies;
-        let unknown = || CompileError::from(format!("{}.{field}", self.path), super::names::unknown("body", &name, bodies.keys()));
+        let unknown = || {
+            CompileError::from(format!("{}.{field}", self.path), super::names::unknown("body", &name, bodies.keys()))
+        };
         bodies.get(&name).copied().ok_or_else(unknown)
     }
 
@@ -133,7 +138,11 @@ impl<'a, 's> Fields<'a, 's> {
         let path = format!("{}.{field}", self.path);
         match self.value(field)? {
             Value::Line(place) => Ok(self.c.place(&path, &place)?.0),
-            _ => Err(CompileError::new(path, "a line is needed here", "write `body.line`, `[P, Q]` or `{through: P, angle: a}`")),
+            _ => Err(CompileError::new(
+                path,
+                "a line is needed here",
+                "write `body.line`, `[P, Q]` or `{through: P, angle: a}`",
+            )),
         }
     }
 
@@ -153,7 +162,9 @@ impl<'a, 's> Fields<'a, 's> {
     pub fn curve(&mut self, field: &str) -> Result<usize> {
         let name = self.name(field, &self.value(field)?)?;
         let curves = &self.c.names.curves;
-        let unknown = || CompileError::from(format!("{}.{field}", self.path), super::names::unknown("curve", &name, curves.keys()));
+        let unknown = || {
+            CompileError::from(format!("{}.{field}", self.path), super::names::unknown("curve", &name, curves.keys()))
+        };
         curves.get(&name).copied().ok_or_else(unknown)
     }
 

@@ -6,8 +6,9 @@ mod names;
 mod places;
 mod tree;
 
+pub use elements::coupling_card;
 pub use fields::Fields;
-pub use names::{distance, Names, Reach, Scope};
+pub use names::{distance, unknown, Names, Reach, Scope};
 
 use crate::expr::{Interpolation, Table};
 use crate::gauges::Law;
@@ -100,7 +101,9 @@ impl Compiler<'_> {
     pub(crate) fn number(&mut self, path: &str, number: &Number) -> Result<Law> {
         match number {
             Number::Literal(value) if value.is_finite() => Ok(Law::constant(*value)),
-            Number::Literal(value) => Err(CompileError::new(path, format!("{value} is no number"), "give a finite number")),
+            Number::Literal(value) => {
+                Err(CompileError::new(path, format!("{value} is no number"), "give a finite number"))
+            }
             Number::Expression(text) => self.law(path, text, Reach::Numbers),
         }
     }
@@ -139,7 +142,11 @@ impl Compiler<'_> {
                 let stuck = (0..needs.len()).find(|&i| !done[i]).expect("one is left");
                 let name = &self.m.parameters[stuck].name;
                 let what = format!("`{name}` is defined by way of itself");
-                return Err(CompileError::new(format!("parameters.{name}"), what, "give one parameter of the circle a number"));
+                return Err(CompileError::new(
+                    format!("parameters.{name}"),
+                    what,
+                    "give one parameter of the circle a number",
+                ));
             };
             done[i] = true;
             self.m.parameter_order.push(i);
@@ -150,7 +157,8 @@ impl Compiler<'_> {
     fn tables(&mut self) -> Result<()> {
         for (i, t) in self.spec.tables.iter().enumerate() {
             let path = format!("tables.{}", t.name);
-            let how = Interpolation::named(&t.interpolation).map_err(|m| CompileError::from(format!("{path}.interpolation"), m))?;
+            let how = Interpolation::named(&t.interpolation)
+                .map_err(|m| CompileError::from(format!("{path}.interpolation"), m))?;
             let table = Table::new(&t.x, &t.y, how).map_err(|m| CompileError::from(&path, m))?;
             self.m.tables.push(table);
             self.m.table_names.push(t.name.clone());

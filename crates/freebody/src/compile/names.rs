@@ -1,7 +1,7 @@
 //! What the names in a model mean.
 
 use super::CompileError;
-use crate::expr::{self, nearest, Ast, ExprError, Expr, Kind as AstKind, Message};
+use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
 use crate::gauges::{Axis, Law, Leaf, Reading};
 use crate::joints::Kind;
 use crate::mechanism::Marker;
@@ -112,10 +112,18 @@ impl Scope<'_> {
 
     fn check_rates(&self, law: &Law, ast: &Ast) -> Result<(), ExprError> {
         if self.reach < Reach::Motion && law.depends_on_rates() {
-            return Err(Message::new("a time derivative stands where only the configuration may be read", "leave out `rate` and `accel` here").at(&ast.span));
+            return Err(Message::new(
+                "a time derivative stands where only the configuration may be read",
+                "leave out `rate` and `accel` here",
+            )
+            .at(&ast.span));
         }
         if self.reach < Reach::Instant && law.depends_on_accelerations() {
-            return Err(Message::new("an acceleration stands where only the state may be read", "accelerations are answers; a law may read positions and rates").at(&ast.span));
+            return Err(Message::new(
+                "an acceleration stands where only the state may be read",
+                "accelerations are answers; a law may read positions and rates",
+            )
+            .at(&ast.span));
         }
         Ok(())
     }
@@ -189,10 +197,13 @@ impl Scope<'_> {
     /// The place of a site along or across a line: its offset in the line's own axes.
     fn offset(&self, site: usize, line: &Ast, across: bool) -> Result<Law, ExprError> {
         let AstKind::Name(name) = &line.kind else {
-            return Err(Message::new("a named line is needed here", "give the line a name under `lines`").at(&line.span));
+            return Err(
+                Message::new("a named line is needed here", "give the line a name under `lines`").at(&line.span)
+            );
         };
         let lines = &self.names.lines;
-        let (marker, body, direction) = lines.get(name).ok_or_else(|| unknown("line", name, lines.keys()).at(&line.span))?;
+        let (marker, body, direction) =
+            lines.get(name).ok_or_else(|| unknown("line", name, lines.keys()).at(&line.span))?;
         let dx = Law::leaf(Leaf::X(site)) - Law::leaf(Leaf::X(marker.site));
         let dy = Law::leaf(Leaf::Y(site)) - Law::leaf(Leaf::Y(marker.site));
         let turn = Law::leaf(Leaf::Angle(*body)) + direction.clone();
@@ -286,11 +297,16 @@ impl expr::Scope<Leaf> for Scope<'_> {
         let too_far = |reach: Reach| {
             (self.reach < reach).then(|| {
                 let span = arguments.first().map_or(0..0, |a| a.span.clone());
-                Message::new(format!("`{name}(…)` cannot be read here"), "see which expressions may read what in docs/model_file.md").at(&span)
+                Message::new(
+                    format!("`{name}(…)` cannot be read here"),
+                    "see which expressions may read what in docs/model_file.md",
+                )
+                .at(&span)
             })
         };
         if let Some(&(_, reach)) = MEASURES.iter().find(|(word, _)| *word == name) {
-            let count: &[usize] = if matches!(name, "distance" | "direction" | "along" | "across") { &[2] } else { &[1] };
+            let count: &[usize] =
+                if matches!(name, "distance" | "direction" | "along" | "across") { &[2] } else { &[1] };
             return Some(match wanted(count).or_else(|| too_far(reach)) {
                 Some(error) => Err(error),
                 None => self.measure(name, arguments),

@@ -61,7 +61,9 @@ impl Compiler<'_> {
             }
             (Some(angle), None) => self.number(path, angle)?,
             (None, None) => Law::constant(0.0),
-            _ => return Err(CompileError::new(path, "a line has an angle or a second point, not both", "leave one out")),
+            _ => {
+                return Err(CompileError::new(path, "a line has an angle or a second point, not both", "leave one out"))
+            }
         };
         let marker = Marker { site, angle: self.slot(direction.clone()) };
         Ok((marker, direction))
@@ -86,7 +88,11 @@ impl Compiler<'_> {
                 let slot = |s: usize| self.m.slots[s].clone();
                 Ok([slot(b[0]) - slot(a[0]), slot(b[1]) - slot(a[1])])
             }
-            _ => Err(CompileError::new(path, "a line cannot be drawn through the mass centre by name", "give the point its coordinates")),
+            _ => Err(CompileError::new(
+                path,
+                "a line cannot be drawn through the mass centre by name",
+                "give the point its coordinates",
+            )),
         }
     }
 

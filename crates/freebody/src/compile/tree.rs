@@ -41,7 +41,8 @@ pub(crate) fn joints_of(spec: &Spec) -> Result<Vec<Pair>> {
 }
 
 fn no_such_joint(path: &str, word: &str) -> CompileError {
-    let words: Vec<String> = Kind::ALL.iter().map(|k| k.card().word.to_string()).chain(["coupling".to_string()]).collect();
+    let words: Vec<String> =
+        Kind::ALL.iter().map(|k| k.card().word.to_string()).chain(["coupling".to_string()]).collect();
     CompileError::from(format!("{path}.type"), super::names::unknown("type of joint", word, words.iter()))
 }
 
@@ -184,13 +185,23 @@ impl Compiler<'_> {
             return Err(CompileError::new(path, "`ground` is always there", "give the body another name"));
         }
         let pieces = spec.pieces.iter().map(|p| self.piece(&path, p)).collect::<Result<Vec<_>>>()?;
-        Ok(Body { name: spec.name.clone(), listed: Some(listed), particle: spec.particle, pieces, branch: None, pin: 0 })
+        Ok(Body {
+            name: spec.name.clone(),
+            listed: Some(listed),
+            particle: spec.particle,
+            pieces,
+            branch: None,
+            pin: 0,
+        })
     }
 
     fn piece(&mut self, path: &str, spec: &PieceSpec) -> Result<crate::mechanism::Piece> {
         let Some((_, shape, words)) = SHAPES.iter().find(|(word, ..)| *word == spec.shape) else {
             let words: Vec<String> = SHAPES.iter().map(|s| s.0.to_string()).collect();
-            return Err(CompileError::from(format!("{path}.shape"), super::names::unknown("shape", &spec.shape, words.iter())));
+            return Err(CompileError::from(
+                format!("{path}.shape"),
+                super::names::unknown("shape", &spec.shape, words.iter()),
+            ));
         };
         let mut sizes = vec![];
         for word in *words {

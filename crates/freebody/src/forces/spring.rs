@@ -6,8 +6,13 @@ use crate::gauges::Law;
 use crate::joints::{Card, FieldKind, Role};
 
 fn along(card: Card) -> Card {
-    card.takes("between", FieldKind::Points, "m", "", "the two points at its ends")
-        .takes("along", FieldKind::Gauge, "", "", "or the gauge along which it acts")
+    card.takes("between", FieldKind::Points, "m", "", "the two points at its ends").takes(
+        "along",
+        FieldKind::Gauge,
+        "",
+        "",
+        "or the gauge along which it acts",
+    )
 }
 
 /// The gauge of a force along `along` or between two points.
@@ -18,7 +23,11 @@ fn gauge(fields: &mut Fields) -> Result<Law, CompileError> {
             Ok(crate::compile::distance(p, q))
         }
         (false, true) => fields.gauge("along"),
-        _ => Err(fields.error("between", "a spring or damper needs `between: [P, Q]` or `along: gauge`", "give one of the two")),
+        _ => Err(fields.error(
+            "between",
+            "a spring or damper needs `between: [P, Q]` or `along: gauge`",
+            "give one of the two",
+        )),
     }
 }
 
@@ -61,8 +70,13 @@ pub struct Damper;
 
 impl ForceKind for Damper {
     fn card(&self) -> Card {
-        along(Card::new("damper", "A linear damper."))
-            .needs("damping", FieldKind::Number, Role::Number, "N*s/m", "force for each unit of speed")
+        along(Card::new("damper", "A linear damper.")).needs(
+            "damping",
+            FieldKind::Number,
+            Role::Number,
+            "N*s/m",
+            "force for each unit of speed",
+        )
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let gauge = gauge(fields)?;

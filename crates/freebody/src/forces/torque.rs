@@ -26,8 +26,13 @@ pub struct Torque;
 
 impl ForceKind for Torque {
     fn card(&self) -> Card {
-        between(Card::new("torque", "A couple on one body, from another, counter-clockwise."))
-            .needs("value", FieldKind::Law, Role::Number, "N*m", "the couple")
+        between(Card::new("torque", "A couple on one body, from another, counter-clockwise.")).needs(
+            "value",
+            FieldKind::Law,
+            Role::Number,
+            "N*m",
+            "the couple",
+        )
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         Ok(Force::pulling(turn(fields)?, fields.law("value")?, None))

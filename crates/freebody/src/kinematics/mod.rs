@@ -110,10 +110,7 @@ impl<S: Scalar> Kinematics<S> {
         self.arm[body] = arm;
         self.pose[body] = Pose { at: base.at + arm, turn: Turn::by(angle) };
         self.twist[body] = Twist { v: carrier.at(arm) + slide, w: turning(w + motion.rate[2]) };
-        self.drift[body] = Twist {
-            v: curl + slide.perp() * w.scale(2.0) - arm * (w * w),
-            w: turning(motion.drift[2]),
-        };
+        self.drift[body] = Twist { v: curl + slide.perp() * w.scale(2.0) - arm * (w * w), w: turning(motion.drift[2]) };
         for (k, coordinate) in joint.coordinates.iter().enumerate() {
             let column = motion.columns[coordinate.card];
             self.columns[body][k] = Twist { v: axes.apply(vec2(column[0], column[1])), w: turning(column[2]) };

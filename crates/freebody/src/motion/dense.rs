@@ -19,10 +19,7 @@ pub struct Segment {
 
 impl Segment {
     /// The cubic with the values `y0`, `y1` and the slopes `slope0`, `slope1` (dy/dt) at its ends.
-    pub(super) fn hermite(
-        (t0, y0, slope0): (f64, &[f64], &[f64]),
-        (t1, y1, slope1): (f64, &[f64], &[f64]),
-    ) -> Self {
+    pub(super) fn hermite((t0, y0, slope0): (f64, &[f64], &[f64]), (t1, y1, slope1): (f64, &[f64], &[f64])) -> Self {
         let (n, h) = (y0.len(), t1 - t0);
         let mut bends = vec![0.0; 2 * n];
         for i in 0..n {

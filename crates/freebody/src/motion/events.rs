@@ -71,13 +71,8 @@ pub(super) struct Watcher {
 
 impl Watcher {
     pub fn new(system: &dyn System) -> Self {
-        let memory = |i| Memory {
-            side: 0,
-            side_ahead: 0,
-            size: system.switch(i).scale,
-            is_spent: false,
-            last_touch: f64::NAN,
-        };
+        let memory =
+            |i| Memory { side: 0, side_ahead: 0, size: system.switch(i).scale, is_spent: false, last_touch: f64::NAN };
         Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
     }
 
@@ -106,12 +101,7 @@ impl Watcher {
 
     /// The samples and, when zero is near, the extrema of the function, in order: between two
     /// neighbours the function is monotone.
-    fn nodes(
-        &self,
-        i: usize,
-        values: &[f64; SAMPLES],
-        probe: &mut Probe,
-    ) -> Result<Vec<Node>, Trouble> {
+    fn nodes(&self, i: usize, values: &[f64; SAMPLES], probe: &mut Probe) -> Result<Vec<Node>, Trouble> {
         let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
         let mut nodes: Vec<Node> = self.points.iter().zip(values).map(sample).collect();
         let coefficients = chebyshev(values);
@@ -129,13 +119,7 @@ impl Watcher {
         Ok(nodes)
     }
 
-    fn walk(
-        &mut self,
-        i: usize,
-        nodes: &[Node],
-        probe: &mut Probe,
-        marks: &mut Vec<Mark>,
-    ) -> Result<(), Trouble> {
+    fn walk(&mut self, i: usize, nodes: &[Node], probe: &mut Probe, marks: &mut Vec<Mark>) -> Result<(), Trouble> {
         let memory = &mut self.memory[i];
         let (mut side, mut last, mut touch) = (memory.side, nodes[0], None);
         for node in &nodes[usize::from(memory.is_spent)..] {
@@ -154,9 +138,7 @@ impl Watcher {
                 marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
             } else if let Some(t) = touch.filter(|_| side == sign) {
                 // Neighbouring segments may both see an extremum on their border.
-                if (t - memory.last_touch).abs() > 1e-6 * probe.length()
-                    || memory.last_touch.is_nan()
-                {
+                if (t - memory.last_touch).abs() > 1e-6 * probe.length() || memory.last_touch.is_nan() {
                     marks.push(Mark { t, index: i, kind: Kind::Touch, direction: 0 });
                 }
                 memory.last_touch = t;
@@ -245,11 +227,8 @@ impl<'a> Probe<'a> {
 
     /// Rate of switching function `i` at time `t`.
     pub fn slope(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
-        let (low, high) = if self.ahead() > 0.0 {
-            (self.segment.t0, self.segment.t1)
-        } else {
-            (self.segment.t1, self.segment.t0)
-        };
+        let (low, high) =
+            if self.ahead() > 0.0 { (self.segment.t0, self.segment.t1) } else { (self.segment.t1, self.segment.t0) };
         let reach = 1e-4 * self.length();
         let (a, b) = ((t - reach).max(low), (t + reach).min(high));
         Ok((self.one(i, b)? - self.one(i, a)?) / (b - a))

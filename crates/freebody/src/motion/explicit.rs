@@ -84,13 +84,7 @@ fn combine(a: &[f64], k: &[Vec<f64>], i: usize) -> f64 {
 }
 
 impl Stepper for Explicit {
-    fn attempt(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &mut Point,
-        norm: &Norm,
-    ) -> Result<f64, Failure> {
+    fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure> {
         let (table, h) = (self.table, to.t - from.t);
         self.k[0].copy_from_slice(&from.dy);
         for (j, (&c, a)) in table.c.iter().zip(table.a).enumerate() {
@@ -109,12 +103,7 @@ impl Stepper for Explicit {
         Ok(self.error(h))
     }
 
-    fn dense(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &Point,
-    ) -> Result<Segment, Failure> {
+    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (table, h, stages) = (self.table, to.t - from.t, self.table.b.len());
         self.k[stages].copy_from_slice(&to.dy);
         for (j, (&c, a)) in table.more_c.iter().zip(table.more_a).enumerate() {
@@ -146,9 +135,8 @@ struct Stiffness {
 
 impl Stiffness {
     fn note(&mut self, limit: f64, h: f64, (k, y): (&[f64], &[f64]), to: &Point) {
-        let distance = |a: &[f64], b: &[f64]| -> f64 {
-            a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-        };
+        let distance =
+            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt() };
         if h.abs() * distance(k, &to.dy) > limit * distance(y, &to.y) {
             *self = Self { suspicions: self.suspicions + 1, clear: 0 };
             return;

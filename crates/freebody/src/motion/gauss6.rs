@@ -119,13 +119,7 @@ impl Gauss6 {
 }
 
 impl Stepper for Gauss6 {
-    fn attempt(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &mut Point,
-        _norm: &Norm,
-    ) -> Result<f64, Failure> {
+    fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, _norm: &Norm) -> Result<f64, Failure> {
         self.enter(system, from)?;
         self.iterate(system, from.t, to.t - from.t)?;
         self.add(to.t - from.t);
@@ -139,12 +133,7 @@ impl Stepper for Gauss6 {
     /// The quintic whose slope is the rate at both ends, at 1/3 and at 2/3 of the step: the
     /// cubic Hermite interpolant gives the inner rates, then the quintic gives better ones
     /// (bootstrapping, HNW I, II.6).
-    fn dense(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &Point,
-    ) -> Result<Segment, Failure> {
+    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (n, h) = (self.n, to.t - from.t);
         let cubic = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
         let mut segment = cubic.clone();

@@ -82,8 +82,7 @@ impl Runner<'_> {
             let mut values = vec![0.0; self.system.system.switches()];
             let system = &mut *self.system.system;
             system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::Trouble)?;
-            let slope =
-                Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::Trouble)?;
+            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::Trouble)?;
             let better = (t - values[hit.index] / slope).clamp(t0, t1);
             if better.is_nan() || (better - t).abs() <= 4.0 * f64::EPSILON * t.abs() {
                 break;

@@ -25,8 +25,7 @@ pub struct Method {
 }
 
 /// All methods; the first one is the default.
-pub const METHODS: [&Method; 5] =
-    [&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
+pub const METHODS: [&Method; 5] = [&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
 
 /// The method called `name`.
 pub fn method(name: &str) -> Option<&'static Method> {
@@ -104,17 +103,10 @@ pub(super) fn all_finite(values: &[f64]) -> Result<(), Failure> {
 pub(super) trait Stepper {
     /// Steps from `from` to `to.t`, filling `to.y` and `to.dy`; returns the estimated error in
     /// units of the tolerance (accept when ≤ 1).
-    fn attempt(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &mut Point,
-        norm: &Norm,
-    ) -> Result<f64, Failure>;
+    fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure>;
 
     /// The dense output of the last attempt, after `to` has been projected.
-    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point)
-        -> Result<Segment, Failure>;
+    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure>;
 
     /// Whether the last accepted steps look stiff.
     fn is_stiff(&self) -> bool {

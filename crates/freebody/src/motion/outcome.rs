@@ -84,15 +84,11 @@ impl fmt::Display for Outcome {
             Self::TooManySteps { steps } => write!(out, "all {steps} steps allowed were used"),
             Self::Overflow => write!(out, "the state or its rate stopped being a finite number"),
             Self::ToleranceTooTight { rtol } => {
-                write!(
-                    out,
-                    "rtol = {rtol:e} is not a tolerance that can be kept; 1e-14 is the least"
-                )
+                write!(out, "rtol = {rtol:e} is not a tolerance that can be kept; 1e-14 is the least")
             }
-            Self::StiffSuspected => write!(
-                out,
-                "the system looks stiff and the steps allowed do not suffice; use the method radau"
-            ),
+            Self::StiffSuspected => {
+                write!(out, "the system looks stiff and the steps allowed do not suffice; use the method radau")
+            }
             Self::Interrupted => write!(out, "the caller ended the run"),
             Self::Trouble(trouble) => write!(out, "{}", trouble.sentence),
             Self::Unsupported { method, reason } => {

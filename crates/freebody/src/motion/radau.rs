@@ -66,12 +66,7 @@ impl Radau {
     }
 
     /// Takes the Jacobian at `at`, by forward differences.
-    fn differentiate(
-        &mut self,
-        system: &mut Counted,
-        at: &Point,
-        norm: &Norm,
-    ) -> Result<(), Failure> {
+    fn differentiate(&mut self, system: &mut Counted, at: &Point, norm: &Norm) -> Result<(), Failure> {
         let n = self.n;
         let (mut values, mut y, mut dy) = (vec![0.0; n * n], at.y.clone(), vec![0.0; n]);
         for j in 0..n {
@@ -99,8 +94,7 @@ impl Radau {
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
             estimate[i * n + j] = REAL / h * unit(i, j) - jacobian[i * n + j];
             for (k, l) in (0..3).flat_map(|k| (0..3).map(move |l| (k, l))) {
-                stages[(k * n + i) * 3 * n + l * n + j] =
-                    unit(k, l) * unit(i, j) - h * A[k][l] * jacobian[i * n + j];
+                stages[(k * n + i) * 3 * n + l * n + j] = unit(k, l) * unit(i, j) - h * A[k][l] * jacobian[i * n + j];
             }
         }
         let (stages, estimate) = (Lu::new(3 * n, stages)?, Lu::new(n, estimate)?);
@@ -123,13 +117,7 @@ impl Radau {
     }
 
     /// Solves for the stages; returns the rate of convergence.
-    fn newton(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        h: f64,
-        norm: &Norm,
-    ) -> Result<f64, Failure> {
+    fn newton(&mut self, system: &mut Counted, from: &Point, h: f64, norm: &Norm) -> Result<f64, Failure> {
         let n = self.n;
         let tolerance = (10.0 * f64::EPSILON / norm.rtol).max(norm.rtol.sqrt().min(0.03));
         let mut weights = vec![0.0; n];
@@ -149,8 +137,7 @@ impl Radau {
                 return Ok(theta);
             }
             let left = (ITERATIONS - 1 - iteration) as i32;
-            if theta >= 1.0 || theta.powi(left) / (1.0 - theta) * size > tolerance && iteration > 0
-            {
+            if theta >= 1.0 || theta.powi(left) / (1.0 - theta) * size > tolerance && iteration > 0 {
                 break;
             }
             last = size;
@@ -172,13 +159,7 @@ impl Radau {
         Ok((0..3 * n).map(|at| h * sum(at / n, at % n) - self.z[at]).collect())
     }
 
-    fn error(
-        &self,
-        system: &mut Counted,
-        from: &Point,
-        to: &Point,
-        norm: &Norm,
-    ) -> Result<f64, Failure> {
+    fn error(&self, system: &mut Counted, from: &Point, to: &Point, norm: &Norm) -> Result<f64, Failure> {
         let (n, h) = (self.n, to.t - from.t);
         let stages = |i: usize| (0..3).map(|l| E[l] * self.z[l * n + i]).sum::<f64>() / h;
         let factors = self.factors.as_ref().ok_or(Failure::NoConvergence)?;
@@ -199,13 +180,7 @@ impl Radau {
     }
 
     /// Solves for the stages with the Jacobian at hand; returns the rate of convergence.
-    fn collocate(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        h: f64,
-        norm: &Norm,
-    ) -> Result<f64, Failure> {
+    fn collocate(&mut self, system: &mut Counted, from: &Point, h: f64, norm: &Norm) -> Result<f64, Failure> {
         self.factor(h).ok_or(Failure::NoConvergence)?;
         self.guess(h);
         self.newton(system, from, h, norm)
@@ -213,13 +188,7 @@ impl Radau {
 }
 
 impl Stepper for Radau {
-    fn attempt(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        to: &mut Point,
-        norm: &Norm,
-    ) -> Result<f64, Failure> {
+    fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure> {
         let h = to.t - from.t;
         if self.jacobian.as_ref().is_none_or(|j| j.is_stale && j.t != from.t) {
             self.differentiate(system, from, norm)?;
@@ -242,12 +211,7 @@ impl Stepper for Radau {
         Ok(error)
     }
 
-    fn dense(
-        &mut self,
-        _system: &mut Counted,
-        from: &Point,
-        to: &Point,
-    ) -> Result<Segment, Failure> {
+    fn dense(&mut self, _system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (n, h, weights) = (self.n, to.t - from.t, slopes_at_start());
         let slope = |i: usize| (0..3).map(|l| weights[l] * self.z[l * n + i]).sum::<f64>() / h;
         let slopes: Vec<f64> = (0..n).map(slope).collect();

@@ -83,17 +83,12 @@ fn sign_changes(polynomial: &[f64]) -> Vec<f64> {
 /// The zero between `a` and `b`, given as (x, f(x)) with values of unlike sign, to the last digits
 /// (Chandrupatla 1997, *Advances in Engineering Software* 28, 145; Scherer, *Computational
 /// Physics*, 6.1.7).
-pub(super) fn bracketed<E>(
-    mut f: impl FnMut(f64) -> Result<f64, E>,
-    a: (f64, f64),
-    b: (f64, f64),
-) -> Result<f64, E> {
+pub(super) fn bracketed<E>(mut f: impl FnMut(f64) -> Result<f64, E>, a: (f64, f64), b: (f64, f64)) -> Result<f64, E> {
     let (mut new, mut old, mut share) = (b, a, 0.5);
     loop {
         let x = new.0 + share * (old.0 - new.0);
         let here = (x, f(x)?);
-        let third =
-            if (here.1 < 0.0) == (new.1 < 0.0) { new } else { std::mem::replace(&mut old, new) };
+        let third = if (here.1 < 0.0) == (new.1 < 0.0) { new } else { std::mem::replace(&mut old, new) };
         new = here;
         let best = if old.1.abs() < new.1.abs() { old } else { new };
         let width = (old.0 - new.0).abs();

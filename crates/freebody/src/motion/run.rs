@@ -145,11 +145,7 @@ impl<'a> Runner<'a> {
     }
 
     /// One accepted step, or the part of it up to an event.
-    fn advance(
-        &mut self,
-        options: &Options,
-        progress: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), Outcome> {
+    fn advance(&mut self, options: &Options, progress: &mut dyn FnMut(f64) -> bool) -> Result<(), Outcome> {
         if self.now.t == self.t_end {
             return Err(Outcome::Completed);
         }
@@ -178,9 +174,7 @@ impl<'a> Runner<'a> {
             self.check_steps(options.max_steps)?;
             self.next.t = self.target();
             let h = self.next.t - self.now.t;
-            if h.abs() < 4.0 * f64::EPSILON * self.now.t.abs() && self.next.t != self.t_end
-                || h == 0.0
-            {
+            if h.abs() < 4.0 * f64::EPSILON * self.now.t.abs() && self.next.t != self.t_end || h == 0.0 {
                 return Err(cause);
             }
             match self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm) {
@@ -247,13 +241,7 @@ impl<'a> Runner<'a> {
     }
 
     fn finish(self, outcome: Outcome) -> Run {
-        Run {
-            outcome,
-            t: self.now.t,
-            y: self.now.y,
-            evaluations: self.system.evaluations,
-            ..self.run
-        }
+        Run { outcome, t: self.now.t, y: self.now.y, evaluations: self.system.evaluations, ..self.run }
     }
 }
 

@@ -5,14 +5,14 @@
 
 use super::Machine;
 use crate::kinematics::Kinematics;
+use crate::mechanism::Mechanism;
 use crate::motion::{Canonical, Trouble};
 use crate::numbers::Numbers;
 use crate::scalar::{Dual, Scalar};
 use crate::solve::{Lu, Matrix};
 
 /// Momenta p = M(q) u of the user's coordinates: pⱼ is the momentum of all bodies along the motion of a unit uⱼ.
-fn momenta<S: Scalar>(machine: &Machine, n: &Numbers<S>, q: &[S], u: &[S]) -> Vec<S> {
-    let m = machine.balance.m;
+fn momenta<S: Scalar>(m: &Mechanism, n: &Numbers<S>, q: &[S], u: &[S]) -> Vec<S> {
     let mut going = Kinematics::<S>::of(m);
     going.sweep(m, n, q, u);
     let mut along = Kinematics::<S>::of(m);
@@ -33,24 +33,33 @@ fn momenta<S: Scalar>(machine: &Machine, n: &Numbers<S>, q: &[S], u: &[S]) -> Ve
         .collect()
 }
 
+/// The mass matrix of the tree in the user's coordinates, column by column.
+fn mass_columns(m: &Mechanism, n: &Numbers, q: &[f64]) -> Vec<f64> {
+    let mut unit = vec![0.0; q.len()];
+    let mut flat = Vec::with_capacity(q.len() * q.len());
+    for j in 0..q.len() {
+        unit[j] = 1.0;
+        flat.extend(momenta(m, n, q, &unit));
+        unit[j] = 0.0;
+    }
+    flat
+}
+
+/// The mass matrix of the tree in the user's coordinates at parameters `p`, n × n, row-major (it is symmetric).
+pub fn mass_matrix(m: &Mechanism, p: &[f64], q: &[f64]) -> Vec<f64> {
+    mass_columns(m, &m.bind(p), q)
+}
+
 impl Machine<'_> {
     fn mass_times(&self, q: &[f64], u: &[f64]) -> Vec<f64> {
-        momenta(self, &self.balance.n, q, u)
+        momenta(self.balance.m, &self.balance.n, q, u)
     }
 
     /// u from p: solves M u = p.
     fn rates(&self, q: &[f64], p: &[f64]) -> Result<Vec<f64>, Trouble> {
         let n = q.len();
-        let mut unit = vec![0.0; n];
-        let columns: Vec<Vec<f64>> = (0..n)
-            .map(|j| {
-                unit[j] = 1.0;
-                let column = self.mass_times(q, &unit);
-                unit[j] = 0.0;
-                column
-            })
-            .collect();
-        let mass = Matrix::from_fn(n, n, |i, j| columns[j][i]);
+        let flat = mass_columns(self.balance.m, &self.balance.n, q);
+        let mass = Matrix::from_fn(n, n, |i, j| flat[j * n + i]);
         let lu = Lu::factor(&mass).map_err(|_| Trouble::new("singular_mass", "the mass matrix is singular here"))?;
         Ok(lu.solve(p))
     }
@@ -84,7 +93,7 @@ impl Canonical for Machine<'_> {
         let along: Vec<Dual<1>> = q.iter().zip(&u).map(|(&q, &u)| Dual { re: q, du: [u] }).collect();
         let still: Vec<Dual<1>> = u.iter().map(|&u| Dual::constant(u)).collect();
         let p: Vec<Dual<1>> = self.balance.n.p.iter().map(|&p| Dual::constant(p)).collect();
-        let drift = momenta(self, &self.balance.m.bind(&p), &along, &still);
+        let drift = momenta(self.balance.m, &self.balance.m.bind(&p), &along, &still);
         let mass = self.mass_times(q, &u_dot);
         dz[..n].copy_from_slice(&u);
         for i in 0..n {

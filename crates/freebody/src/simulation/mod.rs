@@ -7,10 +7,11 @@ mod canonical;
 mod machine;
 mod trajectory;
 
+pub use canonical::mass_matrix;
 pub use machine::Machine;
 pub use trajectory::{Ledger, Trajectory};
 
-use crate::balance::{Balance, Trouble};
+use crate::balance::{Balance, Route, Trouble};
 use crate::mechanism::Mechanism;
 use crate::motion::{method, run, Method, Options};
 
@@ -21,6 +22,8 @@ pub struct Settings {
     pub method: String,
     /// Tolerances and steps.
     pub options: Options,
+    /// How each instant is solved; None for the cheapest way.
+    pub route: Option<Route>,
 }
 
 impl Settings {
@@ -65,6 +68,7 @@ pub fn simulate(
 ) -> Result<Trajectory, Trouble> {
     let integrator = settings.integrator()?;
     let mut balance = Balance::new(m, start.p);
+    balance.prefer(settings.route);
     balance.place(start.t, start.q, start.u);
     balance.take_phases();
     let mut machine = Machine::new(balance, start.p);

@@ -104,7 +104,10 @@ impl Trajectory {
         for &t in times {
             if !self.run.trajectory.at(t, &mut y) {
                 let (first, end) = (self.steps[0], self.run.t);
-                return Err(Trouble::new("out_of_range", format!("t = {t} s is outside the run, {first} s to {end} s")));
+                return Err(Trouble::new(
+                    "out_of_range",
+                    format!("t = {t} s is outside the run, {first} s to {end} s"),
+                ));
             }
             self.balance_at(m, t, &mut last);
             let (_, balance) = last.as_mut().expect("made above");

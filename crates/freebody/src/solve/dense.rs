@@ -66,8 +66,7 @@ impl Lu {
     /// x with A x = `b`, refined once (Higham, *Accuracy and Stability*, 2nd ed., §12.2).
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         let mut x = self.substitute(b);
-        let residual: Vec<f64> =
-            b.iter().enumerate().map(|(i, b)| b - dot(self.matrix.row(i), &x)).collect();
+        let residual: Vec<f64> = b.iter().enumerate().map(|(i, b)| b - dot(self.matrix.row(i), &x)).collect();
         axpy(1.0, &self.substitute(&residual), &mut x);
         x
     }

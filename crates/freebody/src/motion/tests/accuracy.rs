@@ -5,27 +5,21 @@ use super::*;
 /// Two unit point masses on unit links, absolute angles from the downward vertical.
 fn double_pendulum(_: f64, y: &[f64], dy: &mut [f64]) {
     let (s, c) = (y[0] - y[1]).sin_cos();
-    let (f1, f2) =
-        (-s * y[3] * y[3] - 2.0 * 9.81 * y[0].sin(), s * y[2] * y[2] - 9.81 * y[1].sin());
+    let (f1, f2) = (-s * y[3] * y[3] - 2.0 * 9.81 * y[0].sin(), s * y[2] * y[2] - 9.81 * y[1].sin());
     let det = 2.0 - c * c;
     dy.copy_from_slice(&[y[2], y[3], (f1 - c * f2) / det, (2.0 * f2 - c * f1) / det]);
 }
 
 /// From a Taylor-series integration in 60 digits.
-const TRUTH: [f64; 4] =
-    [-0.5684746640159502, -0.5263937279324047, 6.078384885761965, -9.68136068170888];
+const TRUTH: [f64; 4] = [-0.5684746640159502, -0.5263937279324047, 6.078384885761965, -9.68136068170888];
 
 fn double_pendulum_error(tolerance: f64) -> f64 {
     let mut system = Plain::new(&[1.0, 1.0, 3.13, 3.13], double_pendulum);
     let quarter = std::f64::consts::FRAC_PI_2;
     let run = system.run("dop853", (0.0, &[quarter, quarter, 0.0, 0.0]), 10.0, &rtol(tolerance));
     assert_eq!(run.outcome, Outcome::Completed);
-    let error =
-        run.y.iter().zip(TRUTH).fold(0.0, |top: f64, (y, truth)| top.max((y - truth).abs()));
-    println!(
-        "{tolerance:e}: {error:e}, {} + {} steps, {}",
-        run.accepted, run.rejected, run.evaluations
-    );
+    let error = run.y.iter().zip(TRUTH).fold(0.0, |top: f64, (y, truth)| top.max((y - truth).abs()));
+    println!("{tolerance:e}: {error:e}, {} + {} steps, {}", run.accepted, run.rejected, run.evaluations);
     error
 }
 
@@ -81,11 +75,13 @@ fn outputs_never_change_the_steps() {
 #[test]
 fn watching_without_a_crossing_never_changes_the_steps() {
     let start = [1.0, 0.5, 0.0, 0.0];
-    let plain =
-        Plain::new(&[1.0; 4], double_pendulum).run("dop853", (0.0, &start), 5.0, &rtol(1e-10));
-    let watched = Plain::new(&[1.0; 4], double_pendulum)
-        .watching(&[0], |_, y, g| g[0] = y[0] - 100.0)
-        .run("dop853", (0.0, &start), 5.0, &rtol(1e-10));
+    let plain = Plain::new(&[1.0; 4], double_pendulum).run("dop853", (0.0, &start), 5.0, &rtol(1e-10));
+    let watched = Plain::new(&[1.0; 4], double_pendulum).watching(&[0], |_, y, g| g[0] = y[0] - 100.0).run(
+        "dop853",
+        (0.0, &start),
+        5.0,
+        &rtol(1e-10),
+    );
     assert_eq!(plain.trajectory, watched.trajectory);
 }
 

@@ -20,8 +20,8 @@ fn random(seed: &mut u64) -> f64 {
 
 #[test]
 fn a_crossing_is_found_to_the_last_digits() {
-    let mut system = Plain::new(&[1.0, 1.0], |_, y, dy| dy.copy_from_slice(&[y[1], -y[0]]))
-        .watching(&[0], |_, y, g| g[0] = y[0]);
+    let mut system =
+        Plain::new(&[1.0, 1.0], |_, y, dy| dy.copy_from_slice(&[y[1], -y[0]])).watching(&[0], |_, y, g| g[0] = y[0]);
     let run = system.run("dop853", (0.0, &[1.0, 0.0]), 5.0, &rtol(1e-14));
     let truth = [0.5, 1.5].map(|k| k * std::f64::consts::PI);
     assert_eq!(run.events.len(), 2);
@@ -58,16 +58,14 @@ fn no_double_crossing_of_a_cubic_is_missed() {
             continue;
         }
         let sign = if random(&mut seed) < 0.5 { -1.0 } else { 1.0 };
-        let mut expected: Vec<f64> =
-            [a, b, c].into_iter().filter(|t| (0.0..1.0).contains(t)).collect();
+        let mut expected: Vec<f64> = [a, b, c].into_iter().filter(|t| (0.0..1.0).contains(t)).collect();
         expected.sort_by(f64::total_cmp);
         let mut system = clock().watching(&[0], |_, y, g| {
             g[0] = sign * (y[0] - a) * (y[0] - b) * (y[0] - c);
         });
         let options = Options { first_step: Some(1.0), ..rtol(1e-9) };
         let run = system.run("dop853", (0.0, &[0.0]), 1.0, &options);
-        let crossings: Vec<f64> =
-            run.events.iter().filter(|e| e.kind == Kind::Crossing).map(|e| e.t).collect();
+        let crossings: Vec<f64> = run.events.iter().filter(|e| e.kind == Kind::Crossing).map(|e| e.t).collect();
         assert_eq!(crossings.len(), expected.len(), "{crossings:?} {expected:?}");
         assert!(crossings.iter().zip(&expected).all(|(t, truth)| (t - truth).abs() < 1e-8));
     }
@@ -177,8 +175,7 @@ fn a_ball_that_comes_to_rest_is_named() {
 
 #[test]
 fn a_stopping_event_ends_the_run() {
-    let mut system =
-        clock().watching(&[0], |_, y, g| g[0] = y[0] - 0.3).acting(|_, _, _| After::Stop);
+    let mut system = clock().watching(&[0], |_, y, g| g[0] = y[0] - 0.3).acting(|_, _, _| After::Stop);
     let run = system.run("tsit5", (0.0, &[0.0]), 1.0, &rtol(1e-9));
     assert_eq!(run.outcome, Outcome::StoppedByEvent { index: 0 });
     assert!((run.t - 0.3).abs() < 1e-16 && run.outcome.is_ok());

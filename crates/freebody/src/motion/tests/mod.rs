@@ -33,11 +33,7 @@ impl<'a> Plain<'a> {
         }
     }
 
-    fn watching(
-        mut self,
-        directions: &[i8],
-        switches: impl FnMut(f64, &[f64], &mut [f64]) + 'a,
-    ) -> Self {
+    fn watching(mut self, directions: &[i8], switches: impl FnMut(f64, &[f64], &mut [f64]) + 'a) -> Self {
         let watch = |&direction| Watch { direction, is_kink: false, scale: 0.0 };
         self.watches = directions.iter().map(watch).collect();
         self.switches = Box::new(switches);

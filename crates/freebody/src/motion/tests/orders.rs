@@ -51,8 +51,7 @@ fn order(points: &[(f64, f64)]) -> f64 {
 #[test]
 fn every_method_has_its_order() {
     for method in METHODS {
-        let counts: &[usize] =
-            if method.order == 8 { &[16, 20, 24, 32] } else { &[48, 64, 96, 128] };
+        let counts: &[usize] = if method.order == 8 { &[16, 20, 24, 32] } else { &[48, 64, 96, 128] };
         let results: Vec<_> = counts.iter().map(|&n| (n as f64, errors(method, n))).collect();
         let ends: Vec<_> = results.iter().map(|r| (r.0, r.1 .0)).collect();
         let within: Vec<_> = results.iter().map(|r| (r.0, r.1 .1)).collect();

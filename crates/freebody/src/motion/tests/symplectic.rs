@@ -13,8 +13,7 @@ fn energy_of_the_pendulum_does_not_drift() {
     let gauss6 = method("gauss6").unwrap();
     let run = run(&mut system, gauss6, (0.0, &start), 1e4, &fixed(0.1), &mut |_| true);
     assert_eq!(run.outcome, Outcome::Completed);
-    let errors: Vec<f64> =
-        run.trajectory.segments.iter().map(|s| energy(s.end()) - energy(&start)).collect();
+    let errors: Vec<f64> = run.trajectory.segments.iter().map(|s| energy(s.end()) - energy(&start)).collect();
     assert!(errors.len() >= 100_000);
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let tenth = errors.len() / 10;

@@ -93,8 +93,7 @@ fn redundant_rows_leave_the_motion_unchanged() {
         let s = saddle.solve(&p.f, &p.r);
         assert!(p.residual(&p.g, &s) < 1e-13, "seed {seed}");
         let short = |a: &Matrix| Matrix::from_fn(rank, n, |i, j| a[(i, j)]);
-        let independent =
-            Saddle::factor(&p.mass, &short(&p.g), None, &p.rows[..rank], &p.cols).unwrap();
+        let independent = Saddle::factor(&p.mass, &short(&p.g), None, &p.rows[..rank], &p.cols).unwrap();
         let a = independent.solve(&p.f, &p.r[..rank]).a;
         // Random rows reach conditions of 1e4 or so.
         assert!(distance(&s.a, &a) < 1e-11, "seed {seed}: {:e}", distance(&s.a, &a));
@@ -141,17 +140,10 @@ fn contradictory_rows_are_reported() {
 fn without_inertia(p: &mut Instant, also: Option<&[f64]>) {
     let n = p.f.len();
     let extra = also.map_or(0, |_| 1);
-    let rows = Matrix::from_fn(p.g.rows() + extra, n, |i, j| {
-        if i < p.g.rows() {
-            p.g[(i, j)]
-        } else {
-            also.unwrap()[j]
-        }
-    });
+    let rows =
+        Matrix::from_fn(p.g.rows() + extra, n, |i, j| if i < p.g.rows() { p.g[(i, j)] } else { also.unwrap()[j] });
     let ones = vec![1.0; n];
-    let kernel = Saddle::factor(&Matrix::identity(n), &rows, None, &vec![1.0; rows.rows()], &ones)
-        .unwrap()
-        .motions();
+    let kernel = Saddle::factor(&Matrix::identity(n), &rows, None, &vec![1.0; rows.rows()], &ones).unwrap().motions();
     let along = Matrix::from_fn(kernel.cols(), n, |k, j| kernel[(j, k)]);
     p.mass = along.t_mul(&along);
 }
@@ -178,9 +170,7 @@ fn a_motion_without_inertia_is_named() {
         let mut p = Instant::new(&mut random, n, m, m);
         let also = random.vector(n);
         without_inertia(&mut p, Some(&also));
-        let Err(SaddleError::ZeroInertia { direction }) = p.factor(None) else {
-            panic!("seed {seed}: not refused")
-        };
+        let Err(SaddleError::ZeroInertia { direction }) = p.factor(None) else { panic!("seed {seed}: not refused") };
         assert!(max_abs(&direction) > 0.05, "seed {seed}");
         // Both vanish to round-off times the condition of the rows.
         assert!(max_abs(&p.mass.mul_vec(&direction)) < 1e-10 * max_abs(&direction), "seed {seed}");

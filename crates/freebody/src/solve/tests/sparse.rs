@@ -11,12 +11,7 @@ struct Truss {
 
 impl Truss {
     /// Bars between points, of which the first `fixed` belong to the ground.
-    fn new(
-        points: &[[f64; 2]],
-        bars: &[(usize, usize)],
-        fixed: usize,
-        mass: impl FnMut() -> f64,
-    ) -> Truss {
+    fn new(points: &[[f64; 2]], bars: &[(usize, usize)], fixed: usize, mass: impl FnMut() -> f64) -> Truss {
         let mut truss = Truss { masses: Vec::new(), levers: Vec::new(), pins: 0 };
         let mut ends = vec![Vec::new(); points.len()];
         for (k, &(i, j)) in bars.iter().enumerate() {
@@ -38,12 +33,7 @@ impl Truss {
         truss
     }
 
-    fn set_masses(
-        &mut self,
-        p: &[[f64; 2]],
-        bars: &[(usize, usize)],
-        mut mass: impl FnMut() -> f64,
-    ) {
+    fn set_masses(&mut self, p: &[[f64; 2]], bars: &[(usize, usize)], mut mass: impl FnMut() -> f64) {
         for &(i, j) in bars {
             let square: f64 = (0..2).map(|c| (p[i][c] - p[j][c]) * (p[i][c] - p[j][c])).sum();
             let m = mass();
@@ -115,11 +105,7 @@ impl Truss {
 
 /// A ladder of bays on a foot of two fixed points: rails, rungs and as many diagonals as asked for.
 /// Without diagonals each bay shears; with one it is rigid; with two it is redundant as well.
-fn ladder(
-    random: &mut Random,
-    bays: usize,
-    diagonals: usize,
-) -> (Vec<[f64; 2]>, Vec<(usize, usize)>) {
+fn ladder(random: &mut Random, bays: usize, diagonals: usize) -> (Vec<[f64; 2]>, Vec<(usize, usize)>) {
     let point = |k: usize| [(k % 2) as f64, (k / 2) as f64];
     let points = (0..2 * bays + 2).map(|k| point(k).map(|c| c + 0.1 * random.unit())).collect();
     let mut bars = Vec::new();
