@@ -42,7 +42,7 @@ def _plain(data: Any) -> Any:
 def table(title: str, heads: Sequence[str], rows: Iterable[Row]) -> Table:
     """Words to the left, numbers to the right; names come from the model, so nothing is taken for markup."""
     rows = list(rows)
-    made = Table(title=Text(title, "bold"), title_justify="left", box=box.SIMPLE_HEAD)
+    made = Table(title=Text(title, "bold"), title_justify="left", box=box.SIMPLE_HEAD, show_edge=False)
     for i, head in enumerate(heads):
         numbers = any(isinstance(row[i], float) for row in rows)
         made.add_column(escape(head), justify="right" if numbers else "left")
@@ -52,11 +52,13 @@ def table(title: str, heads: Sequence[str], rows: Iterable[Row]) -> Table:
 
 
 def put(*things: Any) -> None:
-    """Print tables and plain lines; an empty table is left out."""
+    """Print tables and plain lines; an empty table is left out, another gets air below."""
     console = Console()
     for thing in things:
-        if not isinstance(thing, Table) or thing.row_count:
+        if not isinstance(thing, Table):
             console.print(Text(thing) if isinstance(thing, str) else thing)
+        elif thing.row_count:
+            console.print(thing, "")
 
 
 # A run
@@ -69,11 +71,11 @@ def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
         print(dumped(_run_as_dict(done, peaks, files)))
         return
     put(
-        Text.assemble((done.name, "bold"), ": ", (done.outcome.sentence, "green" if done.outcome.ok else "bold red")),
+        Text.assemble((done.name, "bold"), ": ", (done.outcome.sentence, "green" if done.outcome.ok else "bold red"), "\n"),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
         table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
         table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
-        f"  adds up to {closure(done):.1e} of the largest entry\n",
+        f"The balance stays within {closure(done):.1e} of the largest entry.\n",
         table("largest reactions", ["joint", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks.items())),
     )
     written(files)
@@ -145,7 +147,7 @@ def instants(solved: Sequence[Instant], joint_axes: bool, balance: bool, as_json
     put(accelerations, reactions_along(first) if joint_axes else reactions)
     put(table("prescribed motions", ["motion", "force or torque"], first.motions.items()))
     if balance:
-        put(residuals, f"  largest relative residual {first.residual:.1e}")
+        put(residuals, f"Largest relative residual: {first.residual:.1e}")
     put(first.explanation, *first.self_stress)
     for other in others:
         put(f"{other.route} agrees with {first.route} to {apart(first, other):.1e}")
