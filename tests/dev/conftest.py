@@ -84,6 +84,9 @@ class FakeMechanism:
         self.asked = state
         return FakeInstant(route=route)
 
+    def drawing(self):
+        return SimpleNamespace(figure=SimpleNamespace(savefig=lambda path: path.write_text("drawn")))
+
     def compile(self):
         return SimpleNamespace(describe=lambda: json.dumps(ABOUT))
 

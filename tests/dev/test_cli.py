@@ -71,6 +71,11 @@ def test_validate_takes_no_name_for_markup(command, mechanism):
     assert "bob [1]" in printed and "no friction" in printed and "degrees of freedom: 1" in printed
 
 
+def test_validate_draws(command, mechanism, tmp_path):
+    assert f"wrote {tmp_path / 'm.svg'}" in command("validate", "m.yaml", "-o", str(tmp_path / "m.svg")).output
+    assert (tmp_path / "m.svg").exists()
+
+
 @pytest.mark.parametrize("text", ["theta", "=3", "theta=", ""])
 def test_a_change_needs_a_name_and_a_value(text):
     with pytest.raises(Mistake):
@@ -95,6 +100,7 @@ def test_a_missing_file_is_said_in_a_line(command):
             "joints.pivot.of[1]: no point",
         ),
         (_core.MotionError("cannot_assemble", "the loop stays open by 2 mm", "give a guess"), "the loop stays open"),
+        (RuntimeError("an MP4 needs ffmpeg"), "an MP4 needs"),
         (ValueError("until must be positive"), "until must be positive"),
     ],
 )
@@ -102,7 +108,7 @@ def test_what_a_user_can_mend_is_told(error, told):
     assert explained(error).startswith(told)
 
 
-@pytest.mark.parametrize("error", [KeyError("x"), IndexError(), TypeError("x"), AssertionError()])
+@pytest.mark.parametrize("error", [KeyError("x"), IndexError(), TypeError("x"), RecursionError(), AssertionError()])
 def test_our_own_slips_are_not_hidden(error):
     assert explained(error) is None
 

@@ -106,25 +106,23 @@ def validate(
     mechanism = opened(model)
     show.mechanism(json.loads(mechanism.compile().describe()), as_json)
     if output:
-        from freebody.views import drawing
-
-        path = drawing.save(mechanism, output)
+        mechanism.drawing().figure.savefig(output)
         if not as_json:
-            show.written([path])
+            show.written([output])
 
 
 @app.command()
 def animate(
     model: Model,
-    output: Annotated[Path, typer.Option("-o", "--output", help="A .gif or .mp4, or a folder for SVG frames.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="A .gif, an .mp4 (needs ffmpeg), or .svg for one file a frame.")],
     changes: Changes = None,
     until: Until = None,
 ) -> None:
     """Simulate and write the motion as a film."""
     from freebody.cli import show
-    from freebody.views import animation
+    from freebody.views.animate import animate as film
 
-    show.written([animation.save(simulated(model, changes, until=until), output)])
+    show.written([film(simulated(model, changes, until=until), output)])
 
 
 @app.command()

@@ -41,5 +41,5 @@ def explained(error: Exception) -> str | None:
         place = f"{error.args[0]}: " if isinstance(error, _core.ModelError) else ""
         return f"{place}{what}\n  {hint}" if hint else f"{place}{what}"
     # A bare KeyError or IndexError says nothing to a user: it is a slip of ours.
-    ours = isinstance(error, (KeyError, IndexError))
-    return str(error) if isinstance(error, (ValueError, LookupError, ImportError)) and not ours else None
+    spoken = isinstance(error, (ValueError, LookupError, ImportError)) and not isinstance(error, (KeyError, IndexError))
+    return str(error) if spoken or type(error) is RuntimeError else None
