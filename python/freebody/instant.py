@@ -283,4 +283,4 @@ def _add(table: Table, *cells: str) -> None:
 
 
 def _figure(value: float) -> str:
-    return f"{value:.6g}"
+    return f"{value + 0.0:.6g}"  # + 0.0 turns -0 into 0
