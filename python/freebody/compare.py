@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.results import Array
+from freebody.results import Array, Column
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Difference:
     """How far one column of two runs lies apart: largest |a − b|, when (s), its root mean square, and
-    the largest relative to the column's own size."""
+    the largest relative to the size of all columns of its kind and unit (a ledger that balances has no size of its own)."""
 
     name: str
     unit: str
@@ -77,16 +77,19 @@ class Comparison:
 def compare(a: Run, b: Run) -> Comparison:
     """Columns that two runs share, at the times that both know."""
     t = common_times(a, b)
-    units = {column.name: column.unit for column in a.columns}
-    others = {column.name for column in b.columns}
-    shared = [name for name in units if name in others]
+    mine, others = {column.name: column for column in a.columns}, {column.name for column in b.columns}
+    shared = [column for name, column in mine.items() if name in others]
     left, right = _by_name(a.at(t)), _by_name(b.at(t))
+    sizes: dict[tuple[str, str], float] = {}
+    for column in shared:
+        key, values = (column.kind, column.unit), np.abs([left[column.name], right[column.name]])
+        sizes[key] = max(sizes.get(key, 0.0), float(np.nanmax(values, initial=0.0)))
     return Comparison(
         a=a,
         b=b,
         t=t,
-        differences=[_difference(name, units[name], t, left[name], right[name]) for name in shared],
-        only=sorted(others.symmetric_difference(units)),
+        differences=[_difference(c, sizes[c.kind, c.unit], t, left[c.name], right[c.name]) for c in shared],
+        only=sorted(others.symmetric_difference(mine)),
     )
 
 
@@ -107,14 +110,9 @@ def common_times(a: Run, b: Run) -> Array:
     return times
 
 
-def _difference(name: str, unit: str, t: Array, a: Array, b: Array) -> Difference:
+def _difference(column: Column, size: float, t: Array, a: Array, b: Array) -> Difference:
     # Where a reaction is indeterminate in both runs there is nothing to compare.
-    both = ~(np.isnan(a) & np.isnan(b))
-    if not both.any():
-        return Difference(name, unit, 0.0, float(t[0]), 0.0, 0.0)
-    t, a, b = t[both], a[both], b[both]
-    gap = np.abs(a - b)
+    gap = np.where(np.isnan(a) & np.isnan(b), 0.0, np.abs(a - b))
     i = int(np.argmax(gap))
-    size = max(float(np.nanmax(np.abs(a), initial=0.0)), float(np.nanmax(np.abs(b), initial=0.0)))
-    relative = float(gap[i] / size) if size else float(gap[i])
-    return Difference(name, unit, float(gap[i]), float(t[i]), float(np.sqrt(np.mean(gap**2))), relative)
+    relative = float(gap[i] / size) if size else 0.0
+    return Difference(column.name, column.unit, float(gap[i]), float(t[i]), float(np.sqrt(np.mean(gap**2))), relative)

@@ -44,12 +44,13 @@ def plain(name: str) -> str:
     return re.sub(r"[^\W\d_]+", lambda word: _GREEK.get(word[0], word[0]), name)
 
 
-def symbol(name: str) -> str:
-    r"""LaTeX of a name, without dollars: ``phi1`` → ``\phi_{1}``, ``arm.x`` → ``x_{\mathrm{arm}}``."""
+def symbol(name: str, dot: str = "") -> str:
+    r"""LaTeX of a name, without dollars: ``phi1`` → ``\phi_{1}``, ``arm.x`` → ``x_{\mathrm{arm}}``; ``dot``: ``dot`` or ``ddot``."""
     owner, _, last = name.rpartition(".")
     found = re.fullmatch(r"([^\W\d_]+)_?(\d*)", last)
     stem, digits = (found[1], found[2]) if found else (last, "")
     letter = f"\\{stem}" if stem in _GREEK else stem if len(stem) == 1 else roman(stem)
+    letter = rf"\{dot}{{{letter}}}" if dot else letter
     below = ",".join(part for part in (digits, roman(owner)) if part)
     return f"{letter}_{{{below}}}" if below else letter
 

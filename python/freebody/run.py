@@ -381,9 +381,9 @@ def _columns(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> list
     if kind == "coordinate":
         return [Column(quote(name), symbol(name), unit, kind) for name, unit in coordinates]
     if kind == "rate":
-        return [Column(f"rate({quote(name)})", rf"\dot{{{symbol(name)}}}", f"{unit}/s", kind) for name, unit in coordinates]
+        return [Column(f"rate({quote(name)})", symbol(name, "dot"), f"{unit}/s", kind) for name, unit in coordinates]
     if kind == "acceleration":
-        return [Column(f"accel({quote(name)})", rf"\ddot{{{symbol(name)}}}", f"{unit}/s^2", kind) for name, unit in coordinates]
+        return [Column(f"accel({quote(name)})", symbol(name, "ddot"), f"{unit}/s^2", kind) for name, unit in coordinates]
     if kind == "reaction":
         return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
     if kind == "energy":

@@ -21,6 +21,7 @@ SHAPES = {
     "rectangle": lambda s: (s["width"] ** 2 + s["height"] ** 2) / 12,
     "point": lambda s: 0.0,
     "polygon": lambda s: 0.1,
+    "given": lambda s: 0.1,
     "ring": lambda s: s["radius"] ** 2,
 }
 
@@ -62,7 +63,7 @@ class FakeMechanism:
             "bodies": [{"name": n, "mass": m, "inertia": i, "centre": [0, 0], "particle": False}
                        for n, m, i in zip(self.names, self.mass, self.inertia, strict=True)],
             "parameters": [{"name": n, "unit": "", "value": v} for n, v in self.numbers.items()],
-            "coordinates": [{"name": self._coordinate(n), "joint": "", "dimension": "rad", "absolute": True, "doc": ""} for n in self.names],
+            "coordinates": [{"name": self._coordinate(n), "joint": self._joint_of(n), "dimension": "rad", "absolute": True, "doc": ""} for n in self.names],
             "closure_coordinates": [],
             "joints": [joint(j) for j in self.spec["joints"]],
             "forces": [{"name": f["name"], "type": f["type"], "conservative": f["type"] == "spring"} for f in self.spec.get("forces", [])],
@@ -79,6 +80,9 @@ class FakeMechanism:
         names = [x if isinstance(x, str) else x.get("point") or x["centre"] for x in flat]
         bodies = list(dict.fromkeys(self.points_[n][0] if n in self.points_ else n.split(".")[0] for n in names))
         return (bodies * 2)[:2]
+
+    def _joint_of(self, body):
+        return next((name for name, _, b in self.tree if self.points_[b][0] == body), "")
 
     def _coordinate(self, body):
         return self.spec.get("angles", {}).get(body, f"{body}.angle")

@@ -132,11 +132,11 @@ class Scene:
 class Sketch:
     """What symbols are drawn with: the model's numbers and points, and the figures to draw on."""
 
-    def __init__(self, source: Source, state: State, t: Array, poses: Array) -> None:
+    def __init__(self, source: Source, state: State, t: Array, q: Array, poses: Array) -> None:
         self.spec: dict[str, Any] = json.loads(source.spec)
         self.about: dict[str, Any] = json.loads(source.core.describe())
         self._core, self._state = source.core, state
-        self.t = t
+        self.t, self.q = t, q
         fixed = np.zeros((len(t), 1, 3))
         self.poses = np.concatenate([fixed, poses], axis=1)
         self.names = [GROUND, *(body["name"] for body in self.about["bodies"])]
@@ -158,6 +158,14 @@ class Sketch:
         """An expression at the drawn state."""
         s = self._state
         return float(self._core.evaluate([text], s.p, s.t, s.q, s.u)[0])
+
+    def travel(self, coordinate: str) -> tuple[float, float]:
+        """Smallest and largest value of a coordinate; twice its value now where it is not of the state."""
+        names = [c["name"] for c in self.about["coordinates"]]
+        if coordinate not in names:
+            return (self.value(quote(coordinate)),) * 2
+        values = self.q[:, names.index(coordinate)]
+        return float(values.min()), float(values.max())
 
     def line(self, place: Mapping[str, Any] | str) -> tuple[str, Array, Array]:
         """Body, point (2,) and unit direction (2,) of a line, in the body's frame."""
@@ -196,6 +204,10 @@ class Sketch:
         extent = np.ptp(np.array([*seen, np.zeros(2)]), axis=0)
         return 0.02 * float(np.hypot(*extent)) or 0.02
 
+    def place(self, point: str) -> Array:
+        """Where a named point is at the start, in the fixed axes (2,)."""
+        return self._moved(*self.at[point])
+
     def _moved(self, body: str, at: Array) -> Array:
         x, y, angle = self.poses[0, self.names.index(body)]
         return shapes.turn(at[None], angle, (x, y))[0]
@@ -205,18 +217,24 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     """The scene of a run at times within it (default: its output times)."""
     shown = run if times is None else run.at(times)
     start = State(run.start.p, float(shown.t[0]), shown.q[0], shown.u[0])
-    return _drawn(Sketch(run.source, start, shown.t, shown.poses), traces)
+    return drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses), traces)
 
 
 def of_state(source: Source, state: State, traces: Sequence[str] | None = None) -> Scene:
     """The scene at one state."""
+    return drawn(sketch_of_state(source, state), traces)
+
+
+def sketch_of_state(source: Source, state: State) -> Sketch:
+    """What is needed to draw on one state."""
     bodies = [quote(body["name"]) for body in json.loads(source.core.describe())["bodies"]]
     texts = [text.format(body) for body in bodies for text in ("x({}.origin)", "y({}.origin)", "angle({})")]
     poses = source.core.evaluate(texts, state.p, state.t, state.q, state.u).reshape(1, -1, 3)
-    return _drawn(Sketch(source, state, np.array([state.t]), poses), traces)
+    return Sketch(source, state, np.array([state.t]), state.q[None], poses)
 
 
-def _drawn(sketch: Sketch, traces: Sequence[str] | None) -> Scene:
+def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Scene:
+    """Everything drawn; ``traces`` names the points to be traced (default: a few worth it)."""
     from freebody.views.symbols import draw_forces, draw_joints
 
     for body in sketch.spec["bodies"]:

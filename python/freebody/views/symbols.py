@@ -10,7 +10,7 @@ import numpy as np
 
 from freebody.results import Array
 from freebody.views import shapes
-from freebody.views.scene import GROUND, Sketch
+from freebody.views.scene import GROUND, Sketch, Stroke
 
 Fields = Mapping[str, Any]
 
@@ -150,29 +150,27 @@ def _cam(sketch: Sketch, name: str, fields: Fields) -> None:
 
 
 def _curve(sketch: Sketch, joint: str, name: str) -> None:
-    """The stretch of a curve that matters, known by the curve parameter that the joint starts from."""
+    """The stretch of a curve that the motion runs along, and a little more at both ends."""
     curve = next((c for c in sketch.spec.get("curves", []) if c["name"] == name), None)
     about = next(j for j in sketch.about["joints"] if j["name"] == joint)
     if curve is None or not about["coordinates"]:
         return
-    now = sketch.value(about["coordinates"][0])
-    texts = [re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({now + ds!r})", curve[axis]) for ds in _STRETCH for axis in ("x", "y")]
-    points = np.array([sketch.value(text) for text in texts]).reshape(-1, 2)
+    start, end = sketch.travel(about["coordinates"][0])
+    near = _points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
+    margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
+    points = _points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
     sketch.figures[curve["body"]].add(points, "rail", closed=False)
 
 
-_STRETCH = np.linspace(-np.pi, np.pi, 145).tolist()
+def _points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) -> Array:
+    """Points (k, 2) of a curve in its body's frame."""
+    at = lambda text, s: re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({float(s)!r})", text)  # noqa: E731
+    return np.array([[sketch.value(at(curve[axis], s)) for axis in ("x", "y")] for s in parameter])
 
 
 def _wheel(sketch: Sketch, circle: Mapping[str, Any], style: str) -> None:
     body, at = sketch.at[circle["centre"]]
-    sketch.figures[body].strokes.insert(0, _stroke(shapes.circle(at, sketch.number(circle["radius"])), style))
-
-
-def _stroke(points: Array, style: str) -> Any:
-    from freebody.views.scene import Stroke
-
-    return Stroke(points, style)
+    sketch.figures[body].strokes.insert(0, Stroke(shapes.circle(at, sketch.number(circle["radius"])), style))
 
 
 def _rolling(sketch: Sketch, name: str, fields: Fields) -> None:
