@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.results import Array, quote
+from freebody.results import PARTS, Array, quote
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from freebody import _core
-
-PARTS = ("Fx", "Fy", "M")
 
 
 class Indeterminate(LookupError):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +13,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
-_WORD = r"[^\W\d]\w*(\[[^\]]*\])?"
-_PLAIN_NAME = re.compile(rf"{_WORD}(\.{_WORD})*")
+PARTS = ("Fx", "Fy", "M")
+_PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
 _GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
     "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
@@ -35,8 +36,8 @@ _UNIT_OF_PART = {"Fx": "N", "Fy": "N", "F": "N", "Fs": "N", "Fn": "N", "tension"
 
 
 def quote(name: str) -> str:
-    """The name as expressions read it: in quotes where it is no plain word."""
-    return name if _PLAIN_NAME.fullmatch(name) else f"'{name}'"
+    """The name as expressions read it: words that are not plain stand in quotes, ``'crank drive'.pin``."""
+    return ".".join(part if _PLAIN_WORD.fullmatch(part) else re.sub(r"^[^\[]+", r"'\g<0>'", part) for part in name.split("."))
 
 
 def plain(name: str) -> str:
@@ -197,12 +198,16 @@ class Window:
 def maximum(signal: Signal, window: Window, candidates: int = 6) -> tuple[float, float]:
     """Time and value of the largest value in the window: the best samples, each refined."""
     t = window.samples()
-    y = signal(t)
+    return refined(signal, t, signal(t), candidates)
+
+
+def refined(signal: Signal, t: Array, y: Array, candidates: int = 6) -> tuple[float, float]:
+    """Time and value of the largest value, from samples y (nt,) at times t (nt,): the best of them, each refined."""
     padded = np.concatenate([[-np.inf], y, [-np.inf]])
     peaks = np.flatnonzero((y >= padded[:-2]) & (y >= padded[2:]))
     best = peaks[np.argsort(y[peaks])[-candidates:]]
-    refined = [_zoom(signal, t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)]) for i in best]
-    return max(refined, key=lambda pair: pair[1])
+    found = [_zoom(signal, t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)]) for i in best]
+    return max(found, key=lambda pair: pair[1])
 
 
 def minimum(signal: Signal, window: Window) -> tuple[float, float]:
@@ -266,6 +271,36 @@ def reduce(how: str, signal: Signal, window: Window) -> tuple[float | None, floa
     if how == "rms":
         return None, float(np.sqrt(integral(lambda t: signal(t) ** 2, window) / window.length))
     raise ValueError(f"no such reduction: {how!r}; there are max, min, mean, rms, integral")
+
+
+def columns_of(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
+    """The columns of one kind, in the order of the core's arrays."""
+    coordinates = [(c["name"], c["dimension"]) for c in about["coordinates"]]
+    if kind == "coordinate":
+        return [Column(quote(name), symbol(name), unit, kind) for name, unit in coordinates]
+    if kind == "rate":
+        return [Column(f"rate({quote(name)})", symbol(name, "dot"), f"{unit}/s", kind) for name, unit in coordinates]
+    if kind == "acceleration":
+        return [Column(f"accel({quote(name)})", symbol(name, "ddot"), f"{unit}/s^2", kind) for name, unit in coordinates]
+    if kind == "reaction":
+        return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
+    if kind == "energy":
+        return [_energy_column(name) for name in ledger]
+    axes = (("x({0}.origin)", "x", "m"), ("y({0}.origin)", "y", "m"), ("angle({0})", r"\varphi", "rad"))
+    bodies = [b["name"] for b in about["bodies"]]
+    return [Column(text.format(quote(b)), f"{sign}_{{{roman(b)}}}", unit, kind) for b in bodies for text, sign, unit in axes]
+
+
+def _reaction_column(joint: str, part: str) -> Column:
+    below = "" if part == "M" else f"_{part[1]}"
+    return Column(f"{quote(joint)}.{part}", f"{part[0]}{below}^{{{roman(joint)}}}", "N*m" if part == "M" else "N", "reaction")
+
+
+def _energy_column(name: str) -> Column:
+    signs = {"kinetic": ("kinetic()", "T"), "potential": ("potential()", "V"), "balance": ("balance", roman("balance"))}
+    owner = name.removesuffix(".work")
+    text, sign = signs.get(name, (f"{quote(owner)}.work", f"W_{{{roman(owner)}}}"))
+    return Column(text, sign, "J", "energy")
 
 
 def unit_of(text: str, columns: Sequence[Column] = ()) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from freebody.instant import PARTS, Reaction, Reactions, State, refuse_indeterminate
+from freebody.instant import Reaction, Reactions, State, refuse_indeterminate
 from freebody.results import (
     Array,
     Column,
@@ -21,11 +21,9 @@ from freebody.results import (
     Reported,
     ReportItem,
     Window,
-    maximum,
+    columns_of,
     quote,
     reduce,
-    roman,
-    symbol,
     unit_of,
 )
 
@@ -232,13 +230,6 @@ class Run:
             refuse_indeterminate(text, self.reactions)
         return float(values[0]) if np.isscalar(t) else values
 
-    def peak(self, text: str) -> tuple[float, float]:
-        """Time and value of the largest size of an expression, refined where the motion is known at all times."""
-        if not self.recorded:
-            return maximum(lambda t: np.abs(self.evaluate(text, t)), Window(self.edges))
-        values = np.abs(self[text])
-        return float(self.t[values.argmax()]), float(values.max())
-
     @cached_property
     def report(self) -> dict[str, Reported]:
         """The quantities that the model asks for, by label."""
@@ -273,7 +264,7 @@ class Run:
     @cached_property
     def columns(self) -> list[Column]:
         """Everything that is kept over ``t``, in the order of ``blocks``."""
-        return [column for kind in KINDS for column in _columns(kind, self.about, self.energy.names)]
+        return [column for kind in KINDS for column in columns_of(kind, self.about, self.energy.names)]
 
     @property
     def blocks(self) -> dict[str, Array]:
@@ -373,36 +364,6 @@ class Run:
 
     def _named(self, values: Sequence[float]) -> dict[str, float]:
         return dict(zip(self.coordinates, values, strict=True))
-
-
-def _columns(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
-    """The columns of one kind, in the order of the core's arrays."""
-    coordinates = [(c["name"], c["dimension"]) for c in about["coordinates"]]
-    if kind == "coordinate":
-        return [Column(quote(name), symbol(name), unit, kind) for name, unit in coordinates]
-    if kind == "rate":
-        return [Column(f"rate({quote(name)})", symbol(name, "dot"), f"{unit}/s", kind) for name, unit in coordinates]
-    if kind == "acceleration":
-        return [Column(f"accel({quote(name)})", symbol(name, "ddot"), f"{unit}/s^2", kind) for name, unit in coordinates]
-    if kind == "reaction":
-        return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
-    if kind == "energy":
-        return [_energy_column(name) for name in ledger]
-    axes = (("x({0}.origin)", "x", "m"), ("y({0}.origin)", "y", "m"), ("angle({0})", r"\varphi", "rad"))
-    bodies = [b["name"] for b in about["bodies"]]
-    return [Column(text.format(quote(b)), f"{sign}_{{{roman(b)}}}", unit, kind) for b in bodies for text, sign, unit in axes]
-
-
-def _reaction_column(joint: str, part: str) -> Column:
-    below = "" if part == "M" else f"_{part[1]}"
-    return Column(f"{quote(joint)}.{part}", f"{part[0]}{below}^{{{roman(joint)}}}", "N*m" if part == "M" else "N", "reaction")
-
-
-def _energy_column(name: str) -> Column:
-    signs = {"kinetic": ("kinetic()", "T"), "potential": ("potential()", "V"), "balance": ("balance", roman("balance"))}
-    owner = name.removesuffix(".work")
-    text, sign = signs.get(name, (f"{quote(owner)}.work", f"W_{{{roman(owner)}}}"))
-    return Column(text, sign, "J", "energy")
 
 
 def _reported(item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:

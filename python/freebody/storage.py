@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.instant import PARTS, State
-from freebody.results import Array, Reported, ReportItem
+from freebody.instant import State
+from freebody.results import PARTS, Array, Reported, ReportItem
 from freebody.run import KINDS, Run, Settings, Source
 
 if TYPE_CHECKING:

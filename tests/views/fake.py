@@ -58,7 +58,7 @@ class FakeMechanism:
 
     def describe(self) -> str:
         joint = lambda j: {"name": j["name"], "type": j["type"], "first": self._ends(j)[0], "second": self._ends(j)[1],
-                           "point": "", "cut": False, "coordinates": [], "reaction": ["Fx", "Fy"]}  # fmt: skip
+                           "point": "", "cut": False, "coordinates": [c["name"] for c in j.get("coordinates", [])], "reaction": ["Fx", "Fy"]}  # fmt: skip
         return json.dumps({
             "bodies": [{"name": n, "mass": m, "inertia": i, "centre": [0, 0], "particle": False}
                        for n, m, i in zip(self.names, self.mass, self.inertia, strict=True)],
@@ -199,7 +199,7 @@ class FakeMechanism:
         accelerations, lookup = None, {"t": t, **self.numbers, **dict(zip(map(self._coordinate, self.names), q, strict=True))}
 
         def call(match):
-            word, arg = match[1], match[2].strip("'")
+            word, arg = match[1], match[2].replace("'", "")
             if word in ("kinetic", "potential", "energy"):
                 kinetic, potential = self.energies(q, u)
                 return repr(float({"kinetic": kinetic, "potential": potential, "energy": kinetic + potential}[word]))
