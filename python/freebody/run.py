@@ -34,17 +34,21 @@ if TYPE_CHECKING:
     from freebody import _core
 
 Progress = Callable[[float], bool]
+Times = Sequence[float] | Array
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "energy", "pose")
 
 
 class Motion(Protocol):
     """What a run reads: the core's ``Trajectory``, or what a file holds of one."""
 
-    steps: Array
-    events: str
-    outcome: str
-    stats: str
-
+    @property
+    def steps(self) -> Array: ...
+    @property
+    def events(self) -> str: ...
+    @property
+    def outcome(self) -> str: ...
+    @property
+    def stats(self) -> str: ...
     def sample(self, times: Array) -> tuple[Array, Array]: ...
     def evaluate(self, texts: Sequence[str], times: Array) -> Array: ...
     def poses(self, times: Array) -> Array: ...
@@ -62,6 +66,16 @@ class Source:
     model: str
     report: tuple[ReportItem, ...] = ()
 
+    @cached_property
+    def about(self) -> dict[str, Any]:
+        """What the core says of the mechanism: bodies, coordinates, joints and so on."""
+        return dict(json.loads(self.core.describe()))
+
+    @cached_property
+    def name(self) -> str:
+        """Title for reports."""
+        return json.loads(self.spec).get("name") or "mechanism"
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -77,7 +91,7 @@ class Settings:
 
 
 def simulate(
-    source: Source, start: State, settings: Settings, t_eval: Sequence[float] | None = None, progress: Progress | None = None
+    source: Source, start: State, settings: Settings, t_eval: Times | None = None, progress: Progress | None = None
 ) -> Run:
     """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
@@ -85,12 +99,12 @@ def simulate(
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
-def output_times(motion: Motion, every: float | None = None, t_eval: Sequence[float] | None = None) -> Array:
+def output_times(motion: Motion, every: float | None = None, t_eval: Times | None = None) -> Array:
     """The output grid (nt,) in s: what was asked for, or 60 a second and at least 400, with the events and,
     while they are no more than that, the steps."""
     start, end = motion.steps[0], motion.steps[-1]
     if t_eval is not None:
-        asked = np.unique(np.asarray(t_eval, float))
+        asked: Array = np.unique(np.asarray(t_eval, float))
         return asked[(asked >= start) & (asked <= end)]
     if every is not None:
         # The end belongs to the grid even where the spacing does not meet it.
@@ -125,8 +139,8 @@ class Run:
         self.settings = settings
         self.motion = motion
         self.t = t
-        self.about: dict[str, Any] = json.loads(source.core.describe())
-        self.name: str = json.loads(source.spec).get("name") or "mechanism"
+        self.about = source.about
+        self.name = source.name
         if report is not None:
             self.report = dict(report)
 
@@ -219,7 +233,7 @@ class Run:
             return self.t
         return self.point(name) if name in self.points else np.asarray(self.evaluate(name))
 
-    def evaluate(self, text: str, t: float | Sequence[float] | Array | None = None) -> Any:
+    def evaluate(self, text: str, t: float | Times | None = None) -> Any:
         """Values of an expression at times within the run (default ``t``); a single time gives a single number.
 
         An expression that reads a reaction that is not determined raises ``Indeterminate``.
@@ -315,7 +329,7 @@ class Run:
         """The motion from the end of this run on. Works and the ledger start anew."""
         return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress)
 
-    def at(self, times: Sequence[float] | Array) -> Run:
+    def at(self, times: Times) -> Run:
         """The same run on other output times."""
         return Run(self.source, self.start, self.settings, self.motion, np.asarray(times, float))
 

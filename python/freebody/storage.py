@@ -32,6 +32,14 @@ _DIMENSIONS = {
     "energy": ("time", "ledger"),
     "pose": ("time", "body", "place"),
 }
+_VARIABLE = {
+    "coordinate": "q",
+    "rate": "u",
+    "acceleration": "acceleration",
+    "reaction": "reaction",
+    "energy": "energy",
+    "pose": "pose",
+}
 _MEANING = {
     "coordinate": "coordinates, m or rad",
     "rate": "rates of the coordinates, m/s or rad/s",
@@ -132,7 +140,7 @@ def to_pandas(run: Run) -> pandas.DataFrame:
 def to_xarray(run: Run) -> xarray.Dataset:
     """A Dataset with one variable a kind of column; ``units`` of coordinates and ledger stand beside their names."""
     ledger = [column.name for column in run.columns if column.kind == "energy"]
-    labels = {
+    labels: dict[str, Any] = {
         "time": run.t,
         "coordinate": run.coordinates,
         "joint": [joint["name"] for joint in run.about["joints"]],
@@ -142,15 +150,15 @@ def to_xarray(run: Run) -> xarray.Dataset:
         "place": ["x", "y", "angle"],
     }
     sizes = {dimension: len(values) for dimension, values in labels.items()}
-    variables = {}
+    variables: dict[str, Any] = {}
     for kind, block in run.blocks.items():
         dimensions = _DIMENSIONS[kind]
         shape = [sizes[dimension] for dimension in dimensions]
-        variables[kind] = (dimensions, block.reshape(shape), {"long_name": _MEANING[kind]})
+        variables[_VARIABLE[kind]] = (dimensions, block.reshape(shape), {"long_name": _MEANING[kind]})
     known = ~np.isnan(variables["reaction"][1])
     variables["determinate"] = (_DIMENSIONS["reaction"], known, {"long_name": "whether the balances determine the reaction"})
     coordinates = {name: (name, np.array(values)) for name, values in labels.items() if len(values)}
-    data = need("xarray").Dataset(variables, coordinates, {"title": run.name, "freebody": json.dumps(_meta(run))})
+    data: xarray.Dataset = need("xarray").Dataset(variables, coordinates, {"title": run.name, "freebody": json.dumps(_meta(run))})
     data["time"].attrs["units"] = "s"
     data["energy"].attrs["units"] = "J"
     return data
@@ -174,13 +182,18 @@ def load(path: Path, mechanism: Callable[[str], Any] | None = None) -> Run:
     if path.suffix not in readers:
         raise ValueError(f"{path}: a saved run is a .nc or a .csv file")
     t, names, blocks, meta = readers[path.suffix](path)
-    if mechanism is None:
-        from freebody._core import Mechanism as mechanism
     report = tuple(ReportItem(**{**item, "over": tuple(item["over"]) if item["over"] else None}) for item in meta["report_items"])
-    source = Source(mechanism(meta["spec"]), meta["spec"], meta["model"], report)
-    start = State(**{key: np.array(value) if isinstance(value, list) else value for key, value in meta["start"].items()})
+    source = Source((mechanism or _core_mechanism)(meta["spec"]), meta["spec"], meta["model"], report)
+    begun = meta["start"]
+    start = State(np.array(begun["p"]), begun["t"], np.array(begun["q"]), np.array(begun["u"]))
     reported = {label: Reported(**value) for label, value in meta["report"].items()}
     return Run(source, start, Settings(**meta["settings"]), Recorded(t, names, blocks, meta), t, reported)
+
+
+def _core_mechanism(spec: str) -> Any:
+    from freebody._core import Mechanism
+
+    return Mechanism(spec)
 
 
 def _matrix(run: Run) -> Array:
@@ -256,5 +269,5 @@ def _read_netcdf(path: Path) -> tuple[Array, list[str], dict[str, Array], dict[s
             raise ValueError(f"{path} is no saved run: it has no attribute 'freebody'")
         meta = json.loads(data.attrs["freebody"])
         t = data["time"].values.astype(float)
-        blocks = {kind: data[kind].values.reshape(len(t), -1) for kind in KINDS}
+        blocks = {kind: data[_VARIABLE[kind]].values.reshape(len(t), -1) for kind in KINDS}
     return t, [column["name"] for column in meta["columns"]], blocks, meta

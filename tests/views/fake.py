@@ -38,7 +38,9 @@ class FakeMechanism:
         self.names = [b["name"] for b in self.spec["bodies"]]
         self.points_ = {p["name"]: (p["body"], [self._number(x) for x in p["at"]]) for p in self.spec["points"]}
         self.mass = np.array([sum(self._number(q["mass"]) for q in b["pieces"]) for b in self.spec["bodies"]])
-        self.inertia = np.array([sum(self._number(q["mass"]) * self._gyration(q) for q in b["pieces"]) for b in self.spec["bodies"]])
+        self.inertia = np.array(
+            [sum(self._number(q["mass"]) * self._gyration(q) for q in b["pieces"]) for b in self.spec["bodies"]]
+        )
         self.hinges = [(j["name"], *j["with"]["of"]) for j in self.spec["joints"] if j["type"] == "hinge"]
         placed = {"ground"}
         self.tree, self.cut = [], []
@@ -96,7 +98,10 @@ class FakeMechanism:
     # Kinematics: mass centres from the angles, from hinge to hinge
 
     def centres(self, q):
-        at = {"ground": (np.zeros(2), 0.0), **{n: (np.array(self.loose[n][:2], float), q[self.names.index(n)]) for n in self.loose}}
+        at = {
+            "ground": (np.zeros(2), 0.0),
+            **{n: (np.array(self.loose[n][:2], float), q[self.names.index(n)]) for n in self.loose},
+        }
         for _, a, b in self.tree:
             (first, s), (second, r) = self.points_[a], self.points_[b]
             pin = at[first][0] + turned(at[first][1], s)
@@ -196,7 +201,7 @@ class FakeMechanism:
         return np.array([self._value(text, t, q, u) for text in texts])
 
     def _value(self, text, t, q, u, work=np.nan):
-        accelerations, lookup = None, {"t": t, **self.numbers, **dict(zip(map(self._coordinate, self.names), q, strict=True))}
+        lookup = {"t": t, **self.numbers, **dict(zip(map(self._coordinate, self.names), q, strict=True))}
 
         def call(match):
             word, arg = match[1], match[2].replace("'", "")
@@ -216,8 +221,9 @@ class FakeMechanism:
         for i, joint in enumerate(self.spec["joints"]):
             fx, fy, m = now.reactions[i]
             parts = {"Fx": fx, "Fy": fy, "M": m, "F": np.hypot(fx, fy), "Fs": fx, "Fn": fy}
-            for name in (joint["name"], f"'{joint['name']}'"):
-                text = re.sub(rf"(?<![\w']){re.escape(name)}\.(Fx|Fy|Fs|Fn|F|M)\b", lambda k: f"({parts[k[1]]!r})".replace("np.float64", ""), text)
+            for part, value in parts.items():
+                for name in (joint["name"], f"'{joint['name']}'"):
+                    text = re.sub(rf"(?<![\w']){re.escape(name)}\.{part}\b", f"({float(value)!r})", text)
         text = text.replace("motor.work", repr(float(work)))
         for name in sorted(lookup, key=len, reverse=True):
             text = text.replace(f"'{name}'", repr(float(lookup[name])))
@@ -226,7 +232,9 @@ class FakeMechanism:
         functions = {n: getattr(np, n) for n in ("sin", "cos", "sqrt", "abs", "exp")}
         return float(eval(text.replace("^", "**"), {**functions, "nan": np.nan, "pi": np.pi}, lookup))
 
-    def simulate(self, p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=0, progress=None):
+    def simulate(
+        self, p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=0, progress=None
+    ):
         return FakeTrajectory(self, p, t, np.asarray(q), np.asarray(u), until)
 
 
@@ -249,7 +257,14 @@ class FakeTrajectory:
         self.n, self.dense, self.steps = n, run.sol, run.t
         self.work0 = 0.0
         happened = [
-            {"name": e["name"], "t": float(when), "kind": "crossing", "direction": 1, "q": y[:n].tolist(), "u": y[n : 2 * n].tolist()}
+            {
+                "name": e["name"],
+                "t": float(when),
+                "kind": "crossing",
+                "direction": 1,
+                "q": y[:n].tolist(),
+                "u": y[n : 2 * n].tolist(),
+            }
             for e, times, ys in zip(asked, run.t_events or [], run.y_events or [], strict=True)
             for when, y in zip(times, ys, strict=True)
         ]

@@ -7,6 +7,7 @@ import json
 from freebody.instant import State
 from freebody.results import ReportItem
 from freebody.run import Run, Settings, Source, simulate
+
 from .fake import FakeMechanism
 
 
@@ -56,12 +57,22 @@ def double_pendulum(upper="upper", **more):
 
 
 def four_bar():
-    ground = [point("ground.O", "ground", [0, 0]), point("ground.B", "ground", [0.9, 0]), point("ground.S", "ground", [1.25, 0.75])]
+    ground = [
+        point("ground.O", "ground", [0, 0]),
+        point("ground.B", "ground", [0.9, 0]),
+        point("ground.S", "ground", [1.25, 0.75]),
+    ]
     spec = {
         "name": "four-bar with a motor",
         "parameters": [{"name": "T", "value": 2.0, "unit": "N*m"}],
         "bodies": [rod("crank", 0.3), rod("coupler", 0.9), rod("rocker", 0.6)],
-        "points": [*ground, *ends("crank", 0.3), *ends("coupler", 0.9), *ends("rocker", 0.6), point("coupler.P", "coupler", [0.1, 0.28])],
+        "points": [
+            *ground,
+            *ends("crank", 0.3),
+            *ends("coupler", 0.9),
+            *ends("rocker", 0.6),
+            point("coupler.P", "coupler", [0.1, 0.28]),
+        ],
         "joints": [
             hinge("main bearing", "ground.O", "crank.start"),
             hinge("crank pin", "crank.end", "coupler.start"),

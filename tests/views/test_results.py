@@ -60,7 +60,12 @@ def test_reactions_carry_opposite_signs_on_the_two_bodies(four_bar):
 
 def test_an_indeterminate_reaction_is_never_a_plain_number(indeterminate):
     knee = indeterminate.reactions["knee"]
-    for read in (lambda: knee.Fx, lambda: knee.size, lambda: indeterminate["knee.Fx"], lambda: indeterminate.evaluate("2*knee.F", 0.1)):
+    for read in (
+        lambda: knee.Fx,
+        lambda: knee.size,
+        lambda: indeterminate["knee.Fx"],
+        lambda: indeterminate.evaluate("2*knee.F", 0.1),
+    ):
         with pytest.raises(Indeterminate, match="not determined"):
             read()
     assert not knee.determinate and np.isfinite(knee.Fy).all()
@@ -91,7 +96,9 @@ def test_extremes_are_refined_between_the_samples():
     assert maximum(lambda t: t, window) == (4.0, 4.0)
 
 
-@pytest.mark.parametrize(("f", "exact"), [(np.sin, 1 - np.cos(4)), (np.sqrt, 16 / 3), (lambda t: np.abs(t - 1.1), (1.1**2 + 2.9**2) / 2)])
+@pytest.mark.parametrize(
+    ("f", "exact"), [(np.sin, 1 - np.cos(4)), (np.sqrt, 16 / 3), (lambda t: np.abs(t - 1.1), (1.1**2 + 2.9**2) / 2)]
+)
 def test_integrals_are_exact(f, exact):
     assert integral(f, Window(np.array([0.0, 1.5, 4.0]))) == pytest.approx(exact, rel=1e-9)
 
@@ -127,7 +134,11 @@ def test_two_runs_compared(pendulum):
 
 
 def test_words_and_symbols():
-    assert [quote(name) for name in ("link[1].end", "crank drive.pin", "two words[3]")] == ["link[1].end", "'crank drive'.pin", "'two words'[3]"]
+    assert [quote(name) for name in ("link[1].end", "crank drive.pin", "two words[3]")] == [
+        "link[1].end",
+        "'crank drive'.pin",
+        "'two words'[3]",
+    ]
     assert plain("arm.theta2") == "arm.θ2"
     assert symbol("phi1", "ddot") == r"\ddot{\phi}_{1}" and symbol("rod.x") == r"x_{\mathrm{rod}}"
     assert symbol("a$b^c").count("$") == 0

@@ -14,7 +14,9 @@ class _Zoo:
         self.bodies, self.points, self.joints, self.poses = [], [point("ground.O", "ground", [0, 0])], [], {}
 
     def body(self, name, shape, at, angle=0.0, sizes=None, corners=(), **points):
-        self.bodies.append({"name": name, "pieces": [{"shape": shape, "mass": 1.0, "sizes": sizes or {}, "corners": list(corners)}]})
+        self.bodies.append(
+            {"name": name, "pieces": [{"shape": shape, "mass": 1.0, "sizes": sizes or {}, "corners": list(corners)}]}
+        )
         self.poses[name] = [*at, angle]
         for key, place in {"origin": [0, 0], "G": [0, 0], **points}.items():
             self.points.append(point(f"{name}.{key}", name, place))
@@ -65,7 +67,12 @@ def zoo():
     z.joint("wire", "curved_slot", "sigma", along="ground.wire", point="bead.origin")
     z.body("sun", "disk", [2.75, 0.2], sizes={"radius": 0.12})
     z.body("planet", "disk", [2.95, 0.2], 0.4, sizes={"radius": 0.08})
-    z.joint("planetary", "rolling_circles", circle={"centre": "planet.origin", "radius": 0.08}, on={"centre": "sun.origin", "radius": 0.12})
+    z.joint(
+        "planetary",
+        "rolling_circles",
+        circle={"centre": "planet.origin", "radius": 0.08},
+        on={"centre": "sun.origin", "radius": 0.12},
+    )
     spec = {
         "name": "zoo",
         "parameters": [{"name": "sigma", "value": 0.9}],

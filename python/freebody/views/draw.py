@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,7 +77,7 @@ def _ink_of(scene: Scene) -> Array:
 
 def _dense(line: Array) -> Array:
     """A polyline with points enough to be felt everywhere."""
-    return np.vstack([np.linspace(a, b, 16) for a, b in zip(line[:-1], line[1:], strict=True)])
+    return np.vstack([np.linspace(a, b, 16) for a, b in pairwise(line)])
 
 
 def _draw_bodies(sheet: _Drawing) -> None:
@@ -124,7 +125,7 @@ def _draw_coordinates(sheet: _Drawing) -> None:
         if joint is None:
             continue
         value = float(sheet.sketch.q[0, i])
-        given = next((c for c in joint.get("coordinates", []) if c["name"] == coordinate["name"]), {})
+        given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == coordinate["name"]), {})
         measure = _draw_angle if coordinate["dimension"] == "rad" else _draw_length
         measure(sheet, joint, coordinate["name"], value, given.get("sense", 1))
 

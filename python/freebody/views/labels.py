@@ -37,14 +37,15 @@ def place_labels(ax: Axes, labels: Sequence[Label], ink: Array) -> None:
     frame = ax.get_window_extent()
     taken: list[Array] = []
     for label in labels:
-        text = ax.text(*label.anchor, label.text, color=label.colour, fontsize=label.size, ha="center", va="center",
+        x, y = label.anchor
+        text = ax.text(x, y, label.text, color=label.colour, fontsize=label.size, ha="center", va="center",
                        fontweight="bold" if label.bold else "normal", zorder=5)  # fmt: skip
         extent = text.get_window_extent()
         half = np.array([extent.width, extent.height]) / 2 + 1.5
         anchor = ax.transData.transform(label.anchor)
         centre, distance = _best(anchor, half, drawn, taken, (frame.x0, frame.x1, frame.y0, frame.y1), figure.dpi / 100)
         taken.append(np.array([centre - half, centre + half]))
-        text.set_position(ax.transData.inverted().transform(centre))
+        text.set_position(tuple(ax.transData.inverted().transform(centre)))
         if distance > 24 * figure.dpi / 100:
             _leader(ax, anchor, centre, half, label.colour)
 
@@ -63,7 +64,7 @@ def _best(
             covered = np.all((drawn > low) & (drawn < high), axis=1).sum()
             outside = np.clip([frame[0] - low[0], high[0] - frame[1], frame[2] - low[1], high[1] - frame[3]], 0, None).sum()
             choices.append((40 * overlap + 25 * covered + 60 * outside + distance, distance * scale, centre))
-    cost, distance, centre = min(choices, key=lambda choice: choice[0])
+    _, distance, centre = min(choices, key=lambda choice: choice[0])
     return centre, distance
 
 

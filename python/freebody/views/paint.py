@@ -32,7 +32,9 @@ def paint(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
 def _patch(stroke: Stroke, points: Any, tint: str) -> Any:
     from matplotlib.patches import Polygon
 
-    return Polygon(points, closed=stroke.closed, zorder=2 + 0.05 * ORDER.index(stroke.style), joinstyle="round", **_look(stroke.style, tint))
+    return Polygon(
+        points, closed=stroke.closed, zorder=2 + 0.05 * ORDER.index(stroke.style), joinstyle="round", **_look(stroke.style, tint)
+    )
 
 
 def _look(style: str, tint: str) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.results import Window, refined
+from freebody.results import Array, Signal, Window, refined
 
 if TYPE_CHECKING:
     from freebody.run import Run
@@ -32,22 +32,26 @@ class Peak:
 def peak_reactions(run: Run) -> list[Peak]:
     """Peaks of all joints, refined between the steps where the motion is known there."""
     sampled = run if run.recorded else run.at(Window(run.edges).samples())
-    return [_peak(run, sampled, name) for name in run.reactions]
+    return [_peak(run, sampled, i, name) for i, name in enumerate(run.reactions)]
 
 
-def _peak(run: Run, sampled: Run, name: str) -> Peak:
+def _peak(run: Run, sampled: Run, i: int, name: str) -> Peak:
     reaction = sampled.reactions[name]
     if not reaction.determinate:
         return Peak(name, reaction.second, False)
-    t, size = _largest(run, sampled, name, "size")
-    t_couple, couple = _largest(run, sampled, name, "M")
-    then = run.at([t]).reactions[name]
-    return Peak(name, reaction.second, True, t, size, float(then.Fx[0]), float(then.Fy[0]), couple, t_couple)
+    t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*_solved(run, i, t)[:, :2].T))
+    t_couple, couple = _largest(run, sampled.t, np.abs(reaction.M), lambda t: np.abs(_solved(run, i, t)[:, 2]))
+    force_x, force_y, _ = _solved(run, i, np.array([t]))[0].tolist()
+    return Peak(name, reaction.second, True, t, size, force_x, force_y, couple, t_couple)
 
 
-def _largest(run: Run, sampled: Run, name: str, part: str) -> tuple[float, float]:
-    values = np.abs(getattr(sampled.reactions[name], part))
-    if run.recorded or not values.any():
-        i = int(values.argmax())
-        return float(sampled.t[i]), float(values[i])
-    return refined(lambda t: np.abs(getattr(run.at(t).reactions[name], part)), sampled.t, values, candidates=2)
+def _solved(run: Run, i: int, t: Array) -> Array:
+    """The reaction (nt, 3) of the i-th joint at times within the run."""
+    return run.motion.instants(t)[0][:, i]
+
+
+def _largest(run: Run, t: Array, sampled: Array, signal: Signal) -> tuple[float, float]:
+    if run.recorded or not sampled.any():
+        i = int(sampled.argmax())
+        return float(t[i]), float(sampled[i])
+    return refined(signal, t, sampled, candidates=2)

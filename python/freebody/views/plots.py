@@ -43,8 +43,8 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
         raise ValueError(f"{len(units)} units do not fit on one plot: {', '.join(unit or 'none' for unit in units)}")
     sides = [ax, *([_right_axis(ax)] if len(units) == 2 else [])]
     for i, name in enumerate(shown):
-        side = units.index(unit_of(name, run.columns))
-        sides[side].plot(run.t, run[name], color=colour(i), ls=DASHES[side], label=label(run, name))
+        k = units.index(unit_of(name, run.columns))
+        sides[k].plot(run.t, run[name], color=colour(i), ls=DASHES[k], label=label(run, name))
     for side, unit in zip(sides, units, strict=True):
         own = [name for name in shown if unit_of(name, run.columns) == unit]
         side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else quantity(unit), unit))
@@ -168,7 +168,16 @@ def pretty_unit(unit: str) -> str:
 
 def quantity(unit: str) -> str:
     """What is measured in a unit, for the axis of several curves."""
-    words = {"rad": "angle", "m": "length", "rad/s": "angular velocity", "m/s": "velocity", "N": "force", "N*m": "couple", "J": "energy", "W": "power"}
+    words = {
+        "rad": "angle",
+        "m": "length",
+        "rad/s": "angular velocity",
+        "m/s": "velocity",
+        "N": "force",
+        "N*m": "couple",
+        "J": "energy",
+        "W": "power",
+    }
     return words.get(unit, "")
 
 
@@ -197,7 +206,9 @@ def _ends(ax: Axes, x: Array, y: Array) -> None:
 
 def _legend(ax: Axes, *others: Axes, needed: bool = True) -> None:
     """A legend above or beside the curves, never on them."""
-    pairs: list[tuple[Any, str]] = [pair for side in (ax, *others) for pair in zip(*side.get_legend_handles_labels(), strict=True)]
+    pairs: list[tuple[Any, str]] = [
+        pair for side in (ax, *others) for pair in zip(*side.get_legend_handles_labels(), strict=True)
+    ]
     if needed and pairs:
         handles, labels = zip(*pairs, strict=True)
         beside = 1.14 if others else 1.01

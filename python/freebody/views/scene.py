@@ -102,29 +102,33 @@ class Scene:
         frames = np.unique(np.linspace(0, len(self.t) - 1, 80).astype(int))
         seen = [self.place(i, s.points, k) for k in frames for i, f in enumerate(self.figures) for s in f.strokes]
         seen += [line for k in frames for pair in self.pairs for line in self.pair_lines(pair, k)]
-        everything = np.vstack([*seen, np.zeros((1, 2))])
+        everything = np.vstack(seen or [np.zeros((1, 2))])
         (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
         return float(x0), float(x1), float(y0), float(y1)
 
     def to_json(self) -> dict[str, Any]:
         """The scene for the browser, figures rounded to what a screen can show."""
-        fine = self.size * 1e-3
-        rounded = lambda points: (np.round(np.asarray(points) / fine) * fine).round(9).tolist()  # noqa: E731
-        poses = np.concatenate([np.round(self.poses[..., :2] / fine) * fine, self.poses[..., 2:]], axis=2)
+        digits = 3 - int(np.floor(np.log10(self.size)))
+        places = np.concatenate([self.poses[..., :2].round(digits), self.poses[..., 2:].round(5)], axis=2)
         at = self.points()
         return {
             "size": self.size,
             "bounds": self.bounds(),
-            "t": self.t.round(9).tolist(),
-            "poses": poses.round(5).reshape(len(self.t), -1).tolist(),
+            "t": self.t.tolist(),
+            "poses": places.reshape(len(self.t), -1).tolist(),
             "figures": [
                 {
                     "name": figure.name,
-                    "strokes": [{"points": rounded(s.points), "style": s.style, "closed": s.closed} for s in figure.strokes],
+                    "strokes": [
+                        {"points": s.points.round(digits).tolist(), "style": s.style, "closed": s.closed} for s in figure.strokes
+                    ],
                 }
                 for figure in self.figures
             ],
-            "pairs": [{"kind": p.kind, "ends": p.ends, "lines": [line.round(6).tolist() for line in p.lines]} for p in self.pairs],
+            "pairs": [
+                {"kind": p.kind, "ends": p.ends, "lines": [line.round(max(digits, 4)).tolist() for line in p.lines]}
+                for p in self.pairs
+            ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
         }
 
@@ -134,7 +138,7 @@ class Sketch:
 
     def __init__(self, source: Source, state: State, t: Array, q: Array, poses: Array) -> None:
         self.spec: dict[str, Any] = json.loads(source.spec)
-        self.about: dict[str, Any] = json.loads(source.core.describe())
+        self.about = source.about
         self._core, self._state = source.core, state
         self.t, self.q = t, q
         fixed = np.zeros((len(t), 1, 3))
@@ -169,13 +173,13 @@ class Sketch:
 
     def line(self, place: Mapping[str, Any] | str) -> tuple[str, Array, Array]:
         """Body, point (2,) and unit direction (2,) of a line, in the body's frame."""
-        if isinstance(place, str):
-            place = next(line["line"] for line in self.spec["lines"] if line["name"] == place)
-        body, point = self.at[place["point"]]
-        if place.get("towards"):
-            along = self.at[place["towards"]][1] - point
+        named = {line["name"]: line["line"] for line in self.spec.get("lines", [])}
+        told: Mapping[str, Any] = named[place] if isinstance(place, str) else place
+        body, point = self.at[told["point"]]
+        if told.get("towards"):
+            along = self.at[told["towards"]][1] - point
             return body, point, along / np.hypot(*along)
-        angle = self.number(place.get("angle") or 0.0)
+        angle = self.number(told.get("angle") or 0.0)
         return body, point, np.array([np.cos(angle), np.sin(angle)])
 
     def seen_from(self, body: str, name: str) -> Array:
@@ -196,12 +200,12 @@ class Sketch:
 
     def _size(self) -> float:
         """A size for symbols that suits the mechanism: a small part of its extent at the start."""
-        seen = [self._moved(body, at) for body, at in self.at.values()]
+        seen = [self._moved(body, at) for body, at in self.at.values() if body != GROUND]
         for i, body in enumerate(self.spec["bodies"]):
             spans = [self.number(size) for piece in body["pieces"] for size in piece.get("sizes", {}).values()]
             half = max(spans, default=0.0) / 2
             seen += [self.poses[0, i + 1, :2] + half, self.poses[0, i + 1, :2] - half]
-        extent = np.ptp(np.array([*seen, np.zeros(2)]), axis=0)
+        extent = np.ptp(np.array(seen or [np.zeros(2)]), axis=0)
         return 0.02 * float(np.hypot(*extent)) or 0.02
 
     def place(self, point: str) -> Array:
@@ -227,7 +231,7 @@ def of_state(source: Source, state: State, traces: Sequence[str] | None = None) 
 
 def sketch_of_state(source: Source, state: State) -> Sketch:
     """What is needed to draw on one state."""
-    bodies = [quote(body["name"]) for body in json.loads(source.core.describe())["bodies"]]
+    bodies = [quote(body["name"]) for body in source.about["bodies"]]
     texts = [text.format(body) for body in bodies for text in ("x({}.origin)", "y({}.origin)", "angle({})")]
     poses = source.core.evaluate(texts, state.p, state.t, state.q, state.u).reshape(1, -1, 3)
     return Sketch(source, state, np.array([state.t]), state.q[None], poses)

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from freebody.results import Array
 
 _ARC_STEP = np.pi / 18
 
 
-def turn(points: Array, angle: float, at: Sequence[float] = (0.0, 0.0)) -> Array:
+def turn(points: Array, angle: float, at: ArrayLike = (0.0, 0.0)) -> Array:
     """Points (k, 2) turned counter-clockwise by an angle (rad) about the origin, then moved by ``at``."""
     c, s = np.cos(angle), np.sin(angle)
-    return np.asarray(points, float) @ np.array([[c, s], [-s, c]]) + np.asarray(at, float)
+    turned: Array = np.asarray(points, float) @ np.array([[c, s], [-s, c]]) + np.asarray(at, float)
+    return turned
 
 
-def arc(centre: Sequence[float], radius: float, start: float, end: float) -> Array:
+def arc(centre: ArrayLike, radius: float, start: float, end: float) -> Array:
     """An arc from one angle to another (rad)."""
     angles = np.linspace(start, end, max(2, int(np.ceil(abs(end - start) / _ARC_STEP)) + 1))
     return np.asarray(centre, float) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
 
 
-def circle(centre: Sequence[float], radius: float) -> Array:
+def circle(centre: ArrayLike, radius: float) -> Array:
     """A full circle, its last point short of its first."""
     return arc(centre, radius, 0.0, 2 * np.pi)[:-1]
 

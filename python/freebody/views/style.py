@@ -25,7 +25,7 @@ def quiet() -> AbstractContextManager[None]:
     """Matplotlib settings for a plot, in force within a ``with``."""
     import matplotlib
 
-    settings: dict[str, Any] = {
+    settings: Any = {
         "font.size": 10.5,
         "axes.titlesize": 11.5,
         "axes.titlelocation": "left",

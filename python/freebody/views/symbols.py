@@ -164,8 +164,8 @@ def _curve(sketch: Sketch, joint: str, name: str) -> None:
 
 def _points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) -> Array:
     """Points (k, 2) of a curve in its body's frame."""
-    at = lambda text, s: re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({float(s)!r})", text)  # noqa: E731
-    return np.array([[sketch.value(at(curve[axis], s)) for axis in ("x", "y")] for s in parameter])
+    texts = [[re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({float(s)!r})", curve[axis]) for axis in ("x", "y")] for s in parameter]
+    return np.array([[sketch.value(text) for text in pair] for pair in texts])
 
 
 def _wheel(sketch: Sketch, circle: Mapping[str, Any], style: str) -> None:

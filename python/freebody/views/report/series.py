@@ -83,13 +83,21 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     silent = [name for name, reaction in run.reactions.items() if not reaction.determinate]
     note = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
     couples = [(name, reaction.M) for name, reaction in known if reaction.M.any()]
-    made = [_plot("Reactions, size of the force", "N", run.t, [(name, r.size) for name, r in known], note)] if known or silent else []
+    made = (
+        [_plot("Reactions, size of the force", "N", run.t, [(name, r.size) for name, r in known], note)]
+        if known or silent
+        else []
+    )
     return made + ([_plot("Reactions, couple", "N*m", run.t, couples)] if couples else [])
 
 
 def _energy(run: Run) -> list[dict[str, Any]]:
     ledger = run.energy
-    curves = [("kinetic", ledger.kinetic), ("potential", ledger.potential), ("kinetic + potential", ledger.kinetic + ledger.potential)]
+    curves = [
+        ("kinetic", ledger.kinetic),
+        ("potential", ledger.potential),
+        ("kinetic + potential", ledger.kinetic + ledger.potential),
+    ]
     curves += [(f"work of {name.removesuffix('.work')}", work) for name, work in ledger.works.items()]
     return [
         _plot("Energy", "J", run.t, curves),

@@ -82,7 +82,12 @@ def _reported(run: Run) -> str:
 
 def _events(run: Run, most: int = 100) -> str:
     rows = [(e.name, _figure(e.t, 9), e.kind, {1: "rising", -1: "falling"}.get(e.direction, "")) for e in run.events[:most]]
-    return _table("Events", ("event", "t / s", "kind", "direction"), rows, f"the first {most} of {len(run.events)}" if len(run.events) > most else "")
+    return _table(
+        "Events",
+        ("event", "t / s", "kind", "direction"),
+        rows,
+        f"the first {most} of {len(run.events)}" if len(run.events) > most else "",
+    )
 
 
 def _peaks(run: Run) -> str:
@@ -93,7 +98,13 @@ def _peaks(run: Run) -> str:
     for p in peaks:
         figures = [_figure(x) for x in (p.size, p.t, p.Fx, p.Fy, *((p.couple, p.t_couple) if couples else ()))]
         rows.append([p.joint, p.body, *figures, "determinate" if p.determinate else "indeterminate"])
-    return _table("Peak reactions", heads, rows, "Forces as they act on the body named, in the fixed axes, when the force is largest.", "across")
+    return _table(
+        "Peak reactions",
+        heads,
+        rows,
+        "Forces as they act on the body named, in the fixed axes, when the force is largest.",
+        "across",
+    )
 
 
 def _ledger(run: Run) -> str:
@@ -102,7 +113,12 @@ def _ledger(run: Run) -> str:
     entries |= {f"work of {name.removesuffix('.work')}": work for name, work in ledger.works.items()}
     rows = [(name, _figure(y[0]), _figure(y[-1]), _figure(y.min()), _figure(y.max())) for name, y in entries.items()]
     worst = float(np.abs(ledger.balance).max())
-    return _table("Energy ledger", ("J", "start", "end", "least", "most"), rows, f"The books close within {worst:.1e} J at all output times.".replace("e-", "e−"))
+    return _table(
+        "Energy ledger",
+        ("J", "start", "end", "least", "most"),
+        rows,
+        f"The books close within {worst:.1e} J at all output times.".replace("e-", "e−"),
+    )
 
 
 def _settings(run: Run) -> str:
@@ -113,7 +129,11 @@ def _settings(run: Run) -> str:
         ("method", s.method),
         ("relative tolerance", _figure(s.rtol)),
         ("route", s.route),
-        *((key, _figure(value) if isinstance(value, (int, float)) else str(value)) for key, value in stats.items() if key not in ("method", "rtol")),
+        *(
+            (key, _figure(value) if isinstance(value, (int, float)) else str(value))
+            for key, value in stats.items()
+            if key not in ("method", "rtol")
+        ),
         *((f"version of {name}", version) for name, version in versions().items() if name != "platform"),
     ]
     return _table("How it was computed", ("", ""), rows)
