@@ -12,12 +12,15 @@ Array = NDArray[np.float64]
 Rates = Callable[[float, Array], Sequence[float]]
 
 
-def motion(rates: Rates, start: Sequence[float], times: Sequence[float], t0: float = 0.0) -> Array:
-    """States (nt, n) at the times, by SciPy's DOP853 at rtol 1e-13; steps end on the times, nothing is interpolated."""
-    y, t, states = np.array(start, float), t0, []
+def motion(rates: Rates, start: Sequence[float], times: Sequence[float], kink: Callable[[float, Array], float] | None = None) -> Array:
+    """States (nt, n) at the times from t = 0, by SciPy's DOP853 at rtol 1e-13.
+
+    Steps end on the times, and where ``kink`` changes sign; nothing is interpolated.
+    """
+    y, t, states = np.array(start, float), 0.0, []
     for until in times:
-        if until != t:
-            y, t = _advance(rates, t, y, float(until)), float(until)
+        while t < until:
+            t, y = _advance(rates, t, y, float(until), kink)
         states.append(y)
     return np.array(states)
 
@@ -36,7 +39,7 @@ def event(rates: Rates, start: Sequence[float], when: Callable[[float, Array], f
     anchor = motion(rates, start, [base])[0]
 
     def value(time: float) -> float:
-        return when(time, _advance(rates, base, anchor, time))
+        return when(*_advance(rates, base, anchor, time))
 
     old, f_old = t * (1 - 1e-5), value(t * (1 - 1e-5))
     for _ in range(8):
@@ -44,16 +47,30 @@ def event(rates: Rates, start: Sequence[float], when: Callable[[float, Array], f
         if f == 0 or t == old or f == f_old:
             break
         old, f_old, t = t, f, t - f * (t - old) / (f - f_old)
-    return t, _advance(rates, base, anchor, t)
+    return _advance(rates, base, anchor, t)
 
 
-def _advance(rates: Rates, t: float, y: Array, until: float) -> Array:
+def _advance(rates: Rates, t: float, y: Array, until: float, kink: Callable[[float, Array], float] | None = None) -> tuple[float, Array]:
+    """Time and state at ``until``, or at the next kink if that comes first."""
     from scipy.integrate import solve_ivp
 
-    solution = solve_ivp(rates, (t, until), y, method="DOP853", rtol=1e-13, atol=1e-15)
-    if not solution.success:
-        raise ArithmeticError(f"the reference solution stops: {solution.message}")
-    return solution.y[:, -1]
+    def integrate(end: float, **more: Any) -> Any:
+        solution = solve_ivp(rates, (t, end), y, method="DOP853", rtol=1e-13, atol=1e-15, **more)
+        if not solution.success:
+            raise ArithmeticError(f"the reference solution stops: {solution.message}")
+        return solution
+
+    if kink is None:
+        return until, integrate(until).y[:, -1]
+    off = min(1e-6 * until, until - t)  # a step clear of the kink just met
+    y, t = integrate(t + off).y[:, -1], t + off
+
+    def watch(time: float, state: Array) -> float:
+        return kink(time, state)
+
+    watch.terminal = True  # type: ignore[attr-defined]
+    solution = integrate(until, events=watch) if t < until else None
+    return (float(solution.t[-1]), solution.y[:, -1]) if solution else (t, y)
 
 
 def many_digits(rates: Callable[[Any, list[Any]], list[Any]], start: Sequence[Any], times: Sequence[float], digits: int = 30, step: float = 0.1) -> list[list[Any]]:

@@ -119,3 +119,58 @@ class FourBar:
         lift = sum(m * self.gravity * v.imag for m, v in zip(self.masses, unit.velocity, strict=True))
         h = self.torque_by_power(unit) - lift
         return (torque - h * rate**2 - lift) / (2 * self.kinetic(unit))
+
+
+@dataclass(frozen=True)
+class CrankSlider:
+    """Uniform crank OB and rod BC, slider C on the x axis to the right of O."""
+
+    r: float
+    l: float
+    masses: tuple[float, float, float]
+    gravity: float = 9.81
+
+    def motion(self, theta: float, rate: float, turning: float) -> Motion:
+        """The rod's angle from r sin θ + l sin β = 0, differentiated once and twice. Third: the slider, which never turns."""
+        beta = -math.asin(self.r * math.sin(theta) / self.l)
+        e1, e2 = cmath.exp(1j * theta), cmath.exp(1j * beta)
+        w2 = -self.r * rate * e1.real / (self.l * e2.real)
+        tip = self.r * (1j * turning - rate**2) * e1
+        a2 = (self.l * w2**2 * e2.imag - tip.imag) / (self.l * e2.real)
+        b, vb = self.r * e1, self.r * 1j * rate * e1
+        arm, v_arm, a_arm = self.l * e2, self.l * 1j * w2 * e2, self.l * (1j * a2 - w2**2) * e2
+        return Motion(
+            angle=(theta, beta, 0.0),
+            rate=(rate, w2, 0.0),
+            turning=(turning, a2, 0.0),
+            centre=(b / 2, b + arm / 2, b + arm),
+            velocity=(vb / 2, vb + v_arm / 2, vb + v_arm),
+            acceleration=(tip / 2, tip + a_arm / 2, tip + a_arm),
+        )
+
+    def forces(self, motion: Motion) -> tuple[float, complex, complex, complex, float]:
+        """T, the forces at O (on the crank), B (on the rod), C (on the slider), and the guide's on the slider.
+
+        The slider along x gives the force at C along x; the rod about B that along y; the rest follows backwards.
+        """
+        need = [m * (a + 1j * self.gravity) for m, a in zip(self.masses, motion.acceleration, strict=True)]
+        b, arm = 2 * motion.centre[0], motion.centre[2] - 2 * motion.centre[0]
+        along = need[2].real
+        moment = cross(arm / 2, need[1]) + self.masses[1] * self.l**2 / 12 * motion.turning[1]
+        at_c = complex(along, (arm.imag * along - moment) / arm.real)
+        at_b = need[1] + at_c
+        torque = cross(b / 2, need[0]) + self.masses[0] * self.r**2 / 12 * motion.turning[0] + cross(b, at_b)
+        return torque, need[0] + at_b, at_b, at_c, need[2].imag - at_c.imag
+
+    def kinetic(self, motion: Motion) -> float:
+        """Kinetic energy."""
+        inertias = (self.masses[0] * self.r**2 / 12, self.masses[1] * self.l**2 / 12, 0.0)
+        rows = zip(self.masses, inertias, motion.velocity, motion.rate, strict=True)
+        return sum(m * abs(v) ** 2 / 2 + i * w**2 / 2 for m, i, v, w in rows)
+
+    def free(self, theta: float, rate: float) -> float:
+        """θ̈ with no torque: T = J θ̈ + h θ̇² + V′ of θ, read off at two motions."""
+        unit = self.motion(theta, 1.0, 0.0)
+        lift = sum(m * self.gravity * v.imag for m, v in zip(self.masses, unit.velocity, strict=True))
+        h = self.forces(unit)[0] - lift
+        return (-h * rate**2 - lift) / (2 * self.kinetic(unit))
