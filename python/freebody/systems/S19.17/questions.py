@@ -27,7 +27,7 @@ def exit_of(torque, r=0.1, spin=0.0):
 def shot(case, torque=1.0, r=0.1, spin=0.0):
     """The run and its exit."""
     run = case.run(parameters={"T": torque}, initial={"theta": 0, "R": r, "rates": {"theta": spin, "R": 0}})
-    return run, run.t[-1]
+    return run, next(event.t for event in run.events if event.name == "leaves")
 
 
 @ask("R(t) and θ(t) for 0–1 s, and the polar path R(θ)")
