@@ -73,8 +73,8 @@ def _advance(rates: Rates, t: float, y: Array, until: float, kink: Callable[[flo
     return (float(solution.t[-1]), solution.y[:, -1]) if solution else (t, y)
 
 
-def many_digits(rates: Callable[[Any, list[Any]], list[Any]], start: Sequence[Any], times: Sequence[float], digits: int = 30, step: float = 0.1) -> list[list[Any]]:
-    """States at the times in ``digits`` decimal digits: Gragg's midpoint rule, extrapolated to order 20.
+def many_digits(rates: Callable[[Any, list[Any]], list[Any]], start: Sequence[Any], times: Sequence[float], digits: int = 30, step: float = 0.1, order: int = 10) -> list[list[Any]]:
+    """States at the times in ``digits`` decimal digits: Gragg's midpoint rule, extrapolated ``order`` times.
 
     Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.9. The state is a list of mpmath numbers.
     """
@@ -86,13 +86,13 @@ def many_digits(rates: Callable[[Any, list[Any]], list[Any]], start: Sequence[An
             span = mpmath.mpf(until) - t
             count = max(1, int(mpmath.ceil(span / step)))
             for _ in range(count if span else 0):
-                y = _extrapolate(rates, t, y, span / count)
+                y = _extrapolate(rates, t, y, span / count, order)
                 t += span / count
             states.append(list(y))
         return states
 
 
-def _extrapolate(rates: Callable[[Any, list[Any]], list[Any]], t: Any, y: list[Any], step: Any, order: int = 10) -> list[Any]:
+def _extrapolate(rates: Callable[[Any, list[Any]], list[Any]], t: Any, y: list[Any], step: Any, order: int) -> list[Any]:
     from mpmath import mpf
 
     table: list[list[Any]] = []

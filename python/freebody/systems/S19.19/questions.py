@@ -62,21 +62,26 @@ def hundred_seconds(case):
 
 @ask("is the spin captured by the resonance? windows up to 400 s")
 def capture(case):
-    """Captured, the mean spin of a window would stay at √(k/(M+m)); free, it would grow as T t/(m ε²)."""
-    run, edges = case.run(until=400), np.arange(0.0, 401, 50)
-    times = np.arange(0.25, 400.1, 0.25)
+    """Captured, the mean spin of a window stays near √(k/(M + m)); free, it would grow as T t/(m ε²).
+
+    The capture ends near 250 s, and from there errors grow by a factor e in some 6 s: SciPy's own figures at two
+    tolerances part before 350 s. What is sure in any window is the energy that the torque has put in, T times the
+    angle turned.
+    """
+    run, edges = case.run(until=400, rtol=1e-13), np.arange(0.0, 401, 50)
+    times = np.arange(0.25, 250.1, 0.25)
     check = motion(rates(), [0, 0, 0, 0], times)
-    angle = np.append(0.0, check[:, 0])[:: 200]
-    turned = run.evaluate("theta", edges)
-    mean = np.diff(turned) / 50
-    yield Answer("mean θ̇ over 0–50, 50–100, … s", mean, "rad/s", np.diff(angle) / 50, SCIPY, 1e-6)
-    yield Answer("the same over √(k/(M+m))", mean / NATURAL, "", np.diff(angle) / 50 / NATURAL, SCIPY, 1e-6)
-    bolted = TORQUE / LOAD * (edges[:-1] + edges[1:]) / 2
-    yield Answer("the same over the spin of a bolted motor", mean / bolted, "", np.diff(angle) / 50 / bolted, SCIPY, 1e-6)
+    true = np.diff(np.append(0.0, check[199::200, 0])) / 50
+    mean = np.diff(run.evaluate("theta", edges)) / 50
+    yield Answer("mean θ̇ over 0–50, … 200–250 s", mean[:5], "rad/s", true, SCIPY, 1e-7)
+    yield Answer("the same over √(k/(M+m))", mean[:5] / NATURAL, "", true / NATURAL, SCIPY, 1e-7)
+    bolted = TORQUE / LOAD * (edges[:5] + 25)
+    yield Answer("the same over the spin of a bolted motor", mean[:5] / bolted, "", true / bolted, SCIPY, 1e-7)
     places = run.evaluate("x", times)
-    value = [np.abs(places[i : i + 200]).max() for i in range(0, 1600, 200)]
-    other = [np.abs(check[i : i + 200, 1]).max() for i in range(0, 1600, 200)]
-    yield Answer("greatest |x| at quarters of a second over 0–50, 50–100, … s", value, "m", other, SCIPY, 1e-6)
+    value, other = ([np.abs(x[i : i + 200]).max() for i in range(0, 1000, 200)] for x in (places, check[:, 1]))
+    yield Answer("greatest |x| at quarters of a second over 0–50, … 200–250 s", value, "m", other, SCIPY, 1e-7)
+    gained = np.diff(run.evaluate("energy()", edges)) / TORQUE / 50
+    yield Answer("mean θ̇ over 250–300, 300–350, 350–400 s", mean[5:], "rad/s", gained[5:], "conservation: energy gained over T", 1e-7)
 
 
 @ask("shorter arms")
