@@ -13,7 +13,12 @@ from freebody.catalogue import Answer, Asked, Question, ask
 def test_every_answer_agrees(identity):
     asked = list(catalogue.run(catalogue.find(identity)))
     wrong = [f"{q.label}: {q.failure}" for q in asked if q.failure]
-    wrong += [f"{q.label}: {a.label}: {a.value} {a.unit} against {a.check}, {a.digits:.1f} digits" for q in asked for a in q.answers if not a.ok]
+    wrong += [
+        f"{q.label}: {a.label}: {a.value} {a.unit} against {a.check}, {a.digits:.1f} digits"
+        for q in asked
+        for a in q.answers
+        if not a.ok
+    ]
     assert not wrong, "\n".join(wrong)
     assert all(q.answers for q in asked if q.label != "energy ledger"), "a question without an answer"
 
@@ -46,7 +51,9 @@ def test_a_failure_does_not_hide_what_came_before_it():
 
 
 def test_json_has_what_a_script_needs():
-    rows = json.loads(catalogue.to_json({"X": [Asked("q", [Answer("a", [1.0, 2.0], "m", [1.0, 2.0], "closed form")], "stopped")]}))
+    rows = json.loads(
+        catalogue.to_json({"X": [Asked("q", [Answer("a", [1.0, 2.0], "m", [1.0, 2.0], "closed form")], "stopped")]})
+    )
     assert rows[0] == {
         "system": "X", "question": "q", "label": "a", "value": [1.0, 2.0], "unit": "m", "check": [1.0, 2.0],
         "against": "closed form", "digits": 16.0, "tolerance": 1e-10, "ok": True,

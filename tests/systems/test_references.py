@@ -74,5 +74,8 @@ def test_car_by_hand():
     rod = engine.rod[1].real * turning + engine.rod[2].real * rate**2
     assert q.forces(theta, rate, turning)["road"] == pytest.approx(q.WHOLE * q.KAPPA * turning + q.ROD * rod + 150, rel=1e-10)
     step = 1e-5
-    slopes = [(getattr(q.Engine(theta + step), n)[0] - getattr(q.Engine(theta - step), n)[0]) / 2 / step for n in ("psi", "piston", "rod")]
+    slopes = [
+        (getattr(q.Engine(theta + step), n)[0] - getattr(q.Engine(theta - step), n)[0]) / 2 / step
+        for n in ("psi", "piston", "rod")
+    ]
     assert slopes == pytest.approx([engine.psi[1], engine.piston[1], engine.rod[1]], rel=1e-8)

@@ -35,22 +35,20 @@ class Case:
         return self._mechanisms[name]
 
     def run(self, file: str = "model.yaml", parameters: Mapping[str, Any] | None = None, **settings: Any) -> Run:
-        """A motion; ``settings`` are those of :func:`freebody.run.simulate`."""
-        from freebody.run import simulate
-
+        """A motion; ``settings`` are those of ``Mechanism.simulate``, ``initial`` among them."""
         name = _name(file, parameters, settings)
         if name not in self.runs:
             mechanism = self.mechanism(file, **(parameters or {}))
-            self.runs[name] = simulate(mechanism, **{"rtol": RTOL, **settings})
+            self.runs[name] = mechanism.simulate(**{"rtol": RTOL, **settings})
         return self.runs[name]
 
     def instant(self, file: str = "model.yaml", parameters: Mapping[str, Any] | None = None, **state: Any) -> Instant:
         """One instant; ``state`` says what differs from the model's initial state, in the same words."""
-        from freebody.run import solve
-
+        if "rates" in state:
+            state.setdefault("at_rest", False)
         name = _name(file, parameters, state)
         if name not in self.instants:
-            self.instants[name] = solve(self.mechanism(file, **(parameters or {})), **state)
+            self.instants[name] = self.mechanism(file, **(parameters or {})).solve(**state)
         return self.instants[name]
 
 

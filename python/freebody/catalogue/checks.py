@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.catalogue.answers import Answer, Question
 from freebody.catalogue.case import Case
+
+if TYPE_CHECKING:
+    from freebody.instant import Instant
 
 ROUTES = ("minimal", "newton_euler", "constraints")
 STATES_OF_A_RUN = 4
@@ -27,10 +31,10 @@ def _routes(case: Case) -> Iterator[Answer]:
 
     if not case.runs and not case.instants:
         case.instant()
-    for name, instants in _states(case):
+    for name, core, states in _states(case):
         accelerations, reactions, residuals = [0.0], [0.0], [0.0]
-        for instant in instants:
-            one, *others = (Instant(instant.core, instant.state, route) for route in ROUTES)
+        for state in states:
+            one, *others = (Instant(core, state, route) for route in ROUTES)
             residuals += [one.residual, *(other.residual for other in others)]
             for other in others:
                 accelerations.append(_apart(_accelerations(one), _accelerations(other)))
@@ -51,19 +55,23 @@ def _ledgers(case: Case) -> Iterator[Answer]:
         yield Answer(f"{name}: left over", left, "", 0.0, "conservation: energy stored − work done", 1e-9, 1.0)
 
 
-def _states(case: Case):
+def _states(case: Case) -> Iterator[tuple[str, Any, list[Any]]]:
+    """Every instant that was asked for, and a few of every run."""
+    from freebody.instant import State
+
     for name, instant in case.instants.items():
-        yield name, [instant]
+        yield name, instant.core, [instant.state]
     for name, run in case.runs.items():
-        start, end = run.t[0], run.t[-1]
-        yield name, [run.instant(t) for t in np.linspace(start, end, STATES_OF_A_RUN)]
+        times = np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)
+        rows = zip(times, *run.motion.sample(times), strict=True)
+        yield name, run.source.core, [State(run.start.p, float(t), q, u) for t, q, u in rows]
 
 
-def _accelerations(instant) -> np.ndarray:
+def _accelerations(instant: Instant) -> np.ndarray:
     return np.array(list(instant.accelerations.values()))
 
 
-def _determined(one, other) -> tuple[np.ndarray, np.ndarray]:
+def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
     pairs = [(one.reactions[name], other.reactions[name]) for name in one.reactions]
     known = [a.determined & b.determined for a, b in pairs]
     left = [a.values[k] for (a, _), k in zip(pairs, known, strict=True)]

@@ -12,7 +12,9 @@ Array = NDArray[np.float64]
 Rates = Callable[[float, Array], Sequence[float]]
 
 
-def motion(rates: Rates, start: Sequence[float], times: Sequence[float], kink: Callable[[float, Array], float] | None = None) -> Array:
+def motion(
+    rates: Rates, start: Sequence[float], times: Sequence[float], kink: Callable[[float, Array], float] | None = None
+) -> Array:
     """States (nt, n) at the times from t = 0, by SciPy's DOP853 at rtol 1e-13.
 
     Steps end on the times, and where ``kink`` changes sign; nothing is interpolated.
@@ -50,7 +52,9 @@ def event(rates: Rates, start: Sequence[float], when: Callable[[float, Array], f
     return _advance(rates, base, anchor, t)
 
 
-def _advance(rates: Rates, t: float, y: Array, until: float, kink: Callable[[float, Array], float] | None = None) -> tuple[float, Array]:
+def _advance(
+    rates: Rates, t: float, y: Array, until: float, kink: Callable[[float, Array], float] | None = None
+) -> tuple[float, Array]:
     """Time and state at ``until``, or at the next kink if that comes first."""
     from scipy.integrate import solve_ivp
 
@@ -73,7 +77,14 @@ def _advance(rates: Rates, t: float, y: Array, until: float, kink: Callable[[flo
     return (float(solution.t[-1]), solution.y[:, -1]) if solution else (t, y)
 
 
-def many_digits(rates: Callable[[Any, list[Any]], list[Any]], start: Sequence[Any], times: Sequence[float], digits: int = 30, step: float = 0.1, order: int = 10) -> list[list[Any]]:
+def many_digits(
+    rates: Callable[[Any, list[Any]], list[Any]],
+    start: Sequence[Any],
+    times: Sequence[float],
+    digits: int = 30,
+    step: float = 0.1,
+    order: int = 10,
+) -> list[list[Any]]:
     """States at the times in ``digits`` decimal digits: Gragg's midpoint rule, extrapolated ``order`` times.
 
     Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.9. The state is a list of mpmath numbers.

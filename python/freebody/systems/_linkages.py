@@ -100,7 +100,15 @@ class FourBar:
     def torque_by_power(self, motion: Motion) -> float:
         """T from the power that the motion takes."""
         power = 0.0
-        for m, length, w, t, v, a in zip(self.masses, (self.l1, self.l2, self.l3), motion.rate, motion.turning, motion.velocity, motion.acceleration, strict=True):
+        for m, length, w, t, v, a in zip(
+            self.masses,
+            (self.l1, self.l2, self.l3),
+            motion.rate,
+            motion.turning,
+            motion.velocity,
+            motion.acceleration,
+            strict=True,
+        ):
             power += m * dot(a + 1j * self.gravity, v) + m * length**2 / 12 * t * w
         return power / motion.rate[0]
 

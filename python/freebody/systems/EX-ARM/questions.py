@@ -52,9 +52,18 @@ def instant(case, state, gravity=DOWN):
     parameters = {"Ms": state[4], "Me": state[5], "gx": gravity[0], "gy": gravity[1]}
     now = case.instant(parameters=parameters, theta1=q[0], theta2=q[1], rates={"theta1": u[0], "theta2": u[1]})
     check = accelerations(q, u, *state[4:], gravity)
-    yield Answer("θ̈1, θ̈2", [now["accel(theta1)"], now["accel(theta2)"]], "rad/s²", check, "closed form: moments about O and E", 1e-12)
+    yield Answer(
+        "θ̈1, θ̈2", [now["accel(theta1)"], now["accel(theta2)"]], "rad/s²", check, "closed form: moments about O and E", 1e-12
+    )
     check = np.concatenate(hinge_forces(q, u, check, gravity))
-    yield Answer("forces at O (on the upper arm) and E (on the forearm), x and y", forces(now), "N", check, "closed form: momentum of the links beyond", 1e-12)
+    yield Answer(
+        "forces at O (on the upper arm) and E (on the forearm), x and y",
+        forces(now),
+        "N",
+        check,
+        "closed form: momentum of the links beyond",
+        1e-12,
+    )
 
 
 @ask("just released, θ1 = 30°, θ2 = −20°")
@@ -83,7 +92,14 @@ def driven(case):
     start = np.radians([-90, -60])
     check = motion(lambda t, y: [*y[2:], *accelerations(y[:2], y[2:], 1, 0.5)], [*start, 0, 0], times)
     for i, name in enumerate(("theta1", "theta2")):
-        yield Answer(f"{name} at 0.5, 1, 1.5, 2 s", run.evaluate(name, times), "rad", check[:, i], "other route: moments about O and E, integrated by SciPy", 1e-10)
+        yield Answer(
+            f"{name} at 0.5, 1, 1.5, 2 s",
+            run.evaluate(name, times),
+            "rad",
+            check[:, i],
+            "other route: moments about O and E, integrated by SciPy",
+            1e-10,
+        )
     turned = check[:, :2] - start
     work = 1.0 * turned[:, 0] + 0.5 * (turned[:, 1] - turned[:, 0])
     done = run.evaluate("'shoulder motor'.work", times) + run.evaluate("'elbow motor'.work", times)

@@ -41,9 +41,18 @@ def forces(y, shares):
 def instants(case):
     for y in PLACES:
         now = case.instant(y=y)
-        yield Answer(f"ẍ, ÿ at y = {y}", [now["accel(x)"], now["accel(y)"]], "m/s²", accelerations(), "closed form: two balances without reactions", 1e-13)
+        yield Answer(
+            f"ẍ, ÿ at y = {y}",
+            [now["accel(x)"], now["accel(y)"]],
+            "m/s²",
+            accelerations(),
+            "closed form: two balances without reactions",
+            1e-13,
+        )
         values = [now[text] for text in (*A_AND_B, *C_AND_D)]
-        yield Answer(f"F_A, F_B, F_C, F_D at y = {y}", values, "N", forces(y, (0.4, 0.6)), "closed form: one balance after another", 1e-12)
+        yield Answer(
+            f"F_A, F_B, F_C, F_D at y = {y}", values, "N", forces(y, (0.4, 0.6)), "closed form: one balance after another", 1e-12
+        )
 
 
 @ask("motion from rest for 0.4 s")
@@ -51,7 +60,14 @@ def motion(case):
     run = case.run()
     times = np.array([0.1, 0.2, 0.3, 0.4])
     for name, acceleration in zip("xy", accelerations(), strict=True):
-        yield Answer(f"{name} at 0.1, 0.2, 0.3, 0.4 s", run.evaluate(name, times), "m", acceleration * times**2 / 2, "closed form: constant acceleration", 1e-12)
+        yield Answer(
+            f"{name} at 0.1, 0.2, 0.3, 0.4 s",
+            run.evaluate(name, times),
+            "m",
+            acceleration * times**2 / 2,
+            "closed form: constant acceleration",
+            1e-12,
+        )
     whole = run.evaluate("momentum_x()", times)
     yield Answer("momentum of both along x", whole, "N·s", 0 * times, "conservation: no force along x", 1e-12, scale=M1)
 
@@ -61,7 +77,14 @@ def rollers_below(case):
     """Then C and D stay where they are and G2 moves over them: (0.15 − y) F_C = (0.10 + y) F_D."""
     for y in PLACES:
         now = case.instant("rollers_on_lower.yaml", y=y)
-        yield Answer(f"ẍ, ÿ at y = {y}", [now["accel(x)"], now["accel(y)"]], "m/s²", accelerations(), "closed form: two balances without reactions", 1e-13)
+        yield Answer(
+            f"ẍ, ÿ at y = {y}",
+            [now["accel(x)"], now["accel(y)"]],
+            "m/s²",
+            accelerations(),
+            "closed form: two balances without reactions",
+            1e-13,
+        )
         # The reaction is on the second body, here the lower block; across the bottom of the upper one it points down.
         values = [now[text] for text in (*A_AND_B, "-rollers.Fn + rollers.M/0.25", "-rollers.M/0.25")]
         check = forces(y, ((0.1 + y) / 0.25, (0.15 - y) / 0.25))

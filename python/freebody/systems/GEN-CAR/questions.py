@@ -63,7 +63,11 @@ class Engine:
 
     def h(self):
         """Of the engine in its frame; and what the car's motion adds."""
-        own = PISTON * dot(self.piston[1], self.piston[2]) + ROD * dot(self.rod[1], self.rod[2]) + ROD_INERTIA * self.psi[1] * self.psi[2]
+        own = (
+            PISTON * dot(self.piston[1], self.piston[2])
+            + ROD * dot(self.rod[1], self.rod[2])
+            + ROD_INERTIA * self.psi[1] * self.psi[2]
+        )
         return own, own + KAPPA * ROD * self.rod[2].real
 
     def force(self):
@@ -113,9 +117,23 @@ def parts(case):
         turning = acceleration(theta, rate)
         piston = engine.piston[1] * turning + engine.piston[2] * rate**2
         yield Answer(f"height of the piston at {degrees}°", now["h"], "m", engine.piston[0].imag, "closed form: triangle", 1e-13)
-        yield Answer(f"its speed and acceleration at {degrees}°", [now["rate(h)"], now["accel(h)"]], "", [engine.piston[1].imag * rate, piston.imag], "closed form: triangle, differentiated", 1e-12)
+        yield Answer(
+            f"its speed and acceleration at {degrees}°",
+            [now["rate(h)"], now["accel(h)"]],
+            "",
+            [engine.piston[1].imag * rate, piston.imag],
+            "closed form: triangle, differentiated",
+            1e-12,
+        )
         spins = [now[f"omega({body})"] for body in ("rod", "crank", "shaft", "wheel")]
-        yield Answer(f"spin of rod, crank, shaft, wheel at {degrees}°", spins, "rad/s", [engine.psi[1] * rate, -rate, rate / 3, -rate / 12], "closed form: triangle, gear ratios", 1e-12)
+        yield Answer(
+            f"spin of rod, crank, shaft, wheel at {degrees}°",
+            spins,
+            "rad/s",
+            [engine.psi[1] * rate, -rate, rate / 3, -rate / 12],
+            "closed form: triangle, gear ratios",
+            1e-12,
+        )
 
 
 @ask("inertia felt at the crank, and the equation of motion")
@@ -124,8 +142,17 @@ def equation(case):
     for degrees in (10, 75, 140, 250):
         theta = math.radians(degrees)
         now = case.instant(thc=theta)
-        yield Answer(f"J at {degrees}°", 2 * now["kinetic()"] / 80**2, "kg·m²", Engine(theta).inertia()[1], "closed form: sum over the parts", 1e-12)
-        yield Answer(f"θ̈ at {degrees}°", now["accel(thc)"], "rad/s²", acceleration(theta, 80.0), "closed form: power balance", 1e-11)
+        yield Answer(
+            f"J at {degrees}°",
+            2 * now["kinetic()"] / 80**2,
+            "kg·m²",
+            Engine(theta).inertia()[1],
+            "closed form: sum over the parts",
+            1e-12,
+        )
+        yield Answer(
+            f"θ̈ at {degrees}°", now["accel(thc)"], "rad/s²", acceleration(theta, 80.0), "closed form: power balance", 1e-11
+        )
 
 
 @ask("forces at the start: bearings, piston side, teeth, road")
@@ -133,13 +160,34 @@ def start(case):
     """The road's and the axle's upward force are not determined: the car is held level as well."""
     now, hand = case.instant(), forces(START, 80.0, acceleration(START, 80.0))
     for name in ("small end", "big end", "main", "countershaft"):
-        yield Answer(name, [now[f"'{name}'.Fx"], now[f"'{name}'.Fy"]], "N", [hand[name].real, hand[name].imag], "closed form: one balance after another", 1e-11)
+        yield Answer(
+            name,
+            [now[f"'{name}'.Fx"], now[f"'{name}'.Fy"]],
+            "N",
+            [hand[name].real, hand[name].imag],
+            "closed form: one balance after another",
+            1e-11,
+        )
     yield Answer("car on piston, forward", now["guide.Fx"], "N", hand["guide"], "closed form: one balance after another", 1e-11)
-    yield Answer("tooth forces, first and second pair", [now["'first gear pair'.F"], now["'second gear pair'.F"]], "N", hand["teeth"], "closed form: one balance after another", 1e-11)
+    yield Answer(
+        "tooth forces, first and second pair",
+        [now["'first gear pair'.F"], now["'second gear pair'.F"]],
+        "N",
+        hand["teeth"],
+        "closed form: one balance after another",
+        1e-11,
+    )
     yield Answer("road on wheel, forward", now["road.Fx"], "N", hand["road"], "closed form: one balance after another", 1e-11)
     yield Answer("car on wheel, forward", now["axle.Fx"], "N", hand["axle"], "closed form: one balance after another", 1e-11)
     whole = now["alpha(wheel)"] * -R * WHOLE + 150
-    yield Answer("the same, from the whole", now["road.Fx"], "N", whole + ROD * (now["ax(rod.G)"] - now["ax(car.origin)"]), "closed form: momentum of the whole", 1e-11)
+    yield Answer(
+        "the same, from the whole",
+        now["road.Fx"],
+        "N",
+        whole + ROD * (now["ax(rod.G)"] - now["ax(car.origin)"]),
+        "closed form: momentum of the whole",
+        1e-11,
+    )
 
 
 @ask("1 s of motion")
@@ -150,7 +198,14 @@ def drive(case):
     yield Answer("θ at 0.1, 0.2, 0.5, 1 s", run.evaluate("thc", TIMES), "rad", check[:, 0], against, 1e-10)
     yield Answer("θ̇", run.evaluate("rate(thc)", TIMES), "rad/s", check[:, 1], against, 1e-10)
     yield Answer("speed of the car", run.evaluate("rate(x)", TIMES), "m/s", KAPPA * check[:, 1], against, 1e-10)
-    yield Answer("work of the resistance", run.evaluate("resistance.work", TIMES), "J", -150 * KAPPA * (check[:, 0] - START), against, 1e-10)
+    yield Answer(
+        "work of the resistance",
+        run.evaluate("resistance.work", TIMES),
+        "J",
+        -150 * KAPPA * (check[:, 0] - START),
+        against,
+        1e-10,
+    )
 
 
 @ask("variant: elastic driveshaft of 400 N·m/rad, two degrees of freedom")
@@ -172,5 +227,12 @@ def elastic(case):
     check = motion(rates, [START, 0, 80, 80], TIMES, kink=top_dead_centre)
     against = "other route: Lagrange's equations, integrated by SciPy"
     yield Answer("θ at 0.1, 0.2, 0.5, 1 s", run.evaluate("thc", TIMES), "rad", check[:, 0], against, 1e-10)
-    yield Answer("twist of the driveshaft", run.evaluate("thc - chi", TIMES) - START, "rad", check[:, 0] - check[:, 1] - START, against, 1e-8)
+    yield Answer(
+        "twist of the driveshaft",
+        run.evaluate("thc - chi", TIMES) - START,
+        "rad",
+        check[:, 0] - check[:, 1] - START,
+        against,
+        1e-8,
+    )
     yield Answer("speed of the car", run.evaluate("rate(x)", TIMES), "m/s", KAPPA * check[:, 3], against, 1e-10)

@@ -72,14 +72,29 @@ def fall(case):
             values = [run.evaluate(f"phi[{i}]", until) for i in range(1, n + 1)]
             yield Answer(f"angles after {until:g} s, N = {n}, l = {l:.3g}", values, "rad", check[-1, :n], SCIPY, 1e-9)
             tip = l * np.sin(check[:, :n]).sum(axis=1)
-            yield Answer(f"height of the tip after {until / 2:g} and {until:g} s, N = {n}, l = {l:.3g}", run.evaluate(f"y(link[{n}].end)", times), "m", tip, SCIPY, 1e-9)
+            yield Answer(
+                f"height of the tip after {until / 2:g} and {until:g} s, N = {n}, l = {l:.3g}",
+                run.evaluate(f"y(link[{n}].end)", times),
+                "m",
+                tip,
+                SCIPY,
+                1e-9,
+            )
 
 
 @ask("N = 100 for 10 s")
 def hundred(case):
     run, times = case.run(parameters={"N": 100}, until=10, rtol=1e-9), np.array([2.0, 4.0, 6.0, 8.0, 10.0])
     size = run.evaluate("kinetic()", times).max()
-    yield Answer("energy at 2 … 10 s", run.evaluate("energy()", times), "J", 0 * times, "conservation: all at the height of the pivot at the start", 1e-9, scale=size)
+    yield Answer(
+        "energy at 2 … 10 s",
+        run.evaluate("energy()", times),
+        "J",
+        0 * times,
+        "conservation: all at the height of the pivot at the start",
+        1e-9,
+        scale=size,
+    )
 
 
 def two_bars():
@@ -111,6 +126,15 @@ def unequal(case):
 
     usual, tight = angles(1e-9), angles(1e-13)
     for i in (0, 1):
-        yield Answer(f"φ{i + 1} at 1 … 10 s", tight[:, i], "rad", exact[:, i], "other route: Lagrange's equations in 20 digits", 1e-6)
+        yield Answer(
+            f"φ{i + 1} at 1 … 10 s", tight[:, i], "rad", exact[:, i], "other route: Lagrange's equations in 20 digits", 1e-6
+        )
     own, true = (-np.log10(np.abs(usual - other).max(axis=1) + 1e-17) for other in (tight, exact))
-    yield Answer("decimals that hold at 1 … 10 s at rtol 1e-9, by a tighter run", own, "", true, "other route: Lagrange's equations in 20 digits", 0.05)
+    yield Answer(
+        "decimals that hold at 1 … 10 s at rtol 1e-9, by a tighter run",
+        own,
+        "",
+        true,
+        "other route: Lagrange's equations in 20 digits",
+        0.05,
+    )

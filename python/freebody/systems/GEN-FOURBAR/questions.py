@@ -36,8 +36,22 @@ def over_a_turn(case, side):
             exact = [[float(mp.diff(lambda x: formula(x, side), theta, n)) for theta in ANGLES] for n in range(3)]
             angle = [nearest_turn(now[name], check) for now, check in zip(states, exact[0], strict=True)]
             yield Answer(f"{letter} every 15°", angle, "rad", exact[0], "closed form: two circles meet", 1e-13)
-            yield Answer(f"d{letter}/dθ", [now[f"rate({name})"] for now in states], "", exact[1], "closed form, differentiated in 30 digits", 1e-12)
-            yield Answer(f"d²{letter}/dθ²", [now[f"accel({name})"] for now in states], "", exact[2], "closed form, differentiated in 30 digits", 1e-12)
+            yield Answer(
+                f"d{letter}/dθ",
+                [now[f"rate({name})"] for now in states],
+                "",
+                exact[1],
+                "closed form, differentiated in 30 digits",
+                1e-12,
+            )
+            yield Answer(
+                f"d²{letter}/dθ²",
+                [now[f"accel({name})"] for now in states],
+                "",
+                exact[2],
+                "closed form, differentiated in 30 digits",
+                1e-12,
+            )
 
 
 @ask("β and φ over a turn with two derivatives, C to the left of B→D")

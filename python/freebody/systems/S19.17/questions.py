@@ -7,8 +7,7 @@ the same for every torque. The power T θ̇ makes the energy T θ.
 
 import numpy as np
 
-from freebody.catalogue import Answer, ask
-from freebody.catalogue import reference
+from freebody.catalogue import Answer, ask, reference
 
 M1, M2, L = 1 / 3, 1.0, 1.0
 I1 = M1 * L**2 / 3
@@ -60,7 +59,9 @@ def energy(case):
     run, end = shot(case)
     times = np.append(np.linspace(0.2, 1, 5), end)
     work = 1.0 * run.evaluate("theta", times)
-    yield Answer("kinetic energy at 0.2 … 1 s and at exit", run.evaluate("kinetic()", times), "J", work, "conservation: T θ", 1e-11)
+    yield Answer(
+        "kinetic energy at 0.2 … 1 s and at exit", run.evaluate("kinetic()", times), "J", work, "conservation: T θ", 1e-11
+    )
     yield Answer("work of the motor in the ledger", run.evaluate("motor.work", times), "J", work, "closed form: T θ", 1e-11)
 
 
@@ -69,7 +70,14 @@ def torques(case):
     _, (theta, _, spin, speed) = exit_of(1.0)
     for torque in (0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0):
         run, t = shot(case, torque)
-        yield Answer(f"θ at exit, T = {torque}", run.evaluate("theta", t), "rad", theta, "closed form: that of T = 1, by scaling time", 1e-11)
+        yield Answer(
+            f"θ at exit, T = {torque}",
+            run.evaluate("theta", t),
+            "rad",
+            theta,
+            "closed form: that of T = 1, by scaling time",
+            1e-11,
+        )
         ratio = run.evaluate("rate(R)", t) / run.evaluate("rate(theta)", t)
         yield Answer(f"Ṙ/θ̇ at exit, T = {torque}", ratio, "m", speed / spin, "closed form: that of T = 1, by scaling time", 1e-11)
 
@@ -103,5 +111,19 @@ def flight(case):
     _, (theta, _, spin, speed) = exit_of(1.0)
     along, across = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
     check = L * along + 0.5 * (speed * along + L * spin * across)
-    yield Answer("place of the collar 0.5 s after", [later.evaluate(f"{name}(collar.centre)", 0.5) for name in "xy"], "m", check, "closed form: straight on from SciPy's exit", 1e-11)
-    yield Answer("angle of the rod 0.5 s after", later.evaluate("theta", 0.5), "rad", theta + spin * 0.5 + 0.5**2 / 2 / I1, "closed form: constant torque on the rod alone", 1e-11)
+    yield Answer(
+        "place of the collar 0.5 s after",
+        [later.evaluate(f"{name}(collar.centre)", 0.5) for name in "xy"],
+        "m",
+        check,
+        "closed form: straight on from SciPy's exit",
+        1e-11,
+    )
+    yield Answer(
+        "angle of the rod 0.5 s after",
+        later.evaluate("theta", 0.5),
+        "rad",
+        theta + spin * 0.5 + 0.5**2 / 2 / I1,
+        "closed form: constant torque on the rod alone",
+        1e-11,
+    )

@@ -45,9 +45,25 @@ def instants(case):
     for spin in (0, 3):
         now = case.instant(theta=0.6, rates={"theta": spin, "s": 0})
         values = [now["accel(s)"], now["accel(theta)"]]
-        yield Answer(f"s̈, θ̈ at θ̇ = {spin}", values, "m/s², rad/s²", accelerations(0.6, spin, **MAIN), "closed form: equation for θ̈ alone", 1e-12)
-        yield Answer(f"s̈, θ̈ at θ̇ = {spin}", values, "m/s², rad/s²", coupled(0.6, spin, **MAIN), "closed form: coupled pair", 1e-12)
-        yield Answer(f"slope on cart, tension, at θ̇ = {spin}", [now["wheels.Fn"], now["rod.tension"]], "N", forces(0.6, spin, **MAIN), "closed form: balances along n and along the rod", 1e-12)
+        yield Answer(
+            f"s̈, θ̈ at θ̇ = {spin}",
+            values,
+            "m/s², rad/s²",
+            accelerations(0.6, spin, **MAIN),
+            "closed form: equation for θ̈ alone",
+            1e-12,
+        )
+        yield Answer(
+            f"s̈, θ̈ at θ̇ = {spin}", values, "m/s², rad/s²", coupled(0.6, spin, **MAIN), "closed form: coupled pair", 1e-12
+        )
+        yield Answer(
+            f"slope on cart, tension, at θ̇ = {spin}",
+            [now["wheels.Fn"], now["rod.tension"]],
+            "N",
+            forces(0.6, spin, **MAIN),
+            "closed form: balances along n and along the rod",
+            1e-12,
+        )
 
 
 @ask("motion for 5 s, three sets of figures")
@@ -63,7 +79,14 @@ def motions(case):
         yield Answer(f"θ at 1 … 5 s, {name}", run.evaluate("theta", times), "rad", check[:, 1], SCIPY, 1e-10)
         slide = run.evaluate("momentum_x()*cos(slope) - momentum_y()*sin(slope)", times)
         start = m * l * spin * np.cos(theta)
-        yield Answer(f"momentum along the slope, {name}", slide, "N·s", start + (M + m) * G * np.sin(np.radians(slope)) * times, "conservation: only weight acts along the slope", 1e-11)
+        yield Answer(
+            f"momentum along the slope, {name}",
+            slide,
+            "N·s",
+            start + (M + m) * G * np.sin(np.radians(slope)) * times,
+            "conservation: only weight acts along the slope",
+            1e-11,
+        )
 
 
 @ask("limit: level ground, cart of a billion tonnes")
@@ -75,7 +98,21 @@ def limit(case):
 @ask("rod as a massless body instead of a link")
 def as_body(case):
     now = case.instant("rod_as_body.yaml", theta=0.6, rates={"theta": 3, "s": 0})
-    yield Answer("s̈, θ̈", [now["accel(s)"], now["accel(theta)"]], "m/s², rad/s²", accelerations(0.6, 3, **MAIN), "closed form: equation for θ̈ alone", 1e-12)
+    yield Answer(
+        "s̈, θ̈",
+        [now["accel(s)"], now["accel(theta)"]],
+        "m/s², rad/s²",
+        accelerations(0.6, 3, **MAIN),
+        "closed form: equation for θ̈ alone",
+        1e-12,
+    )
     yield Answer("force in the rod", now["end.F"], "N", forces(0.6, 3, **MAIN)[1], "closed form: balance along the rod", 1e-12)
     run, times = case.run("rod_as_body.yaml"), np.array([1.0, 3.0, 5.0])
-    yield Answer("θ at 1, 3, 5 s", run.evaluate("theta", times), "rad", case.run().evaluate("theta", times), "other route: rod as a link", 1e-10)
+    yield Answer(
+        "θ at 1, 3, 5 s",
+        run.evaluate("theta", times),
+        "rad",
+        case.run().evaluate("theta", times),
+        "other route: rod as a link",
+        1e-10,
+    )

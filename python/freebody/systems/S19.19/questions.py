@@ -81,7 +81,9 @@ def capture(case):
     value, other = ([np.abs(x[i : i + 200]).max() for i in range(0, 1000, 200)] for x in (places, check[:, 1]))
     yield Answer("greatest |x| at quarters of a second over 0–50, … 200–250 s", value, "m", other, SCIPY, 1e-7)
     gained = np.diff(run.evaluate("energy()", edges)) / TORQUE / 50
-    yield Answer("mean θ̇ over 250–300, 300–350, 350–400 s", mean[5:], "rad/s", gained[5:], "conservation: energy gained over T", 1e-7)
+    yield Answer(
+        "mean θ̇ over 250–300, 300–350, 350–400 s", mean[5:], "rad/s", gained[5:], "conservation: energy gained over T", 1e-7
+    )
 
 
 @ask("shorter arms")

@@ -45,9 +45,13 @@ def force(case):
     coriolis = 2 * now["omega(rod)"] * left(relative_velocity)
     yield Answer("acceleration of the rod's point under P", carried, "m/s²", -(W1**2) * P, "closed form: −ω1² r_P", 1e-13)
     yield Answer("Coriolis acceleration", coriolis, "m/s²", 2 * W1 * W2 * AP, "closed form: 2 ω1 k × v_rel", 1e-13)
-    yield Answer("acceleration relative to the rod", whole - carried - coriolis, "m/s²", -(W2**2) * AP, "closed form: −ω2² r_P/A", 1e-12)
+    yield Answer(
+        "acceleration relative to the rod", whole - carried - coriolis, "m/s²", -(W2**2) * AP, "closed form: −ω2² r_P/A", 1e-12
+    )
     yield Answer("acceleration of P", whole, "m/s²", ACCELERATION, "closed form: place differentiated twice", 1e-13)
-    yield Answer("net force on P", pair(now, "rim.F{}"), "N", MASS * ACCELERATION, "closed form: place differentiated twice", 1e-13)
+    yield Answer(
+        "net force on P", pair(now, "rim.F{}"), "N", MASS * ACCELERATION, "closed form: place differentiated twice", 1e-13
+    )
 
 
 @ask("what the two drives give")
@@ -55,12 +59,24 @@ def drives(case):
     """Moments of the net force on P about O and, against the wheel's clockwise angle, about A."""
     now, f = case.instant(), MASS * ACCELERATION
     check = [P[0] * f[1] - P[1] * f[0], -(AP[0] * f[1] - AP[1] * f[0])]
-    yield Answer("torque of rod drive, wheel drive", [now["'rod drive'.force"], now["'wheel drive'.force"]], "N·m", check, "closed form: moments of m a", 1e-12, scale=1)
+    yield Answer(
+        "torque of rod drive, wheel drive",
+        [now["'rod drive'.force"], now["'wheel drive'.force"]],
+        "N·m",
+        check,
+        "closed form: moments of m a",
+        1e-12,
+        scale=1,
+    )
 
 
 @ask("the path for 2 s")
 def path(case):
     run, times = case.run(), np.array([0.5, 1.0, 1.5, 2.0])
     theta, psi = START + W1 * times, -START + (W1 - W2) * times
-    yield Answer("x of P", run.evaluate("x(wheel.P)", times), "m", L * np.cos(theta) + R * np.cos(psi), "closed form", 1e-13, scale=L)
-    yield Answer("y of P", run.evaluate("y(wheel.P)", times), "m", L * np.sin(theta) + R * np.sin(psi), "closed form", 1e-13, scale=L)
+    yield Answer(
+        "x of P", run.evaluate("x(wheel.P)", times), "m", L * np.cos(theta) + R * np.cos(psi), "closed form", 1e-13, scale=L
+    )
+    yield Answer(
+        "y of P", run.evaluate("y(wheel.P)", times), "m", L * np.sin(theta) + R * np.sin(psi), "closed form", 1e-13, scale=L
+    )

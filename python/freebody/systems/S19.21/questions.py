@@ -28,8 +28,22 @@ def kinematics(case):
         now, _, hand = given(case, name)
         angles = [nearest_turn(now[x], hand.angle[i]) for i, x in ((1, "beta"), (2, "phi"))]
         yield Answer(f"β, φ, {name}", angles, "rad", hand.angle[1:], "closed form: two circles meet at C", 1e-13)
-        yield Answer(f"β̇, φ̇, {name}", [now["rate(beta)"], now["rate(phi)"]], "rad/s", hand.rate[1:], "closed form: loop differentiated", 1e-12)
-        yield Answer(f"β̈, φ̈, {name}", [now["accel(beta)"], now["accel(phi)"]], "rad/s²", hand.turning[1:], "closed form: loop differentiated twice", 1e-12)
+        yield Answer(
+            f"β̇, φ̇, {name}",
+            [now["rate(beta)"], now["rate(phi)"]],
+            "rad/s",
+            hand.rate[1:],
+            "closed form: loop differentiated",
+            1e-12,
+        )
+        yield Answer(
+            f"β̈, φ̈, {name}",
+            [now["accel(beta)"], now["accel(phi)"]],
+            "rad/s²",
+            hand.turning[1:],
+            "closed form: loop differentiated twice",
+            1e-12,
+        )
 
 
 @ask("torque, and the forces at the four hinges")
@@ -38,11 +52,25 @@ def forces(case):
         now, bars, hand = given(case, name)
         torque, *pins = bars.forces(hand)
         yield Answer(f"T, {name}", now["drive.force"], "N·m", torque, "closed form: three balances of angular momentum", 1e-12)
-        yield Answer(f"T, {name}", now["drive.power"] / hand.rate[0], "N·m", bars.torque_by_power(hand), "closed form: virtual power", 1e-12)
+        yield Answer(
+            f"T, {name}",
+            now["drive.power"] / hand.rate[0],
+            "N·m",
+            bars.torque_by_power(hand),
+            "closed form: virtual power",
+            1e-12,
+        )
         # C is the reaction on BC, its second body.
         for pin, force in zip("ABCD", pins, strict=True):
             on = {"A": "AB", "B": "BC", "C": "BC", "D": "DC"}[pin]
-            yield Answer(f"force at {pin} on {on}, {name}", [now[f"{pin}.Fx"], now[f"{pin}.Fy"]], "N", [force.real, force.imag], "closed form: balances, bar by bar", 1e-11)
+            yield Answer(
+                f"force at {pin} on {on}, {name}",
+                [now[f"{pin}.Fx"], now[f"{pin}.Fy"]],
+                "N",
+                [force.real, force.imag],
+                "closed form: balances, bar by bar",
+                1e-11,
+            )
 
 
 @ask("that torque put into forward dynamics; no torque")
