@@ -47,7 +47,7 @@ def test_four_bar_by_hand(side):
     """Moments of AB about its centre and virtual power were not used for the forces."""
     bars = FourBar(0.3, 0.7, 0.6, 0.8, (0.8, 1.5, 1.1), side, 9.81)
     m = bars.motion(2.6, -3.0, 5.0)
-    torque, a, b, c, d = bars.forces(m)
+    torque, a, b, _, d = bars.forces(m)
     assert torque == pytest.approx(bars.torque_by_power(m), rel=1e-12)
     tip = bars.l1 * cmath.exp(2.6j)
     assert torque - cross(tip / 2, a) - cross(tip / 2, b) == pytest.approx(0.8 * 0.3**2 / 12 * 5.0, rel=1e-10)

@@ -69,4 +69,8 @@ def _digits(answer: Answer) -> str:
 
 
 def _source(answer: Answer) -> str:
-    return answer.against if answer.ok else f"{answer.against}: {figures(answer.check)}"
+    if answer.ok:
+        return answer.against
+    value, check = np.broadcast_arrays(np.ravel(answer.value).astype(float), np.ravel(answer.check).astype(float))
+    worst = int(np.argmax(np.nan_to_num(np.abs(value - check), nan=np.inf)))
+    return f"{answer.against}: {check[worst]:.10g}, not {value[worst]:.10g}"

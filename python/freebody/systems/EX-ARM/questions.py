@@ -1,4 +1,4 @@
-"""EX-ARM: two-link robot arm.
+"""Two-link robot arm.
 
 Moments of both links about the shoulder O and of the forearm about the elbow E hold no reaction. With
 e_i = (cos θi, sin θi) and b = m2 l2 l3:

@@ -1,4 +1,4 @@
-"""EX-BLOCK: block on a tipped block.
+"""Block on a tipped block.
 
 Without friction the slope pushes along its normal n = (−sin θ, cos θ) only, so two balances hold no unknown force:
 both blocks along x, and the upper one down the slope, d = (−cos θ, −sin θ):

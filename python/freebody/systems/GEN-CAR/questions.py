@@ -1,4 +1,4 @@
-"""GEN-CAR: a car as one degree of freedom.
+"""A car as one degree of freedom.
 
 Everything follows from the crank angle θ, clockwise from top dead centre. In the car's frame (complex numbers, the
 crank's axle 0) the pin is i r e^{−iθ}, the piston l i e^{iψ} further, with l sin ψ = r sin θ; the car moves by
@@ -216,7 +216,7 @@ def elastic(case):
         theta, chi, u, v = y
         engine = Engine(theta)
         twist = 400 * (theta - chi - START)
-        own, whole = engine.inertia()
+        own, _ = engine.inertia()
         mixed = KAPPA * ROD * engine.rod[1].real
         behind = WHOLE * KAPPA**2 + SHAFT / 9 + WHEEL / 144
         h, both = engine.h()

@@ -1,4 +1,4 @@
-"""GEN-CHAIN: open chains up to 100 links.
+"""Open chains up to 100 links.
 
 With absolute angles the centre of link i is at Σ_{j<i} l e_j + l/2 e_i, and Lagrange's equations of the chain are
 

@@ -1,4 +1,4 @@
-"""GEN-FOURBAR: positions of a four-bar.
+"""Positions of a four-bar.
 
 A usable formula exists, two circles that meet: with P the vector from B to D,
 φ = arg P ± arccos((l2² − l3² − |P|²)/(2 l3 |P|)) and β = arg(P + l3 e^{iφ}). freebody iterates on the closed loop;
@@ -7,6 +7,7 @@ the formula is evaluated in 30 digits, and so are its derivatives, by difference
 
 import cmath
 import math
+from functools import partial
 
 import mpmath as mp
 import numpy as np
@@ -33,7 +34,7 @@ def over_a_turn(case, side):
     states = [case.instant(parameters={"side": side, "theta0": theta}) for theta in ANGLES]
     with mp.workdps(30):
         for name, letter, formula in (("beta", "β", beta), ("phi", "φ", phi)):
-            exact = [[float(mp.diff(lambda x: formula(x, side), theta, n)) for theta in ANGLES] for n in range(3)]
+            exact = [[float(mp.diff(partial(formula, side=side), theta, n)) for theta in ANGLES] for n in range(3)]
             angle = [nearest_turn(now[name], check) for now, check in zip(states, exact[0], strict=True)]
             yield Answer(f"{letter} every 15°", angle, "rad", exact[0], "closed form: two circles meet", 1e-13)
             yield Answer(

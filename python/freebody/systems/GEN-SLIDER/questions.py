@@ -1,4 +1,4 @@
-"""GEN-SLIDER: slider-crank, a closed chain.
+"""Slider-crank, a closed chain.
 
 r sin θ + l sin β = 0 gives the rod's angle, its rate and acceleration; the slider along x, the rod about B and so
 on backwards give every force, one unknown at a time. See ``_linkages.py``.

@@ -1,4 +1,4 @@
-"""S19.16: new gun, its equations.
+"""New gun, its equations.
 
 No force acts on the collar along the rod: R̈ = R θ̇². Moments of rod and collar about A, with I1 = m1 l²/3:
 d/dt[(I1 + m2 R²) θ̇] = T. What the rod does to the collar is m2 (R θ̈ + 2 Ṙ θ̇) across the rod; the force at A is

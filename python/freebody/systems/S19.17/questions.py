@@ -1,4 +1,4 @@
-"""S19.17: new gun, its numbers.
+"""New gun, its numbers.
 
 The motion of S19.16 from rest, until R = l. Independent values: the two equations integrated by SciPy. Started from
 rest, a torque c times as large gives the same motion at √c times the speed; so the angle at exit and Ṙ/θ̇ there are

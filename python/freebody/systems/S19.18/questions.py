@@ -1,4 +1,4 @@
-"""S19.18: pendulum hung from a cart on an incline.
+"""Pendulum hung from a cart on an incline.
 
 λ points down the slope, n out of it; the bob is at s λ + l (sin θ λ − cos θ n). Two balances without reactions,
 both bodies along λ and the bob about the hinge:

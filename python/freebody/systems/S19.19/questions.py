@@ -1,4 +1,4 @@
-"""S19.19: unbalanced motor on a spring.
+"""Unbalanced motor on a spring.
 
 The load is at (x + ε cos θ, ε sin θ). Moments of arm and load about the shaft, and motor with arm and load along x:
 

@@ -1,4 +1,4 @@
-"""S19.20: mass on a wheel on a turning rod.
+"""Mass on a wheel on a turning rod.
 
 P = l (cos θ, sin θ) + r (cos ψ, sin ψ) with θ = θ0 + ω1 t and ψ = −θ0 + (ω1 − ω2) t; both rates are constant, so
 each term's second derivative is −(its rate)² times itself. Seen from the rod, P circles A clockwise at ω2. The

@@ -1,4 +1,4 @@
-"""S19.21: four-bar, inverse dynamics.
+"""Four-bar, inverse dynamics.
 
 The loop A–B–C–D gives β, φ and, differentiated, their rates and accelerations from those of θ. Three balances of
 angular momentum hold only T and the force at D: bars BC and DC about B, DC about C, the whole about A. The other

@@ -1,4 +1,4 @@
-"""S19.22: four-bar, torque over a cycle.
+"""Four-bar, torque over a cycle.
 
 The linkage of S19.21 with other bars, AB turning steadily. At every angle the loop is solved anew: positions, then
 rates, then accelerations, then three balances of angular momentum; see ``_linkages.py``. Over a whole turn the
