@@ -1,4 +1,4 @@
-"""Mass on a driven cart on a ramp, while it touches.
+"""19.3.14: mass on a driven cart on a ramp, while it touches.
 
 The cart does not turn, so every point of it has the acceleration a₀ e, e along the ramp at β = 30°. The mass has
 a₀ e + s̈ τ with τ = (cos γ, sin γ) along the top. Balance along τ and along the normal n = (−sin γ, cos γ):
@@ -34,7 +34,9 @@ def force(case):
             components = [run.evaluate(f"top.{part}", t) for part in ("Fx", "Fy")]
             yield Answer(f"Fx, Fy at {t:g} s, {of}", components, "N", [-N * sin(gamma), N * cos(gamma)], AGAINST, 1e-12)
         yield Answer(f"normal force, {of}", run.evaluate("top.Fn", 0.0), "N", N, AGAINST, 1e-12)
-        yield Answer(f"sliding acceleration along the top, {of}", run.evaluate("accel(s)", 0.0), "m/s²", slide(gamma), AGAINST, 1e-12)
+        yield Answer(
+            f"sliding acceleration along the top, {of}", run.evaluate("accel(s)", 0.0), "m/s²", slide(gamma), AGAINST, 1e-12
+        )
 
 
 @ask("(a) What the force depends on")
@@ -42,7 +44,8 @@ def depends(case):
     gamma = pi / 3
     for parameters in ({"d0": 2.0}, {"v0": -4.0}, {"d0": 0.1, "v0": 3.0}):
         value = case.instant(parameters=parameters)["top.Fn"]
-        yield Answer(f"normal force with {parameters}", value, "N", normal(gamma), "closed form: no d₀, v₀, t in it", 1e-12)
+        of = ", ".join(f"{name} = {given:g}" for name, given in parameters.items())
+        yield Answer(f"normal force with {of}", value, "N", normal(gamma), "closed form: no d₀, v₀, t in it", 1e-12)
     for a0 in (0.0, 6.0, 9.0):
         value = case.instant(parameters={"a0": a0})["top.Fn"]
         yield Answer(f"normal force with a0 = {a0:g}", value, "N", normal(gamma, a0), AGAINST, 1e-12)
@@ -60,7 +63,9 @@ def vertical(case):
         acceleration = [now["ax(mass.centre)"], now["ay(mass.centre)"]]
         yield Answer(f"acceleration of the mass then, {of}", acceleration, "m/s²", [0.0, -G], "closed form: free fall", 1e-12)
     across = [case.instant(parameters={"gamma": 0.0, "a0": a})["ax(mass.centre)"] for a in (0.0, 3.0, 6.0)]
-    yield Answer("horizontal acceleration on a level top, a₀ = 0, 3, 6", across, "m/s²", [0.0] * 3, "closed form: N is vertical", 1e-12, G)
+    yield Answer(
+        "horizontal acceleration on a level top, a₀ = 0, 3, 6", across, "m/s²", [0.0] * 3, "closed form: N is vertical", 1e-12, G
+    )
     across = [case.instant(parameters={"gamma": BETA, "a0": a})["ax(mass.centre)"] for a in (0.0, 3.0, 6.0)]
     check = [-G * cos(BETA) * sin(BETA)] * 3
     yield Answer("the same for γ = 30°: never", across, "m/s²", check, "closed form: N = mg cos γ for every a₀", 1e-12)

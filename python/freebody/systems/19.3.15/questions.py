@@ -1,4 +1,4 @@
-"""Rod pinned to a cart.
+"""19.3.15: rod pinned to a cart.
 
 θ clockwise from +x, half length c = ℓ/2, I = mℓ²/12. No horizontal force from outside, all at rest at first: the mass
 centre stays over its place, (M + m)x + mc cos θ = mc, so ẋ = mc sin θ θ̇/(M + m). The energy is then
@@ -9,9 +9,8 @@ carries the weight and mcθ̇². Times are quadratures of √(J/(2mgc sin θ)); 
 
 from math import pi, sin, sqrt
 
-from scipy.integrate import quad
-
 from freebody.catalogue import Answer, ask
+from scipy.integrate import quad
 
 FOOT, POUND = 0.3048, 0.45359237
 G, M, m, C = 9.80665, 10 * POUND, 10 * POUND, FOOT
@@ -54,7 +53,9 @@ def vertical(case):
     yield Answer("time", event.t, "s", quarter(), "quadrature", 1e-10)
     yield Answer("speed of the cart", said["cart speed when vertical"], "ft/s", speed / FOOT, "conservation", 1e-10)
     force = m * (G + C * OMEGA**2) / LBF
-    yield Answer("hinge force on the rod, up", said["hinge force on the rod when vertical"], "lbf", force, "closed form: m(g + cθ̇²)", 1e-10)
+    yield Answer(
+        "hinge force on the rod, up", said["hinge force on the rod when vertical"], "lbf", force, "closed form: m(g + cθ̇²)", 1e-10
+    )
     sideways = run.evaluate("pin.Fx", event.t) / LBF
     yield Answer("hinge force on the rod, sideways", sideways, "lbf", 0.0, "closed form: symmetry", 1e-9, force)
 

@@ -1,4 +1,4 @@
-"""Block with a pivoted rod: one instant.
+"""19.3.16: block with a pivoted rod: one instant.
 
 Rod from the downward vertical at θ: G = (x + (ℓ/2) sin θ, −(ℓ/2) cos θ). Given at once: ℓ 1, m 2, θ π/2, θ̇ 1, x 1, ẋ 2.
 """
@@ -6,7 +6,6 @@ Rod from the downward vertical at θ: G = (x + (ℓ/2) sin θ, −(ℓ/2) cos θ
 from math import cos, pi, sin
 
 import numpy as np
-
 from freebody.catalogue import Answer, ask
 
 L, M, G = 1.0, 2.0, 9.81
@@ -62,11 +61,18 @@ def free(case):
     now = case.instant()
     xdd, thetadd = free_accelerations()
     value = [now.accelerations["x"], now.accelerations["theta"]]
-    yield Answer("ẍ, θ̈ of the free motion: no", value, "m/s², rad/s²", [xdd, thetadd], "hand-derived equations", 1e-13)
+    yield Answer("ẍ, θ̈ of the free motion: no", value, "m/s², rad/s²", [xdd, thetadd], "other route: balances by hand", 1e-13)
     turned = case.instant("clockwise.yaml").accelerations["theta"]
-    yield Answer("θ̈ clockwise from the upward vertical", turned, "rad/s²", -thetadd, "hand-derived equations", 1e-13)
+    yield Answer("θ̈ clockwise from the upward vertical", turned, "rad/s²", -thetadd, "other route: balances by hand", 1e-13)
     driven = case.instant("driven.yaml")
     c, s = cos(THETA), sin(THETA)
     push = 2 * M * 3 + M * L / 2 * (c * 2 - s * OMEGA**2)
     turn = M * L**2 / 3 * 2 + M * L / 2 * c * 3 + M * G * L / 2 * s
-    yield Answer("force and torque it takes", [driven["push.force"], driven["turn.force"]], "N, N·m", [push, turn], "hand-derived equations", 1e-13)
+    yield Answer(
+        "force and torque it takes",
+        [driven["push.force"], driven["turn.force"]],
+        "N, N·m",
+        [push, turn],
+        "other route: balances by hand",
+        1e-13,
+    )

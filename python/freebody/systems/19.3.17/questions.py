@@ -1,4 +1,4 @@
-"""Pendulum on a free cart.
+"""19.3.17: pendulum on a free cart.
 
 Bob at x + ℓ sin θ, −ℓ cos θ; tension T. Cart along x: m_c ẍ = T sin θ. Bob along the rod and across it:
     m_p(ℓθ̇² − ẍ sin θ) = T − m_p g cos θ,   ℓθ̈ + ẍ cos θ = −g sin θ.
@@ -9,7 +9,6 @@ Nothing acts along x from outside: the mass centre moves on a vertical line.
 from math import cos, pi, sin
 
 import numpy as np
-
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 
@@ -48,7 +47,13 @@ def release(case):
 def string(case):
     """No: above the level of the hinge the rod has to push, T < 0."""
     now = case.instant(parameters=parameters(*CASES["θ 110°"]))
-    yield Answer("sign of the tension: −1 is a push", np.sign(now["rod.tension"]), "", np.sign(cos(110 * pi / 180)), "closed form: sign of cos θ")
+    yield Answer(
+        "sign of the tension: −1 is a push",
+        np.sign(now["rod.tension"]),
+        "",
+        np.sign(cos(110 * pi / 180)),
+        "closed form: sign of cos θ",
+    )
 
 
 @ask("Motion for 5 s")
@@ -62,8 +67,22 @@ def run(case):
         check = motion(rates, [0.0, theta, 0.0, 0.0], times)
         run = case.run(parameters=parameters(mc, mp, theta))
         for i, (text, unit) in enumerate([("x", "m"), ("theta", "rad"), ("rate(x)", "m/s"), ("rate(theta)", "rad/s")]):
-            yield Answer(f"{text} at 1…5 s, {of}", run.evaluate(text, times), unit, check[:, i], "hand-derived equations, SciPy", 1e-8)
+            yield Answer(
+                f"{text} at 1…5 s, {of}",
+                run.evaluate(text, times),
+                unit,
+                check[:, i],
+                "other route: balances by hand, SciPy",
+                1e-8,
+            )
         path = [mp * L * sin(theta) / (mc + mp)] * 5
         yield Answer(f"mass centre along x, {of}", run.evaluate("centre_x()", times), "m", path, "conservation", 1e-10)
         height = -mp * L * np.cos(check[:, 1]) / (mc + mp)
-        yield Answer(f"mass centre along y, {of}", run.evaluate("centre_y()", times), "m", height, "hand-derived equations, SciPy", 1e-8)
+        yield Answer(
+            f"mass centre along y, {of}",
+            run.evaluate("centre_y()", times),
+            "m",
+            height,
+            "other route: balances by hand, SciPy",
+            1e-8,
+        )

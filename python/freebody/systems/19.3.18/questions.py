@@ -1,8 +1,9 @@
-"""Pendulum with accelerating base.
+"""19.3.18: pendulum with accelerating base.
 
 The bob has a_A i + ℓθ̈ e_θ − ℓθ̇² e_R; only the tension acts, −T e_R. Across the rod: ℓθ̈ = a_A sin θ. Along it:
-T = M(ℓθ̇² − a_A cos θ). θ̈ depends on a_A, ℓ and θ, not on M and θ̇. The hinge pulls the bob with −T e_R; the base, without mass, is driven with
-F = −T cos θ; the power is F ẋ_A. With a_A constant, ½ℓθ̇² + a_A cos θ stays: the base's frame has a gravity of a_A toward −x.
+T = M(ℓθ̇² − a_A cos θ). θ̈ depends on a_A, ℓ and θ, not on M and θ̇. The hinge pulls the bob with −T e_R; the base,
+without mass, is driven with F = −T cos θ; the power is F ẋ_A. With a_A constant,
+½ℓθ̇² + a_A cos θ stays: the base's frame has a gravity of a_A toward −x.
 """
 
 from math import cos, sin
@@ -36,7 +37,9 @@ def depends(case):
         now = {**known, name: value}
         check = now["aA"] * sin(now["theta0"]) / now["l"]
         result = case.instant(parameters={name: value}).accelerations["theta"]
-        yield Answer(f"θ̈ with {name} = {value:g}" + (" (as before)" if name not in known else ""), result, "rad/s²", check, AGAINST, 1e-12)
+        yield Answer(
+            f"θ̈ with {name} = {value:g}" + (" (as before)" if name not in known else ""), result, "rad/s²", check, AGAINST, 1e-12
+        )
 
 
 @ask("Motion for 2 s from a base at rest")
@@ -44,11 +47,13 @@ def run(case):
     times = [0.5, 1.0, 1.5, 2.0]
     check = motion(lambda _t, s: (s[1], A * sin(s[0]) / L), [THETA, OMEGA], times)
     run = case.run()
-    against = "hand-derived equations, SciPy"
+    against = "other route: balances by hand, SciPy"
     yield Answer("θ at 0.5…2 s", run.evaluate("theta", times), "rad", check[:, 0], against, 1e-9)
     yield Answer("θ̇ at 0.5…2 s", run.evaluate("rate(theta)", times), "rad/s", check[:, 1], against, 1e-9)
     first = [L / 2 * OMEGA**2 + A * cos(THETA)] * 4
-    yield Answer("½ℓθ̇² + a_A cos θ", run.evaluate("l/2*rate(theta)^2 + aA*cos(theta)", times), "m/s²", first, "conservation", 1e-10)
+    yield Answer(
+        "½ℓθ̇² + a_A cos θ", run.evaluate("l/2*rate(theta)^2 + aA*cos(theta)", times), "m/s²", first, "conservation", 1e-10
+    )
     drive = [-tension(*s) * cos(s[0]) for s in check]
     yield Answer("force that drives A", run.evaluate("drive.force", times), "N", drive, against, 1e-8)
     power = [f * A * t for f, t in zip(drive, times, strict=True)]

@@ -1,4 +1,4 @@
-"""The θ–y system: a mass on a vertical guide, on a spring (A) or free (B), with a pendulum.
+"""19.3.20: the θ–y system: a mass on a vertical guide, on a spring (A) or free (B), with a pendulum.
 
 y down from the unstretched spring, θ from the downward vertical. The bob has (ℓ cos θ θ̈ − ℓ sin θ θ̇²) along x and
 ÿ − ℓ sin θ θ̈ − ℓ cos θ θ̇² down. Whole system down, bob across the rod, bob along the rod:
@@ -12,15 +12,14 @@ w = y − ½gt², both P = (M + m)ẇ − mℓ sin θ θ̇ and ½mℓ²(1 − m 
 
 from math import cos, pi, sin, sqrt
 
-from scipy.integrate import quad
-
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
+from scipy.integrate import quad
 
 M, m, L, K, G = 2.0, 1.0, 0.5, 100.0, 9.81
 START = [0.1, 0.8, -0.3, 1.7]  # y, θ, ẏ, θ̇
 COLUMNS = [("y", "m"), ("theta", "rad"), ("rate(y)", "m/s"), ("rate(theta)", "rad/s")]
-EQUATIONS = "hand-derived equations"
+EQUATIONS = "other route: balances by hand"
 
 
 def relative(y, theta, omega, k):
@@ -66,12 +65,16 @@ def run(case):
 
 @ask("What is conserved besides energy, without spring")
 def conserved(case):
-    """The weight is the only vertical force from outside, so P + (M + m)gt is the momentum downward; and the motion seen from a falling frame has its own energy."""
+    """The weight is the only vertical force from outside: the momentum downward is P + (M + m)gt. And the swing, seen
+    from a frame that falls freely, has an energy of its own.
+    """
     times = [0.0, 1.0, 2.0, 5.0]
     run = case.run("free_fall.yaml")
     _, theta, v, omega = START
     P = (M + m) * v - m * L * sin(theta) * omega
-    yield Answer("downward momentum − (M + m)gt", -run.evaluate("momentum_y() + (M + m)*g*t", times), "N·s", [P] * 4, "conservation", 1e-9)
+    yield Answer(
+        "downward momentum − (M + m)gt", -run.evaluate("momentum_y() + (M + m)*g*t", times), "N·s", [P] * 4, "conservation", 1e-9
+    )
     inner = m / 2 * L**2 * (1 - m * sin(theta) ** 2 / (M + m)) * omega**2
     text = "m/2*l^2*(1 - m*sin(theta)^2/(M + m))*rate(theta)^2"
     yield Answer("energy of the swing, seen falling", run.evaluate(text, times), "J", [inner] * 4, "conservation", 1e-9)

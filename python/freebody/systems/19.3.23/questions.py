@@ -1,4 +1,4 @@
-"""Double pendulum, first rod massless.
+"""19.3.23: double pendulum, first rod massless.
 
 θ₁, θ₂ from the downward vertical, e = (sin θ₁, −cos θ₁). Without mass, rod 1 carries a force along itself only: it pulls
 the upper end B = ℓe of rod 2 with −T e. With h = ℓ/2, G = ℓe + h(sin θ₂, −cos θ₂):
@@ -9,13 +9,13 @@ three equations for θ̈₁, θ̈₂ and T.
 from math import cos, log10, sin
 
 import numpy as np
-
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 
 M, L, G = 1.0, 1.0, 9.81
 START = [0.5, 1.2, 0.3, -0.4]  # θ₁, θ₂, θ̇₁, θ̇₂
-EQUATIONS = "hand-derived equations"
+COLUMNS = [("theta1", "rad"), ("theta2", "rad"), ("rate(theta1)", "rad/s"), ("rate(theta2)", "rad/s")]
+EQUATIONS = "other route: balances by hand"
 
 
 def solve(one, two, spin1, spin2):
@@ -50,7 +50,7 @@ def run(case):
     check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), START, times)
     for file in ("model.yaml", "link.yaml"):
         run = case.run(file)
-        for i, (text, unit) in enumerate([("theta1", "rad"), ("theta2", "rad"), ("rate(theta1)", "rad/s"), ("rate(theta2)", "rad/s")]):
+        for i, (text, unit) in enumerate(COLUMNS):
             yield Answer(f"{text} at 1…5 s, {file}", run.evaluate(text, times), unit, check[:, i], f"{EQUATIONS}, SciPy", 1e-8)
 
 

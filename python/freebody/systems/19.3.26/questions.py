@@ -1,6 +1,7 @@
-"""Balancing a broom sideways: laws of the hand.
+"""19.3.26: balancing a broom sideways: laws of the hand.
 
-θ clockwise from the upward vertical, c from the hand to the mass centre, I about it; G = (s + c sin θ, c cos θ). Moment about the hand:
+θ clockwise from the upward vertical, c from the hand to the mass centre, I about it; G = (s + c sin θ, c cos θ).
+Moment about the hand:
     (I + mc²)θ̈ = mc(g sin θ − a cos θ),   (I + mc²)/mc = 2ℓ/3 for the uniform rod, ℓ for a particle at the end.
 Force of the hand along x: m a_Gx = m(a + c(cos θ θ̈ − sin θ θ̇²)); its power is that times ṡ.
 Near the upright, with κ = mc/(I + mc²) and a = K_x s + K_v ṡ + K_p θ + K_d θ̇, hand and broom have the polynomial
@@ -11,13 +12,12 @@ from which the gains for given poles follow, one after another from the last coe
 from math import cos, exp, sin, sqrt
 
 import numpy as np
-
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 
 L, M, G = 1.5, 1.0, 9.81
 C, REDUCED = L / 2, 2 * L / 3
-EQUATIONS = "hand-derived equations, SciPy"
+EQUATIONS = "other route: balances by hand, SciPy"
 
 
 def swing(theta, a, reduced=REDUCED):
@@ -55,7 +55,15 @@ def compared(run, law, start, times):
     check = motion(rates(law), start, times)
     for i, (text, unit) in enumerate([("s", "m"), ("theta", "rad"), ("rate(s)", "m/s"), ("rate(theta)", "rad/s")]):
         size = float(np.abs(check[:, i]).max())
-        yield Answer(f"{text} at {', '.join(f'{t:g}' for t in times)} s", run.evaluate(text, times), unit, check[:, i], EQUATIONS, 1e-8, max(size, 1e-3))
+        yield Answer(
+            f"{text} at {', '.join(f'{t:g}' for t in times)} s",
+            run.evaluate(text, times),
+            unit,
+            check[:, i],
+            EQUATIONS,
+            1e-8,
+            max(size, 1e-3),
+        )
     forces = [push(y[1], y[3], law(*y)) for y in check]
     powers = [f * y[2] for f, y in zip(forces, check, strict=True)]
     yield Answer("force of the hand then", run.evaluate("hold.force", times), "N", forces, EQUATIONS, 1e-8, 1e-2)

@@ -1,16 +1,15 @@
-"""Double pendulum at release.
+"""19.3.28: double pendulum at release.
 
 Absolute angles from the downward vertical, h = ℓ/2, F the force of bar 1 on bar 2 at the elbow E. Balances:
-    m a_G2 = F − mg j,   I θ̈₂ about G₂: (mℓ²/12)φ̈₂ = (r_E − r_G2) × F,
+    m a_G2 = F − mg j,   (mℓ²/12)φ̈₂ = (r_E − r_G2) × F,
     (mℓ²/3)φ̈₁ = −mgh sin φ₁ − r_E × F,   and the force at the ceiling F₀ = F + mg j + m a_G1.
-At φ₁ = 0, φ₂ = π/2, at rest, a_E = ℓφ̈₁ i and bar 2 lies along x: F_x = mℓφ̈₁ and (mℓ²/3)φ̈₁ = −mℓ²φ̈₁, so φ̈₁ = 0; bar 2 then falls as if
-hinged at a fixed point, φ̈₂ = −3g/2ℓ, and the forces are mg/4 at the elbow, 5mg/4 at the ceiling, both up.
+At φ₁ = 0, φ₂ = π/2, at rest, a_E = ℓφ̈₁ i and bar 2 lies along x: F_x = mℓφ̈₁ and (mℓ²/3)φ̈₁ = −mℓ²φ̈₁, so φ̈₁ = 0.
+Bar 2 then falls as if hinged at a fixed point, φ̈₂ = −3g/2ℓ; the forces are mg/4 at the elbow, 5mg/4 at the ceiling, both up.
 """
 
 from math import cos, pi, sin
 
 import numpy as np
-
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 
@@ -24,7 +23,7 @@ def solve(one, two, spin1, spin2):
     matrix = [
         [M * L * c1, M * h * c2, -1.0, 0.0],
         [M * L * s1, M * h * s2, 0.0, -1.0],
-        [0.0, M * L**2 / 12, -h * c2, -h * s2],
+        [0.0, M * L**2 / 12, h * c2, h * s2],
         [M * L**2 / 3, 0.0, L * c1, L * s1],
     ]
     right = [
@@ -43,7 +42,9 @@ def release(case):
         value = [now.accelerations["phi1"], now.accelerations["phi2"]]
         yield Answer(f"φ̈₁, φ̈₂, {file}", value, "rad/s²", [0.0, -3 * G / (2 * L)], LETTERS, 1e-13)
         yield Answer(f"elbow on bar 2, {file}", [now["elbow.Fx"], now["elbow.Fy"]], "N", [0.0, M * G / 4], LETTERS, 1e-13)
-        yield Answer(f"ceiling on bar 1, {file}", [now["ceiling.Fx"], now["ceiling.Fy"]], "N", [0.0, 5 * M * G / 4], LETTERS, 1e-13)
+        yield Answer(
+            f"ceiling on bar 1, {file}", [now["ceiling.Fx"], now["ceiling.Fy"]], "N", [0.0, 5 * M * G / 4], LETTERS, 1e-13
+        )
 
 
 @ask("The answer in letters: other m, ℓ, g")
@@ -59,7 +60,7 @@ def letters(case):
 def run(case):
     times = [0.5, 1.0, 2.0, 3.0]
     check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), [0.0, pi / 2, 0.0, 0.0], times)
-    run, against = case.run(), "hand-derived equations, SciPy"
+    run, against = case.run(), "other route: balances by hand, SciPy"
     for i, (text, unit) in enumerate([("phi1", "rad"), ("phi2", "rad"), ("rate(phi1)", "rad/s"), ("rate(phi2)", "rad/s")]):
         yield Answer(f"{text} at 0.5…3 s", run.evaluate(text, times), unit, check[:, i], against, 1e-8)
     turned = np.array(case.run("horizontal.yaml").evaluate("phi2", times)) + pi / 2

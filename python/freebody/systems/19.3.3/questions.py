@@ -1,4 +1,4 @@
-"""Particle on two long springs.
+"""19.3.3: particle on two long springs.
 
 Springs so long that each pulls along its own axis only: m a = −k r, for each component and for the vector. So the
 motion is r(t) = r₀ cos ωt + (v₀/ω) sin ωt with ω = √(k/m): an ellipse about the origin, once around in 2π/ω.
@@ -9,7 +9,6 @@ a circle where r₀ ⟂ v₀ and |v₀| = ω|r₀|.
 from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
-
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 
@@ -120,7 +119,7 @@ def first_order():
             own, other = place(t)[i], place(t)[1 - i]
             return -W * sin(W * (2 - t)) * (other**2 / 2 + own * other)
 
-        return quad(integrand, 0, 2, epsabs=0, epsrel=1e-13)[0]
+        return quad(integrand, 0, 2, epsabs=0, epsrel=1e-10)[0]
 
     return np.array([part(0), part(1)])
 
@@ -136,7 +135,7 @@ def long_springs(case):
         state = np.array([run.evaluate(text, 2.0) for text in texts])
         gaps[D] = state[:2] - ideal[:2]
         check = motion(finite(D), [*R0, *V0], [2.0])[0]
-        yield Answer(f"x, y, ẋ, ẏ, D = {D:g}", state, "m, m/s", check, "hand-derived equations, SciPy", 1e-9)
+        yield Answer(f"x, y, ẋ, ẏ, D = {D:g}", state, "m, m/s", check, "other route: balances by hand, SciPy", 1e-9)
     order = np.log(np.linalg.norm(gaps[50.0]) / np.linalg.norm(gaps[5000.0])) / np.log(100)
     yield Answer("order in 1/D", order, "", 1.0, "closed form: first order", 1e-2)
     yield Answer("deviation × D as D → ∞", 5000 * gaps[5000.0], "m²", first_order(), "quadrature", 1e-3)

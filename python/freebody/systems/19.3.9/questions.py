@@ -1,4 +1,4 @@
-"""Collar flung off a rod.
+"""19.3.9: collar flung off a rod.
 
 I = m_R ℓ²/3 about the hinge, m = m_C. Nothing turns the whole about the hinge: (I + mR²)θ̇ = (I + ma²)ω₁. With the
 energy, ½(I + mR²)θ̇² + ½mṘ² = ½(I + ma²)ω₁², this gives Ṙ² = ω₁²(I + ma²)(R² − a²)/(I + mR²). With R = a cosh u the
@@ -10,9 +10,8 @@ For m_R = 0 the rod cannot push (its moment about the hinge must vanish): the co
 
 from math import acosh, cos, cosh, hypot, sin, sqrt
 
-from scipy.integrate import quad
-
 from freebody.catalogue import Answer, ask
+from scipy.integrate import quad
 
 MC, A, L, W = 3.0, 1.0, 3.0, 1.0
 
