@@ -8,7 +8,7 @@ use freebody::balance::{Balance, Freedom, Observer, Route, Trouble};
 use freebody::compile::Compiled;
 use freebody::gauges::Law;
 use freebody::simulation::{simulate, Settings, Start};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock, RwLockReadGuard};

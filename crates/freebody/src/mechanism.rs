@@ -291,6 +291,16 @@ impl Mechanism {
     pub fn freedom(&self) -> usize {
         self.coordinates.len()
     }
+    /// The last body on the way from ground to both of two bodies.
+    pub fn common_carrier(&self, a: usize, b: usize) -> usize {
+        let (mut a, mut b) = (a, b);
+        while a != b {
+            // Parents come first: the later of the two cannot carry the other.
+            let later = if a > b { &mut a } else { &mut b };
+            *later = self.bodies[*later].branch.map_or(0, |branch| branch.parent);
+        }
+        a
+    }
     /// The bodies in the order of the model.
     pub fn listed_bodies(&self) -> Vec<usize> {
         let mut bodies: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].listed.is_some()).collect();

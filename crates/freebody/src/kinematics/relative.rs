@@ -116,8 +116,7 @@ pub fn relative<T: Scalar>(joint: &Joint, m: &Mechanism, poses: &impl Poses<T>) 
     let (first, second) = (poses.pose(a), poses.pose(b));
     let axes = Turn::by(first.turn.angle + poses.slot(joint.first.angle));
     let from = first.place(poses.arm(joint.first.site));
-    let to = second.place(poses.arm(joint.second.site));
-    let at = axes.undo(to - from);
+    let at = axes.undo(poses.span(joint.first.site, joint.second.site, m));
     let angle = second.turn.angle + poses.slot(joint.second.angle) - axes.angle;
     (Pose { at: from, turn: axes }, Relative { x: at.x, y: at.y, angle })
 }

@@ -6,6 +6,9 @@ use crate::mechanism::Deed;
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
 
+/// Independence of the closing rows below which every stage of a step is brought onto the loops.
+const DELICATE: f64 = 0.5;
+
 /// A stretch of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]
 pub struct Stretch {
@@ -30,6 +33,8 @@ pub struct Machine<'m> {
     set: Vec<(usize, f64)>,
     pub(super) stretches: Vec<Stretch>,
     pub(super) worst_gap: f64,
+    /// Whether the loops are near a configuration where they lose independence.
+    delicate: bool,
     scales: Vec<f64>,
 }
 
@@ -49,6 +54,7 @@ impl<'m> Machine<'m> {
             set: m.overruled(p),
             stretches: vec![first],
             worst_gap: 0.0,
+            delicate: false,
             scales: vec![1.0; size],
         }
     }
@@ -68,6 +74,17 @@ impl<'m> Machine<'m> {
     fn place(&mut self, t: f64, y: &[f64]) {
         let (q, u) = self.split(y);
         self.balance.place(t, q, u);
+    }
+
+    /// Goes to the state on the closed loops that is nearest to y. Close to a singular configuration a motion off
+    /// the loops, however little, is accelerated without bound; a motion on them is not.
+    fn place_closed(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        let (q, u) = self.split(y);
+        let (mut q, mut u) = (q.to_vec(), u.to_vec());
+        self.balance.close(t, &mut q, &u)?;
+        self.balance.align(t, &q, &mut u)?;
+        self.balance.place(t, &q, &u);
+        Ok(())
     }
 
     /// Freezes every switch at the arm it has now.
@@ -149,9 +166,13 @@ impl System for Machine<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
-        self.place(t, y);
+        if self.delicate {
+            self.place_closed(t, y)?;
+        } else {
+            self.place(t, y);
+        }
         self.balance.solve()?;
-        dy[..n].copy_from_slice(&y[n..2 * n]);
+        dy[..n].copy_from_slice(self.balance.at().u);
         self.balance.accelerations(&mut dy[n..2 * n]);
         for (i, &f) in self.worked.iter().enumerate() {
             let force = &self.balance.m.forces[f];
@@ -174,9 +195,29 @@ impl System for Machine<'_> {
         let (q, rest) = y.split_at_mut(n);
         let moved = self.balance.close(t, q, &rest[..n])?;
         self.worst_gap = self.worst_gap.max(self.balance.worst_gap());
+        self.delicate = self.balance.independence() < DELICATE;
         let turned = self.balance.align(t, q, &mut rest[..n])?;
         let pace = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / pace))
+    }
+
+    /// When the loops lose independence, from how fast they do so now.
+    fn blind_spot(&mut self, t: f64, y: &[f64]) -> Option<f64> {
+        if !self.delicate {
+            return None;
+        }
+        let n = self.balance.m.freedom();
+        let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
+        let dt = 1e-3 * DELICATE / fastest;
+        let mut independence = |t: f64, y: &[f64]| {
+            self.place(t, y);
+            self.balance.take_rows();
+            self.balance.independence()
+        };
+        let ahead: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
+        let (now, next) = (independence(t, y), independence(t + dt, &ahead));
+        let when = now * dt / (now - next);
+        (when > 0.0 && when.is_finite()).then_some(t + when)
     }
 
     fn scale(&self, out: &mut [f64]) {
