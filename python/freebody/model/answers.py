@@ -1,0 +1,150 @@
+"""The sections ``run`` and ``report``: how long to compute, and what to say of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from . import start, units
+from .errors import Complaint, Path
+from .names import suggestion
+from .schema import EXTREMES, Question
+from .units import Dimension
+from .writer import Number, Writer
+
+_STATISTIC = re.compile(rf"\s*({'|'.join(EXTREMES)})\s+of\s+(.+)", re.DOTALL)
+_OVER = re.compile(r"(.+?)\s+over\s+(.+?)\s*\.\.\s*(.+)", re.DOTALL)
+_WORDS = ("start", "end")
+
+Moment = str | float
+"""``start``, ``end``, the name of an event, or a time in s; before parameters are known also an expression of them."""
+
+
+@dataclass(frozen=True)
+class ReportItem:
+    """One quantity to report.
+
+    ``kind`` is ``value``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``. A value has its moment in ``at``, or is wanted
+    over the whole run when that is None; the others may have a window in ``over``. ``expression`` gives SI; the printed
+    figure is that divided by ``scale``, in ``unit`` (empty: a plain number or not known).
+    """
+
+    label: str
+    expression: str
+    kind: str = "value"
+    at: Moment | None = None
+    over: tuple[Moment, Moment] | None = None
+    unit: str = ""
+    scale: float = 1.0
+
+    def with_parameters(self, values: Mapping[str, float]) -> ReportItem:
+        """The item with times as numbers. Raises ``Complaint``."""
+        at = None if self.at is None else _time(self.at, values)
+        over = None if self.over is None else (_time(self.over[0], values), _time(self.over[1], values))
+        return replace(self, at=at, over=over)
+
+
+@dataclass(frozen=True)
+class Run:
+    """Settings of a run, None where the model does not say; before parameters are known some may be expressions of them."""
+
+    until: Number | None = None
+    method: str = "dop853"
+    rtol: Number = 1e-9
+    every: Number | None = None
+    max_step: Number | None = None
+    step: Number | None = None
+
+    def with_parameters(self, values: Mapping[str, float]) -> Run:
+        """The settings as numbers. Raises ``Complaint``."""
+        numbers = {name: getattr(self, name) for name in ("until", "rtol", "every", "max_step", "step")}
+        return replace(self, **{n: None if v is None else start.evaluate(v, values) for n, v in numbers.items()})
+
+
+def _time(moment: Moment, values: Mapping[str, float]) -> Moment:
+    """A time as a number; the names of moments stay. Times that are expressions are marked by ``=``."""
+    return start.evaluate(moment[1:], values) if isinstance(moment, str) and moment.startswith("=") else moment
+
+
+class AnswerWriter:
+    """Reads ``run`` and ``report`` of the whole model."""
+
+    def __init__(self, write: Writer) -> None:
+        self.write = write
+        self.model = write.scope.model
+
+    def run(self) -> Run:
+        """The settings."""
+        run = self.model.run
+        if run is None:
+            return Run()
+        units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
+        given = {n: getattr(run, n) for n in units_of if getattr(run, n) is not None}
+        found: dict[str, Any] = {n: self.write.number(("run", n), v, units_of[n], f"`{n}`") for n, v in given.items()}
+        if run.method == "rk4" and run.step is None:
+            self.write.scope.complain(("run", "method"), "`rk4` needs a fixed step", "add `step: 1 ms`, or choose `dop853`")
+        return Run(method=run.method, **found)
+
+    def report(self) -> list[ReportItem]:
+        """The quantities to report, in order."""
+        found: list[ReportItem] = []
+        for label, asked in self.model.report.items():
+            path: Path = ("report", label)
+            try:
+                found.append(self._mapping(path, asked) if isinstance(asked, Question) else self._text(path, asked))
+            except Complaint as complaint:
+                self.write.scope.complain(path, complaint.what, complaint.hint)
+        return found
+
+    def _text(self, path: Path, text: str) -> ReportItem:
+        if statistic := _STATISTIC.fullmatch(text):
+            kind, rest = statistic.groups()
+            window = _OVER.fullmatch(rest)
+            if "@" in rest:
+                raise Complaint(f"`{kind} of` looks at a whole run, not at a moment", "for a window write `over 1 s .. 2 s`")
+            return self._item(path, kind, window[1] if window else rest, over=window.group(2, 3) if window else None)
+        expression, sign, moment = text.rpartition("@")
+        return self._item(path, "value", expression if sign else text, at=moment.strip() if sign else None)
+
+    def _mapping(self, path: Path, asked: Question) -> ReportItem:
+        kind = next(word for word in ("value", *EXTREMES) if getattr(asked, word) is not None)
+        text = getattr(asked, kind)
+        over = None if asked.over is None else (asked.over[0], asked.over[1])
+        if kind == "value" and "@" in text and asked.at is None:
+            return self._text(path, text) if asked.unit is None else self._in_unit(path, self._text(path, text), asked.unit)
+        item = self._item(path, kind, text, asked.at, over)
+        return item if asked.unit is None else self._in_unit(path, item, asked.unit)
+
+    def _item(self, path: Path, kind: str, text: str, at: Any = None, over: tuple[Any, Any] | None = None) -> ReportItem:
+        expression, dimension = self.write.measured(text.strip())
+        dimension = self._dimension(kind, units.TIME if expression == "t" else dimension)
+        moment = None if at is None else self._moment(at)
+        window = None if over is None else (self._moment(over[0]), self._moment(over[1]))
+        return ReportItem(str(path[1]), expression, kind, moment, window, dimension.unit() if dimension else "")
+
+    def _in_unit(self, path: Path, item: ReportItem, unit: str) -> ReportItem:
+        scale, dimension = units.convert(unit)
+        own = units.unit(item.unit).dimension if item.unit else None
+        if own is not None and not own.fits(dimension):
+            self.write.scope.complain((*path, "unit"), f"the value is {own.words()}; `{unit}` is the unit of {dimension.words()}", "")
+        return replace(item, unit=unit, scale=scale)
+
+    def _dimension(self, kind: str, dimension: Dimension | None) -> Dimension | None:
+        return dimension.times(units.TIME) if dimension and kind == "integral" else dimension
+
+    def _moment(self, moment: Any) -> Moment:
+        if not isinstance(moment, str):
+            return float(moment)
+        full = self.write.full(moment)
+        if moment in _WORDS or full in self.write.meanings.events:
+            return moment if moment in _WORDS else full
+        try:
+            number, dimension = self.write.number_of(moment)
+        except Complaint:
+            events = self.write.meanings.seen_from(self.write.scope, self.write.meanings.events)
+            raise Complaint(f"`{moment}` is no moment", suggestion(moment, [*events, *_WORDS]) + "; or a time like `0.3 s`") from None
+        if dimension is not None and not dimension.fits(units.TIME):
+            raise Complaint(f"a moment is a time (s); `{moment}` is {dimension.words()}", "write e.g. `@ 0.3 s`")
+        return number if isinstance(number, float) else f"={number}"

@@ -1,0 +1,3 @@
+from . import fake_core
+
+fake_core.install()
