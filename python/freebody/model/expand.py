@@ -15,14 +15,14 @@ _REPEAT = re.compile(r"\[\s*([^\W\d]\w*)\s*=\s*(.+?)\s*\.\.\s*([^\]]+?)\s*\]")
 _AS_WRITTEN = {("name",), ("freebody",)}
 
 Whole = Callable[[str], int]
-Complain = Callable[[Path, str, str], None]
+Complain = Callable[[Path, str, str, bool], None]
 
 
 class Expansion:
     """Plain data with repetitions written out.
 
     ``whole`` works out a whole number of parameters. ``origin`` leads from the path of a written-out item to that of the
-    item that made it. Problems go to ``complain`` with the path of the item as it stands in the file; too many items
+    item that made it. Problems go to ``complain`` with the path of the item as it stands in the file and whether its key is meant; too many items
     raise ``Complaint``.
     """
 
@@ -47,9 +47,9 @@ class Expansion:
         out: dict[str, Any] = {}
         for key, value in data.items():
             inner = (*source, key)
-            for name, inside in self._guarded(inner, lambda key=key: list(self._repeated(key, index)), [(key, index)]):
+            for name, inside in self._guarded(inner, lambda key=key: list(self._repeated(key, index)), [(key, index)], True):
                 if name in out:
-                    self.complain(inner, f"`{name}` is used twice, once from a repetition", "give one of them another name")
+                    self.complain(inner, f"`{name}` is used twice, once from a repetition", "give one of them another name", True)
                     continue
                 if name != key:
                     self._count()
@@ -81,11 +81,11 @@ class Expansion:
         worked = work_out_indices(text, lambda inside: self._index(inside, index))
         return _with_index(worked, index)
 
-    def _guarded(self, source: Path, work: Callable[[], Any], otherwise: Any) -> Any:
+    def _guarded(self, source: Path, work: Callable[[], Any], otherwise: Any, at_key: bool = False) -> Any:
         try:
             return work()
         except Complaint as complaint:
-            self.complain(source, complaint.what, complaint.hint)
+            self.complain(source, complaint.what, complaint.hint, at_key)
             return otherwise
 
 

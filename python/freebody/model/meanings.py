@@ -127,7 +127,7 @@ class _Declaring:
             self.scope.complain(path, f"the {kind} `{name}` has the name of a {known[0]}", "give one of them another name", kind != "coordinate")
         elif name in syntax.CONSTANTS and kind != "parameter":
             self.scope.complain(path, f"`{name}` has a meaning of its own in expressions", f"give the {kind} another name", kind != "coordinate")
-        self.found.values[self.full(name)] = (kind, dimension)
+        self.found.values.setdefault(self.full(name), (kind, dimension))
 
     def owner(self, name: str, kind: str, path: Path) -> None:
         self.check(name, path)

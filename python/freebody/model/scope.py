@@ -115,8 +115,8 @@ def _written_out(model: Model, places: Places, problems: list[Problem], overrule
     if not repeats(data):
         return Parameters(model.parameters, overruled), model, {}
 
-    def complain(path: Path, what: str, hint: str) -> None:
-        problems.append(Problem(places.where(path), what, hint))
+    def complain(path: Path, what: str, hint: str, at_key: bool) -> None:
+        problems.append(Problem(places.where(path, at_key), what, hint))
 
     try:
         known = Parameters(model.parameters, overruled)

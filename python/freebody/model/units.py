@@ -119,7 +119,7 @@ _MORE = (f"pi = {Decimal(math.pi)} = π", "lbm = pound", "rev = turn", "revs = t
 _COMMON = "m mm cm km kg g mg t lb lbm oz slug s ms min h rad deg rev N kN mN lbf kgf J kJ W kW hp Pa kPa MPa bar psi Hz rpm in ft yd mph".split()
 _NO_UNITS = {"c", "pi", "tau", "e", "G", "speed_of_light", "count", "percent", "ppm"}
 
-_QUANTITY = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*(°.*|[^\W\d].*)", re.DOTALL)
+_NUMBER = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*")
 _PIECE = re.compile(r"\s*([^\W\d]\w*|°|\d+|\*\*|[*^/·()²³-])")
 
 
@@ -172,15 +172,16 @@ def quantity(text: str) -> Quantity | None:
 
     Raises ``Complaint`` when a number stands with one word that is no unit.
     """
-    found = _QUANTITY.fullmatch(text)
-    if not found or not (pieces := _pieces(found[2])):
+    found = _NUMBER.match(text)
+    written = text[found.end() :].strip() if found else ""
+    if not found or not (written[:1].isalpha() or written[:1] == "°") or not (pieces := _pieces(written)):
         return None
     if _Reader(pieces).product() is None:
         if len(pieces) == 1:
-            unit(found[2])
+            unit(written)
         return None
-    size, dimension = unit(found[2])
-    return Quantity(_rounded(found[1], size), dimension, found[2].strip())
+    size, dimension = unit(written)
+    return Quantity(_rounded(found[1], size), dimension, written)
 
 
 class Rewritten(NamedTuple):

@@ -60,7 +60,7 @@ class Section(BaseModel):
     @classmethod
     def _about(cls, key: str) -> str:
         found = [f.description for name, f in cls.model_fields.items() if key in (name, f.alias) and f.description]
-        return f"`{key}` is {found[0][0].lower()}{found[0][1:]}" if found else ""
+        return f"add `{key}:` ({found[0][0].lower()}{found[0][1:].rstrip('.')})" if found else f"add `{key}:`"
 
     def written(self) -> dict[str, Any]:
         """The plain data of what was given, with the keys of the language."""

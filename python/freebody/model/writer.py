@@ -35,8 +35,7 @@ class Writer:
             found, dimension = self.number_of(value)
             self._check_dimension(path, value, dimension, unit)
             if positive and (size := self.scope.parameters.number(value)) < 0:
-                shown = f"`{value}` is {size:g}" if isinstance(value, str) else f"{size:g}"
-                raise Complaint(f"{positive} cannot be negative; {shown} is", "check its sign")
+                raise Complaint(f"{positive} cannot be negative; `{value}` is {size:g}", "check its sign")
             return found
         except Consequence:
             return 0.0
