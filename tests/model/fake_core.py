@@ -71,7 +71,7 @@ class Parser:
         return base
 
     def operand(self):
-        kind, piece, start, end = self.tokens[self.i]
+        kind, piece, start, _end = self.tokens[self.i]
         self.i += 1
         if kind == "number":
             return self.node("number", float(piece), start)
@@ -93,7 +93,7 @@ class Parser:
         return self.fail("a number, a name or a parenthesis")
 
     def fail(self, wanted):
-        kind, piece, start, end = self.tokens[self.i]
+        _kind, piece, start, end = self.tokens[self.i]
         found = f"`{piece}`" if piece else "the end"
         raise ExpressionError(start, end, f"expected {wanted}, found {found}", "")
 
@@ -144,7 +144,10 @@ FORCES = [
     card("torque", "on body -; from body - ground; value law N*m"),
     card("spring", "between points m ; along gauge - ; stiffness number N/m; rest_length number m 0; damping number N*s/m 0"),
     card("damper", "between points m ; along gauge - ; damping number N*s/m"),
-    card("torsion_spring", "on body -; from body - ground; stiffness number N*m/rad; rest_angle number rad 0; damping number N*m*s/rad 0"),
+    card(
+        "torsion_spring",
+        "on body -; from body - ground; stiffness number N*m/rad; rest_angle number rad 0; damping number N*m*s/rad 0",
+    ),
     card("law", "along gauge -; value law -; potential gauge J "),
 ]
 for one in (f for c in FORCES for f in c["fields"] if f["name"] in ("between", "along", "potential") and c["type"] != "law"):

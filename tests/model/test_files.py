@@ -73,7 +73,9 @@ def test_an_unchanged_file_is_saved_as_it_was(tmp_path):
     (tmp_path / "gun.yaml").write_text(COMMENTED)
     Mechanism.load(tmp_path / "gun.yaml").save(tmp_path / "copy.yaml")
     kept = (tmp_path / "copy.yaml").read_text()
-    assert [line.split("#")[0].split() for line in kept.splitlines()] == [line.split("#")[0].split() for line in COMMENTED.splitlines()]
+    assert [line.split("#")[0].split() for line in kept.splitlines()] == [
+        line.split("#")[0].split() for line in COMMENTED.splitlines()
+    ]
 
 
 def test_comments_survive_a_change(tmp_path):
@@ -104,7 +106,9 @@ def test_json_with_tabs_is_accepted():
 # -- any model reads back as it was ----------------------------------------------------------------
 
 words = st.text("abcxyzÄθ _0123456789", min_size=1, max_size=8).map(str.strip).filter(lambda w: w and not w[0].isdigit())
-odd_texts = st.sampled_from(["no", "null", "1", "1e3", "~", "-", "yes", "a: b", "# x", "2020-01-01", "=", "0x10", "'q'", '"', "x  y", "*a", "{a}"])
+odd_texts = st.sampled_from(
+    ["no", "null", "1", "1e3", "~", "-", "yes", "a: b", "# x", "2020-01-01", "=", "0x10", "'q'", '"', "x  y", "*a", "{a}"]
+)
 numbers = st.one_of(
     st.integers(-(10**20), 10**20),
     st.floats(allow_nan=False, allow_infinity=False),
@@ -113,9 +117,11 @@ numbers = st.one_of(
 )
 refs = st.sampled_from(["ground.O", "rod.start", "crank drive.end", "link[1].end"])
 pairs = st.lists(numbers, min_size=2, max_size=2)
-named = lambda values: st.dictionaries(st.one_of(words, odd_texts), values, max_size=3)  # noqa: E731
+named = lambda values: st.dictionaries(st.one_of(words, odd_texts), values, max_size=3)
 bodies = st.one_of(
-    st.fixed_dictionaries({"shape": st.just("rod"), "length": numbers, "mass": numbers}, optional={"points": named(st.one_of(refs, pairs))}),
+    st.fixed_dictionaries(
+        {"shape": st.just("rod"), "length": numbers, "mass": numbers}, optional={"points": named(st.one_of(refs, pairs))}
+    ),
     st.fixed_dictionaries({"mass": numbers}, optional={"inertia": numbers, "centre": pairs, "outline": st.just("none")}),
     st.fixed_dictionaries(
         {"shape": st.just("polygon"), "corners": st.lists(pairs, min_size=3, max_size=5), "mass": numbers},
@@ -124,9 +130,13 @@ bodies = st.one_of(
 )
 coordinates = st.one_of(words, st.fixed_dictionaries({"name": words}, optional={"zero": numbers, "absolute": st.booleans()}))
 joints = st.one_of(
-    st.fixed_dictionaries({"type": st.just("hinge"), "of": st.lists(refs, min_size=2, max_size=3)}, optional={"coordinate": coordinates}),
+    st.fixed_dictionaries(
+        {"type": st.just("hinge"), "of": st.lists(refs, min_size=2, max_size=3)}, optional={"coordinate": coordinates}
+    ),
     st.fixed_dictionaries({"type": st.just("slot"), "along": st.lists(refs, min_size=2, max_size=2), "point": refs}),
-    st.fixed_dictionaries({"type": st.just("gear"), "of": st.lists(refs, min_size=2, max_size=2), "radii": pairs, "internal": st.booleans()}),
+    st.fixed_dictionaries(
+        {"type": st.just("gear"), "of": st.lists(refs, min_size=2, max_size=2), "radii": pairs, "internal": st.booleans()}
+    ),
 )
 models = st.fixed_dictionaries(
     {"freebody": st.just(1)},
@@ -137,7 +147,11 @@ models = st.fixed_dictionaries(
         "bodies": named(bodies),
         "joints": named(joints),
         "initial": st.dictionaries(words, numbers, max_size=3),
-        "events": named(st.fixed_dictionaries({"when": numbers.map(str)}, optional={"then": st.just([{"set": {"T": 0}}, "stop"]), "if": words})),
+        "events": named(
+            st.fixed_dictionaries(
+                {"when": numbers.map(str)}, optional={"then": st.just([{"set": {"T": 0}}, "stop"]), "if": words}
+            )
+        ),
         "report": named(st.one_of(words, st.fixed_dictionaries({"max": words}, optional={"over": pairs, "unit": words}))),
     },
 )

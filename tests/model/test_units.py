@@ -86,7 +86,9 @@ KNOWN = {"l": "m", "m": "kg", "k": "N/m", "T": "N*m", "theta": "rad", "w": "rad/
 
 def measured(text: str) -> Dimension | None:
     expression = syntax.parse(text)
-    return syntax.Measure(expression, lambda name: units.unit(KNOWN[name]).dimension if name in KNOWN else None).of(expression.tree)
+    return syntax.Measure(expression, lambda name: units.unit(KNOWN[name]).dimension if name in KNOWN else None).of(
+        expression.tree
+    )
 
 
 MEASURED = {
@@ -124,7 +126,9 @@ def test_bare_numbers_and_parameters_fit_anywhere(text):
     assert measured(text) is None
 
 
-@pytest.mark.parametrize("text", ["l + m", "l < m", "sin(l)", "exp(T)", "l^m", "l^u", "min(l, T)", "if(1 < 2, l, m)", "l - 3 kg", "2 m + 1 kg"])
+@pytest.mark.parametrize(
+    "text", ["l + m", "l < m", "sin(l)", "exp(T)", "l^m", "l^u", "min(l, T)", "if(1 < 2, l, m)", "l - 3 kg", "2 m + 1 kg"]
+)
 def test_what_does_not_fit(text):
     with pytest.raises(Complaint):
         measured(text)
@@ -151,5 +155,12 @@ def test_a_coherent_unit_changes_no_bit(value):
 
 def test_evaluation():
     values = {"a": 2.0, "b": 3.0}
-    for text, wanted in {"a^b - -1": 9, "min(a, b)*10": 20, "if(a > b or not a == 3, 1, 2)": 1, "2^-1": 0.5, "-a^2": -4, "sign(-3)": -1}.items():
+    for text, wanted in {
+        "a^b - -1": 9,
+        "min(a, b)*10": 20,
+        "if(a > b or not a == 3, 1, 2)": 1,
+        "2^-1": 0.5,
+        "-a^2": -4,
+        "sign(-3)": -1,
+    }.items():
         assert syntax.evaluate(syntax.parse(text).tree, values.__getitem__) == wanted

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -98,37 +98,38 @@ class AnswerWriter:
                 self.write.scope.complain(path, complaint.what, complaint.hint)
         return found
 
-    def _text(self, path: Path, text: str) -> ReportItem:
+    def _text(self, path: Path, text: str, unit: str | None = None) -> ReportItem:
         if statistic := _STATISTIC.fullmatch(text):
             kind, rest = statistic.groups()
             window = _OVER.fullmatch(rest)
             if "@" in rest:
                 raise Complaint(f"`{kind} of` looks at a whole run, not at a moment", "for a window write `over 1 s .. 2 s`")
-            return self._item(path, kind, window[1] if window else rest, over=window.group(2, 3) if window else None)
+            return self._item(path, kind, window[1] if window else rest, None, window.group(2, 3) if window else None, unit)
         expression, sign, moment = text.rpartition("@")
-        return self._item(path, "value", expression if sign else text, at=moment.strip() if sign else None)
+        return self._item(path, "value", expression if sign else text, moment.strip() if sign else None, None, unit)
 
     def _mapping(self, path: Path, asked: Question) -> ReportItem:
         kind = next(word for word in ("value", *EXTREMES) if getattr(asked, word) is not None)
         text = getattr(asked, kind)
-        over = None if asked.over is None else (asked.over[0], asked.over[1])
-        if kind == "value" and "@" in text and asked.at is None:
-            return self._text(path, text) if asked.unit is None else self._in_unit(path, self._text(path, text), asked.unit)
-        item = self._item(path, kind, text, asked.at, over)
-        return item if asked.unit is None else self._in_unit(path, item, asked.unit)
+        if kind == "value" and asked.at is None:
+            return self._text(path, text, asked.unit)
+        return self._item(path, kind, text, asked.at, asked.over, asked.unit)
 
-    def _item(self, path: Path, kind: str, text: str, at: Any = None, over: tuple[Any, Any] | None = None) -> ReportItem:
+    def _item(self, path: Path, kind: str, text: str, at: Any, over: Sequence[Any] | None, unit: str | None) -> ReportItem:
         expression, dimension = self.write.measured(text.strip())
         dimension = self._dimension(kind, units.TIME if expression == "t" else dimension)
         moment = None if at is None else self._moment(at)
         window = None if over is None else (self._moment(over[0]), self._moment(over[1]))
-        return ReportItem(str(path[1]), expression, kind, moment, window, dimension.unit() if dimension else "")
+        item = ReportItem(str(path[1]), expression, kind, moment, window, dimension.unit() if dimension else "")
+        return item if unit is None else self._in_unit(path, item, unit, dimension)
 
-    def _in_unit(self, path: Path, item: ReportItem, unit: str) -> ReportItem:
+    def _in_unit(self, path: Path, item: ReportItem, unit: str, own: Dimension | None) -> ReportItem:
         scale, dimension = units.convert(unit)
-        own = units.unit(item.unit).dimension if item.unit else None
         if own is not None and not own.fits(dimension):
-            self.write.scope.complain((*path, "unit"), f"the value is {own.words()}; `{unit}` is the unit of {dimension.words()}", "")
+            what = f"the value is {own.words()}; `{unit}` is the unit of {dimension.words()}"
+            self.write.scope.complain(
+                (*path, "unit"), what, f"write e.g. `unit: {own.unit()}`" if own.unit() else "leave the unit out"
+            )
         return replace(item, unit=unit, scale=scale)
 
     def _dimension(self, kind: str, dimension: Dimension | None) -> Dimension | None:
@@ -144,7 +145,9 @@ class AnswerWriter:
             number, dimension = self.write.number_of(moment)
         except Complaint:
             events = self.write.meanings.seen_from(self.write.scope, self.write.meanings.events)
-            raise Complaint(f"`{moment}` is no moment", suggestion(moment, [*events, *_WORDS]) + "; or a time like `0.3 s`") from None
+            raise Complaint(
+                f"`{moment}` is no moment", suggestion(moment, [*events, *_WORDS]) + "; or a time like `0.3 s`"
+            ) from None
         if dimension is not None and not dimension.fits(units.TIME):
             raise Complaint(f"a moment is a time (s); `{moment}` is {dimension.words()}", "write e.g. `@ 0.3 s`")
         return number if isinstance(number, float) else f"={number}"

@@ -8,7 +8,6 @@ from .errors import Complaint, Path
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .schema import Body, CurveShape, Marked, Piece, Shaped
 from .tracks import circle, track
-
 from .writer import Number, Writer
 
 _CORE_SHAPES = {"particle": "point", "triangle": "polygon", "general": "given"}
@@ -30,7 +29,9 @@ class BodyWriter:
             path: Path = ("bodies", name)
             full = self.write.scope.prefix + name
             self._points(full, body, path, self._shape_points(path, body))
-            self.spec["bodies"].append({"name": full, "particle": body.shape == "particle", "pieces": self._pieces(path, full, body)})
+            self.spec["bodies"].append(
+                {"name": full, "particle": body.shape == "particle", "pieces": self._pieces(path, full, body)}
+            )
         if self.write.scope.model.ground:
             self._points("ground", self.write.scope.model.ground, ("ground",), {"O": [0.0, 0.0], "origin": [0.0, 0.0]})
 
@@ -102,8 +103,12 @@ class BodyWriter:
                 return usual.get(name, name)
             if at is None or at in passed:
                 known = ", ".join(f"`{k}`" for k in [*usual, "G", *marked.points])
-                what = f"`{body}` has no point `{name}`" if at is None else f"the points {', '.join(passed)} only name one another"
-                self.write.scope.complain(path, what, f"it has {known}" if at is None else "give one of them coordinates `[x, y]`")
+                what = (
+                    f"`{body}` has no point `{name}`" if at is None else f"the points {', '.join(passed)} only name one another"
+                )
+                self.write.scope.complain(
+                    path, what, f"it has {known}" if at is None else "give one of them coordinates `[x, y]`"
+                )
                 return [0.0, 0.0]
             name = at.removeprefix(f"{body}.")
 
@@ -145,7 +150,9 @@ class BodyWriter:
         if "inertia" in piece:
             return {"shape": "given", "mass": piece["mass"], "inertia": piece["inertia"], "at": at}
         if "corners" in piece:
-            self.write.scope.complain(path, "the mass centre of corners follows from them", "give `inertia` too, or leave `centre` out")
+            self.write.scope.complain(
+                path, "the mass centre of corners follows from them", "give `inertia` too, or leave `centre` out"
+            )
         return piece | {"at": at}
 
     def _place(self, path: Path, full: str, at: Any) -> list[Number]:
@@ -180,5 +187,3 @@ def _half(length: Number) -> Number:
 
 def _opposite(number: Number) -> Number:
     return -number if isinstance(number, float) else f"-{number}"
-
-

@@ -203,7 +203,9 @@ class Builder:
         name, old = str(plain(name)), getattr(self.model, section)
         if note:
             if name in old:
-                raise self._error((section, name), f"`{name}` is used twice in {section}", "give one of them another name", _caller())
+                raise self._error(
+                    (section, name), f"`{name}` is used twice in {section}", "give one of them another name", _caller()
+                )
             self._calls.note((section, name))
         # Validated alone, so that making many items takes linear time.
         made = self._validated({section: {name: plain(value)}}, (section, name))

@@ -22,8 +22,8 @@ class Expansion:
     """Plain data with repetitions written out.
 
     ``whole`` works out a whole number of parameters. ``origin`` leads from the path of a written-out item to that of the
-    item that made it. Problems go to ``complain`` with the path of the item as it stands in the file and whether its key is meant; too many items
-    raise ``Complaint``.
+    item that made it. Problems go to ``complain`` with the path of the item as it stands in the file and whether its key is
+    meant; too many items raise ``Complaint``.
     """
 
     def __init__(self, whole: Whole, complain: Complain) -> None:
@@ -39,7 +39,7 @@ class Expansion:
             return self._mapping(data, path, source, index)
         if isinstance(data, list):
             return [self.of(item, (*path, i), (*source, i), index) for i, item in enumerate(data)]
-        if not isinstance(data, str) or source in _AS_WRITTEN or source[:1] == ("parts",) and source[-1] == "file":
+        if not isinstance(data, str) or source in _AS_WRITTEN or (source[:1] == ("parts",) and source[-1] == "file"):
             return data
         return self._guarded(source, lambda: self._text(data, index), data)
 

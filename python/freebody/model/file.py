@@ -104,7 +104,9 @@ def _styled(value: Any) -> Any:
     """Plain data in one line where it fits, else in a line for each entry."""
     if not isinstance(value, (dict, list)):
         return value
-    styled: Any = CommentedMap({k: _styled(v) for k, v in value.items()}) if isinstance(value, dict) else CommentedSeq(map(_styled, value))
+    styled: Any = (
+        CommentedMap({k: _styled(v) for k, v in value.items()}) if isinstance(value, dict) else CommentedSeq(map(_styled, value))
+    )
     if len(json.dumps(value, ensure_ascii=False)) <= _LINE:
         styled.fa.set_flow_style()
     return styled

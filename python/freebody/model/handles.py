@@ -82,7 +82,11 @@ class Marked:
 
     def line(self, name: str, through: Any, towards: Any = None, *, angle: Any = None) -> str:
         """Names a line through a point, towards another one or at an angle from the body's x axis."""
-        given = [str(through), str(towards)] if towards is not None else {"through": str(through), "angle": 0 if angle is None else angle}
+        given = (
+            [str(through), str(towards)]
+            if towards is not None
+            else {"through": str(through), "angle": 0 if angle is None else angle}
+        )
         self._mechanism.mark(self.name, "lines", name, given)
         return f"{self.name}.{name}"
 

@@ -124,6 +124,7 @@ class _Lowering:
             for first, name, owner, body in marked:
                 path: Path = (first, name) if name else (first,)
                 for section in ("points", "lines", "curves"):
+                    found[f"{section}.{owner}".rstrip(".")] = (s, path)
                     found |= {f"{section}.{owner}{mark}": (s, (*path, section, mark)) for mark in getattr(body, section)}
         return found
 
@@ -145,9 +146,13 @@ class _Sections:
         for name, table in self.model.tables.items():
             x, y = (self._numbers(("tables", name, axis), getattr(table, axis)) for axis in "xy")
             if len(x) != len(y) or len(x) < 2:
-                self.scope.complain(("tables", name), f"the table has {len(x)} arguments and {len(y)} values", "it needs two points or more")
+                self.scope.complain(
+                    ("tables", name), f"the table has {len(x)} arguments and {len(y)} values", "it needs two points or more"
+                )
             elif rows := [i for i in range(1, len(x)) if x[i] <= x[i - 1]]:
-                self.scope.complain(("tables", name, "x", rows[0]), "the arguments of a table must grow", "put its points in order")
+                self.scope.complain(
+                    ("tables", name, "x", rows[0]), "the arguments of a table must grow", "put its points in order"
+                )
             self.spec["tables"].append({"name": self.prefix + name, "x": x, "y": y, "interpolation": table.interpolation})
         for name, text in self.model.gauges.items():
             self.spec["gauges"].append({"name": self.prefix + name, "value": self.write.expression(("gauges", name), text)})
@@ -226,7 +231,10 @@ class _Sections:
         named = scope.coordinate_names(name, joint)
         given = elements.coordinates(joint)
         at: Path = ("joints", name, "coordinates" if elements.given(joint, "coordinates") else "coordinate")
-        return [self._coordinate((*at, i) if at[-1] == "coordinates" else at, c, card) for i, (c, (_, card)) in enumerate(zip(given, named))]
+        return [
+            self._coordinate((*at, i) if at[-1] == "coordinates" else at, c, card)
+            for i, (c, (_, card)) in enumerate(zip(given, named, strict=False))
+        ]
 
     def _coordinate(self, path: Path, given: Any, card: cards.Coordinate) -> Spec:
         if isinstance(given, str):
@@ -236,7 +244,9 @@ class _Sections:
             zero = _ZEROS[zero]
         elif zero in _ZEROS or (given.absolute and not angle):
             word = "zero" if zero in _ZEROS else "absolute"
-            self.scope.complain((*path, word), f"`{word}: {getattr(given, word)}` goes with an angle; `{given.name}` is a length", "leave it out")
+            self.scope.complain(
+                (*path, word), f"`{word}: {getattr(given, word)}` goes with an angle; `{given.name}` is a length", "leave it out"
+            )
             zero = 0.0
         sense = -1 if given.sense in ("clockwise", "backward") else 1
         return {
@@ -253,8 +263,7 @@ class _Sections:
         power = ("position", "velocity", "acceleration").index(motion.level)
         of = self.write.expression((*path, "of"), motion.of)
         dimension = self.write.dimension(motion.of)
-        unit = dimension.times(TIME, -power).unit() if dimension else None
-        law = self.write.expression((*path, "is"), motion.law, unit)
+        law = self.write.expression((*path, "is"), motion.law, dimension and dimension.times(TIME, -power))
         by = self.write.expression((*path, "by"), motion.by) if motion.by is not None else None
         return {"name": self.prefix + name, "of": of, "is": law, "level": motion.level, "by": by}
 
@@ -281,4 +290,4 @@ class _Sections:
         if kind != "parameter":
             parameters = self.write.meanings.seen_from(self.scope, [k for k, (kind, _) in known.items() if kind == "parameter"])
             self.scope.complain(path, f"there is no parameter `{name}` to set", suggestion(name, parameters, "parameters"), True)
-        return full, self.write.expression(path, value, dimension.unit() if dimension else None)
+        return full, self.write.expression(path, value, dimension)

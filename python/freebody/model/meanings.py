@@ -12,7 +12,7 @@ from .schema import Body
 from .scope import Scope, coordinate_names
 from .units import Dimension, unit
 
-SHAPE_POINTS = {"particle": ("centre",), "rod": ("start", "centre", "end")} | {s: ("centre",) for s in ("disk", "ring", "rectangle")}
+SHAPE_POINTS = dict.fromkeys(("particle", "disk", "ring", "rectangle"), ("centre",)) | {"rod": ("start", "centre", "end")}
 EVERY_BODY = ("origin", "G")
 
 
@@ -51,8 +51,13 @@ class Meanings:
         if name in self.points or name in self.bodies:
             kind = "point" if name in self.points else "body"
             readings = "`x`, `y`, `vx`, `distance`" if kind == "point" else "`angle`, `omega`"
-            return Complaint(f"`{short}` is a {kind}, not a number", f"read it through a function such as {readings}: `{'x' if kind == 'point' else 'angle'}({short})`")
-        return Complaint(f"nothing is called `{short}`", suggestion(short, self.seen_from(scope, self.values), "parameters or coordinates"))
+            return Complaint(
+                f"`{short}` is a {kind}, not a number",
+                f"read it through a function such as {readings}: `{'x' if kind == 'point' else 'angle'}({short})`",
+            )
+        return Complaint(
+            f"nothing is called `{short}`", suggestion(short, self.seen_from(scope, self.values), "parameters or coordinates")
+        )
 
     def place(self, name: str, kind: str, known: Iterable[str], scope: Scope) -> Complaint:
         """The complaint about a point, line or curve that does not exist."""
@@ -60,12 +65,19 @@ class Meanings:
         body, _, last = name.rpartition(".")
         if name in self.bodies:
             points = sorted(k for k in known if k.rpartition(".")[0] == name)
-            return Complaint(f"a {kind} is needed, and `{short}` is a body", f"write one of its {kind}s, e.g. `{points[-1]}`" if points else "")
+            return Complaint(
+                f"a {kind} is needed, and `{short}` is a body", f"write one of its {kind}s, e.g. `{points[-1]}`" if points else ""
+            )
         if body in self.bodies:
             own = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == body]
-            return Complaint(f"`{body.removeprefix(scope.prefix)}` has no {kind} `{last}`", suggestion(last, own, f"{kind} of that body"))
+            return Complaint(
+                f"`{body.removeprefix(scope.prefix)}` has no {kind} `{last}`", suggestion(last, own, f"{kind} of that body")
+            )
         if body:
-            return Complaint(f"there is no body `{body.removeprefix(scope.prefix)}`", suggestion(body.removeprefix(scope.prefix), self.seen_from(scope, self.bodies)))
+            return Complaint(
+                f"there is no body `{body.removeprefix(scope.prefix)}`",
+                suggestion(body.removeprefix(scope.prefix), self.seen_from(scope, self.bodies)),
+            )
         return Complaint(f"`{short}` is no {kind}", f"a {kind} is written `body.name`, e.g. `ground.O`")
 
     def seen_from(self, scope: Scope, known: Iterable[str]) -> list[str]:
@@ -124,9 +136,13 @@ class _Declaring:
         self.check(name, path)
         known = self.found.values.get(self.full(name))
         if known is not None:
-            self.scope.complain(path, f"the {kind} `{name}` has the name of a {known[0]}", "give one of them another name", kind != "coordinate")
+            self.scope.complain(
+                path, f"the {kind} `{name}` has the name of a {known[0]}", "give one of them another name", kind != "coordinate"
+            )
         elif name in syntax.CONSTANTS and kind != "parameter":
-            self.scope.complain(path, f"`{name}` has a meaning of its own in expressions", f"give the {kind} another name", kind != "coordinate")
+            self.scope.complain(
+                path, f"`{name}` has a meaning of its own in expressions", f"give the {kind} another name", kind != "coordinate"
+            )
         self.found.values.setdefault(self.full(name), (kind, dimension))
 
     def owner(self, name: str, kind: str, path: Path) -> None:
@@ -139,7 +155,9 @@ class _Declaring:
     def body(self, name: str, body: Body) -> None:
         self.check(name, ("bodies", name))
         if name == "ground":
-            self.scope.complain(("bodies", name), "`ground` is always there", "give it points under `ground:`, outside `bodies:`", True)
+            self.scope.complain(
+                ("bodies", name), "`ground` is always there", "give it points under `ground:`, outside `bodies:`", True
+            )
             return
         full = self.full(name)
         self.found.bodies.add(full)
@@ -156,7 +174,9 @@ class _Declaring:
             for name in getattr(marked, section, {}):
                 self.check(name, (*path, section, name))
                 if section == "points" and f"{owner}{name}" in known:
-                    self.scope.complain((*path, section, name), f"`{body}` has a point `{name}` already", "give yours another name", True)
+                    self.scope.complain(
+                        (*path, section, name), f"`{body}` has a point `{name}` already", "give yours another name", True
+                    )
                 known.add(f"{owner}{name}")
 
     def joined(self) -> set[str]:
@@ -177,5 +197,3 @@ def _texts(data: object) -> Iterable[str]:
             yield from _texts(item)
     elif isinstance(data, str):
         yield data
-
-

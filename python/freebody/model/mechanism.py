@@ -13,7 +13,7 @@ from .scope import coordinate_names
 
 
 class Mechanism(Builder):
-    """A mechanism under construction; see ``Builder``. Each shape, joint and force is a method: ``rod``, ``hinge``, ``spring`` …"""
+    """A mechanism under construction; see ``Builder``. Each shape, joint and force is a method: ``rod``, ``hinge`` …"""
 
 
 _KEYWORD = inspect.Parameter.KEYWORD_ONLY

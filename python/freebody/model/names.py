@@ -97,7 +97,7 @@ def replace_names(text: str, other: Callable[[str, bool], str]) -> str:
     tokens = [(token.lastgroup, token[0]) for token in TOKEN.finditer(text)]
     solid = [i for i, (kind, _) in enumerate(tokens) if kind != "space"]
     out = [piece for _, piece in tokens]
-    for before, i, after in zip([None, *solid], solid, [*solid[1:], None]):
+    for before, i, after in zip([None, *solid], solid, [*solid[1:], None], strict=False):
         if tokens[i][0] == "name" and (before is None or tokens[before][0] != "number"):
             out[i] = other(tokens[i][1], after is not None and tokens[after][1] == "(")
     return "".join(out)

@@ -20,7 +20,9 @@ class Parameters:
     kept in ``faults`` and raised when its value is asked for.
     """
 
-    def __init__(self, given: Mapping[str, Number], overruled: Mapping[str, tuple[float, Dimension | None]] | None = None) -> None:
+    def __init__(
+        self, given: Mapping[str, Number], overruled: Mapping[str, tuple[float, Dimension | None]] | None = None
+    ) -> None:
         self.given = given
         self.overruled = dict(overruled or {})
         self.faults: dict[str, Complaint] = {}
@@ -61,7 +63,7 @@ class Parameters:
     def whole(self, text: str) -> int:
         """The value of a whole number, for repetitions and indices. Raises ``Complaint``."""
         value = self.number(text)
-        if value != round(value) or abs(value) > 1e9:
+        if not abs(value) <= 1e9 or value != round(value):
             raise Complaint(f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers")
         return round(value)
 
@@ -74,7 +76,9 @@ class Parameters:
         for name, text in self.given.items():
             try:
                 if (what := fault(name)) or name in syntax.CONSTANTS:
-                    raise Complaint(what or f"`{name}` has a meaning of its own in expressions", "give the parameter another name")
+                    raise Complaint(
+                        what or f"`{name}` has a meaning of its own in expressions", "give the parameter another name"
+                    )
                 uses[name] = self._uses(text)
             except Complaint as complaint:
                 self.faults[name] = complaint
@@ -86,7 +90,9 @@ class Parameters:
                 circle = list(dict.fromkeys(reversed(error.args[1])))
                 shown = " → ".join([*circle, circle[0]])
                 for name in circle:
-                    self.faults[name] = Complaint(f"parameters are defined by one another in a circle: {shown}", "give one of them a number")
+                    self.faults[name] = Complaint(
+                        f"parameters are defined by one another in a circle: {shown}", "give one of them a number"
+                    )
                     uses[name] = []
 
     def _uses(self, text: Number) -> list[str]:
@@ -112,7 +118,9 @@ class Parameters:
         try:
             return float(syntax.evaluate(syntax.parse(text).tree, self.value))
         except (ArithmeticError, ValueError) as error:
-            raise Complaint(f"`{text}` has no value: {error}", "check for a division by 0 or a root of a negative number") from None
+            raise Complaint(
+                f"`{text}` has no value: {error}", "check for a division by 0 or a root of a negative number"
+            ) from None
 
     def _child(self, name: str) -> tuple[Parameters, str] | None:
         head, dot, rest = name.partition(".")

@@ -57,7 +57,9 @@ def _check_version(origin: Source) -> None:
         origin.data["freebody"] = VERSION
     elif isinstance(version, int) and version > VERSION:
         origin.complain(
-            ("freebody",), f"this file is written in version {version} of the language; this freebody reads {VERSION}", "update freebody"
+            ("freebody",),
+            f"this file is written in version {version} of the language; this freebody reads {VERSION}",
+            "update freebody",
         )
         raise ModelFileError(origin.problems)
     elif version != VERSION or isinstance(version, bool):
@@ -91,7 +93,10 @@ def _sentence(line: Any, path: Path) -> tuple[str, str]:
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         what = "joint" if path[0] == "joints" else "force"
         if kind == "union_tag_not_found":
-            return f"the {what} `{path[-1]}` has no `type`", f"add `type:`, e.g. `type: {'hinge' if what == 'joint' else 'spring'}`"
+            return (
+                f"the {what} `{path[-1]}` has no `type`",
+                f"add `type:`, e.g. `type: {'hinge' if what == 'joint' else 'spring'}`",
+            )
         return f"there is no {what} `{context['tag']}`", suggestion(context["tag"], _QUOTED.findall(context["expected_tags"]))
     if kind == "literal_error":
         known = _QUOTED.findall(context["expected"]) or [context["expected"]]

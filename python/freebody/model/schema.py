@@ -11,7 +11,25 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field, model_validator
 
 from .elements import Force, Joint
-from .values import Angle, Circle, Inertia, Length, Line, Mass, Name, Number, Pair, Place, Section, Text, Time, TwoPoints, number_in, one_of, refuse
+from .values import (
+    Angle,
+    Circle,
+    Inertia,
+    Length,
+    Line,
+    Mass,
+    Name,
+    Number,
+    Pair,
+    Place,
+    Section,
+    Text,
+    Time,
+    TwoPoints,
+    number_in,
+    one_of,
+    refuse,
+)
 
 VERSION = 1
 """The version of the language."""
@@ -198,7 +216,7 @@ class Initial(Section):
     """How the motion starts; further keys are coordinates, held exactly."""
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, Number] = Field(init=False)
+    __pydantic_extra__: dict[str, Number]
 
     rates: dict[str, Number] = Field({}, description="Rates of coordinates.")
     at_rest: bool = Field(False, description="Whether all rates are 0.")

@@ -80,7 +80,11 @@ class Scope:
     def complain(self, path: Path, what: str, hint: str = "", at_key: bool = False) -> None:
         """Notes a problem."""
         where = self.where(path, at_key)
-        self.problems.append(Problem(where if where.path else Where(where.file, where.line, where.column, path_text(path), where.excerpt), what, hint))
+        self.problems.append(
+            Problem(
+                where if where.path else Where(where.file, where.line, where.column, path_text(path), where.excerpt), what, hint
+            )
+        )
 
     def all(self) -> list[Scope]:
         """This scope and those of all parts, outer ones first."""
@@ -110,7 +114,9 @@ def open_scope(
 Written = tuple[Parameters, Model, dict[Path, Path]]
 
 
-def _written_out(model: Model, places: Places, problems: list[Problem], overruled: dict[str, tuple[float, Dimension | None]]) -> Written:
+def _written_out(
+    model: Model, places: Places, problems: list[Problem], overruled: dict[str, tuple[float, Dimension | None]]
+) -> Written:
     data = model.written()
     if not repeats(data):
         return Parameters(model.parameters, overruled), model, {}
@@ -147,7 +153,9 @@ def _open_part(scope: Scope, name: str, folder: Folder) -> None:
         if missing:
             scope.complain(("parts", name, "file"), f"there is no file `{part.file}`", error.problems[0].hint)
         return None
-    inner = open_scope(model, source, folder.inside(path), scope.problems, f"{scope.prefix}{name}.", _overruled(scope, name, model))
+    inner = open_scope(
+        model, source, folder.inside(path), scope.problems, f"{scope.prefix}{name}.", _overruled(scope, name, model)
+    )
     scope.parts[name] = inner
     scope.parameters.children[name] = inner.parameters
     return None
@@ -160,7 +168,12 @@ def _overruled(scope: Scope, name: str, model: Model) -> dict[str, tuple[float, 
     for parameter, text in scope.model.parts[name].parameters.items():
         path = ("parts", name, "parameters", parameter)
         if parameter not in model.parameters:
-            scope.complain(path, f"`{scope.model.parts[name].file}` has no parameter `{parameter}`", suggestion(parameter, model.parameters), True)
+            scope.complain(
+                path,
+                f"`{scope.model.parts[name].file}` has no parameter `{parameter}`",
+                suggestion(parameter, model.parameters),
+                True,
+            )
             continue
         try:
             found[parameter] = scope.parameters.measured(text)
@@ -175,7 +188,9 @@ def coordinate_names(name: str, joint: Any) -> list[tuple[str, cards.Coordinate]
     named = [c if isinstance(c, str) else c.name for c in elements.coordinates(joint)]
     usual = [f"{name}.{c.name}" for c in card.coordinates]
     # More names than the card has coordinates: a pin of several bodies repeats them.
-    return [(own, card.coordinates[i % len(card.coordinates)]) for i, own in enumerate(named + usual[len(named) :])] if usual else []
+    return (
+        [(own, card.coordinates[i % len(card.coordinates)]) for i, own in enumerate(named + usual[len(named) :])] if usual else []
+    )
 
 
 def _heads(scope: Scope) -> set[str]:

@@ -68,7 +68,9 @@ def open_file(path: FilePath) -> Source:
     """Reads a file. Raises ``ModelFileError``, also when it cannot be read."""
     try:
         if path.stat().st_size > MAX_BYTES:
-            raise _refused(str(path), f"the file is larger than {MAX_BYTES // 2**20} MiB", "use repetition, e.g. `link[i = 1 .. N]`")
+            raise _refused(
+                str(path), f"the file is larger than {MAX_BYTES // 2**20} MiB", "use repetition, e.g. `link[i = 1 .. N]`"
+            )
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise _refused(str(path), "there is no such file", _neighbours(path)) from None
@@ -118,7 +120,9 @@ class _Reader:
         self.count += 1
         if self.count > MAX_NODES or len(path) > MAX_DEPTH:
             limit = f"more than {MAX_NODES} items" if self.count > MAX_NODES else f"nested more than {MAX_DEPTH} deep"
-            raise ModelFileError([Problem(self.source.where(path[:-1]), f"the model is too large: {limit}", "aliases (`*name`) count each time")])
+            raise ModelFileError(
+                [Problem(self.source.where(path[:-1]), f"the model is too large: {limit}", "aliases (`*name`) count each time")]
+            )
         self.source.values[path] = (node.start_mark.line + 1, node.start_mark.column + 1)
         if isinstance(node, MappingNode):
             return self._mapping(node, path)
@@ -131,12 +135,19 @@ class _Reader:
         for key, value in node.value:
             mark = (key.start_mark.line + 1, key.start_mark.column + 1)
             if not isinstance(key, ScalarNode):
-                self._complain(mark, path, "a key must be a plain name", "in flow style write `{name: value}`; expressions in braces need quotes")
+                self._complain(
+                    mark,
+                    path,
+                    "a key must be a plain name",
+                    "in flow style write `{name: value}`; expressions in braces need quotes",
+                )
                 continue
             inner = (*path, key.value)
             if key.value in out:
                 first = self.source.keys[inner][0]
-                self._complain(mark, inner, f"`{key.value}` is used twice (first in line {first})", "give one of them another name")
+                self._complain(
+                    mark, inner, f"`{key.value}` is used twice (first in line {first})", "give one of them another name"
+                )
                 continue
             self.source.keys[inner] = mark
             out[key.value] = self.read(value, inner)
@@ -169,12 +180,28 @@ def _float(text: str) -> float:
 
 _WORDS = (
     (re.compile(r"character '\\t'|tab", re.I), "a tab character stands here", "YAML is indented with spaces"),
-    (re.compile("mapping values are not allowed"), "a second `:` on this line", "put quotes around a text that holds `: `, or check the indentation"),
+    (
+        re.compile("mapping values are not allowed"),
+        "a second `:` on this line",
+        "put quotes around a text that holds `: `, or check the indentation",
+    ),
     (re.compile("expected ',' or"), "a bracket or brace is not closed, or a comma is missing", ""),
-    (re.compile("did not find expected|expected <block end>|could not find expected"), "the indentation does not fit, or a `:` is missing", ""),
-    (re.compile("undefined alias"), "`*` begins an alias that is not defined", "put quotes around an expression that begins with `*`"),
+    (
+        re.compile("did not find expected|expected <block end>|could not find expected"),
+        "the indentation does not fit, or a `:` is missing",
+        "",
+    ),
+    (
+        re.compile("undefined alias"),
+        "`*` begins an alias that is not defined",
+        "put quotes around an expression that begins with `*`",
+    ),
     (re.compile("cannot start any token"), "a text cannot begin with this character", "put quotes around it"),
-    (re.compile("while scanning a quoted scalar|unexpected end of stream"), "a quotation is not closed", "close it with the quote it begins with"),
+    (
+        re.compile("while scanning a quoted scalar|unexpected end of stream"),
+        "a quotation is not closed",
+        "close it with the quote it begins with",
+    ),
 )
 _BRACKET_NAME = re.compile(r"[\[{,].*\w\[")
 

@@ -83,8 +83,7 @@ class StartWriter:
                 self._unknown((*path, name), full, name)
                 continue
             dimension = self.start.coordinates[full]
-            unit = None if dimension is None else dimension.times(TIME, -order).unit()
-            found[full] = self.write.number((*path, name), value, unit)
+            found[full] = self.write.number((*path, name), value, dimension and dimension.times(TIME, -order))
         return found
 
     def _unknown(self, path: Path, full: str, name: str) -> None:
@@ -120,7 +119,8 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
         "rates": {n: _plain(n, v, _rate(_dimension(start, n)), values) for n, v in rates.items()},
         "at_rest": bool(words.get("at_rest", start.at_rest and not words.get("rates"))),
         "points": {
-            n: [_plain(n, v, units.LENGTH, values) for v in at] for n, at in (start.points | dict(words.get("points", {}))).items()
+            n: [_plain(n, v, units.LENGTH, values) for v in at]
+            for n, at in (start.points | dict(words.get("points", {}))).items()
         },
         "branch": start.branch | {text: _sign(sign) for text, sign in dict(words.get("branch", {})).items()},
     }

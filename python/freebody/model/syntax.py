@@ -15,7 +15,7 @@ from freebody import _core
 from . import units
 from .errors import Complaint
 from .names import suggestion
-from .units import ANGLE, ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
+from .units import ANGLE, ENERGY, FORCE, NUMBER_ONLY, TIME, Dimension
 
 Tree = dict[str, Any]
 """A tree of the core: ``{"number": 2.0}``, ``{"name": …}``, ``{"call": [name, […]]}``, ``{"negate": …}``,
@@ -42,7 +42,9 @@ def parse(text: str) -> Expression:
     except _core.ExpressionError as error:
         start, end, what, hint = error.args
         place = rewritten.text[start:end].strip()
-        raise Complaint(f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), hint) from None
+        raise Complaint(
+            f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), hint
+        ) from None
     return Expression(rewritten.text, tree, tuple(rewritten.numbers))
 
 
@@ -137,7 +139,10 @@ class Measure:
             power = Fraction(evaluate(exponent, _no_name)).limit_denominator(12)
         except (Complaint, ArithmeticError, ValueError):
             if base is not None and not base.is_number:
-                raise Complaint(f"the exponent in `{self.text}` must be a number, because its base is {base.words()}", "write the number itself") from None
+                raise Complaint(
+                    f"the exponent in `{self.text}` must be a number, because its base is {base.words()}",
+                    "write the number itself",
+                ) from None
             return base
         return None if base is None else base.to_the(power)
 
@@ -223,7 +228,8 @@ _OPERATORS: dict[str, Callable[[float, float], float]] = {
     "or": lambda a, b: bool(a) or bool(b),
 }
 _CALLS: dict[str, Callable[..., float]] = {
-    **{name: getattr(math, name) for name in "sqrt exp sin cos tan asin acos atan atan2 sinh cosh tanh hypot".split()},
+    **{name: getattr(math, name) for name in ("sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot")},
+    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh")},
     "ln": math.log,
     "abs": abs,
     "min": min,

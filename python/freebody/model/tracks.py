@@ -45,7 +45,9 @@ def track(stretches: list[Stretch], at: Callable[[int, str], At]) -> tuple[str, 
             legs.append(_line(start, stop))
             end = stop
         elif end is None:
-            raise Complaint("a track cannot begin with an arc", "an arc begins where the stretch before it ends: begin with a line")
+            raise Complaint(
+                "a track cannot begin with an arc", "an arc begins where the stretch before it ends: begin with a line"
+            )
         else:
             stop = at(i, stretch.arc.to)
             legs.append(_arc(end, at(i, stretch.arc.centre), stop))
@@ -54,13 +56,13 @@ def track(stretches: list[Stretch], at: Callable[[int, str], At]) -> tuple[str, 
 
 
 def _line(start: At, stop: At) -> _Leg:
-    dx, dy = (_difference(b, a) for a, b in zip(start, stop))
+    dx, dy = (_difference(b, a) for a, b in zip(start, stop, strict=True))
     length = _worked(f"hypot({dx}, {dy})")
     return _Leg(length, f"{_text(start[0])} + {dx}*{{w}}/{length}", f"{_text(start[1])} + {dy}*{{w}}/{length}")
 
 
 def _arc(start: At, centre: At, stop: At) -> _Leg:
-    (ax, ay), (bx, by) = ([_difference(p, c) for p, c in zip(point, centre)] for point in (start, stop))
+    (ax, ay), (bx, by) = ([_difference(p, c) for p, c in zip(point, centre, strict=True)] for point in (start, stop))
     radius = _worked(f"hypot({ax}, {ay})")
     sweep = f"atan2({ax}*{by} - {ay}*{bx}, {ax}*{bx} + {ay}*{by})"
     turn = f"{_worked(f'sign({sweep})')}*{{w}}/{radius}"
@@ -82,7 +84,13 @@ def _joined(legs: list[_Leg]) -> tuple[str, str]:
 
 
 def _text(number: Number) -> str:
-    return f"({number!r})" if isinstance(number, float) and number < 0 else repr(number) if isinstance(number, float) else f"({number})"
+    return (
+        f"({number!r})"
+        if isinstance(number, float) and number < 0
+        else repr(number)
+        if isinstance(number, float)
+        else f"({number})"
+    )
 
 
 def _worked(text: str) -> str:

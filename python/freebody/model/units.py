@@ -48,7 +48,11 @@ class Dimension(NamedTuple):
         """Its SI unit as text, e.g. ``N/m``; empty for a plain number."""
         plain = self._replace(angle=0)
         if (known := _UNITS.get(plain)) is not None:
-            return f"rad{known}" if self.angle == 1 and known in ("", "/s", "/s^2") else known.replace("/s", "1/s", known.startswith("/"))
+            return (
+                f"rad{known}"
+                if self.angle == 1 and known in ("", "/s", "/s^2")
+                else known.replace("/s", "1/s", known.startswith("/"))
+            )
         return _product(self)
 
     def words(self) -> str:
@@ -115,8 +119,19 @@ _COHERENT = {
     "W": Dimension(2, 1, -3),
     "Pa": Dimension(-1, 1, -2),
 }
-_MORE = (f"pi = {Decimal(math.pi)} = π", "lbm = pound", "rev = turn", "revs = turn", "rps = turn / second", "kph = kilometer / hour")
-_COMMON = "m mm cm km kg g mg t lb lbm oz slug s ms min h rad deg rev N kN mN lbf kgf J kJ W kW hp Pa kPa MPa bar psi Hz rpm in ft yd mph".split()
+_MORE = (
+    f"pi = {Decimal(math.pi)} = π",
+    "lbm = pound",
+    "rev = turn",
+    "revs = turn",
+    "rps = turn / second",
+    "kph = kilometer / hour",
+)
+_COMMON = (
+    *("m", "mm", "cm", "km", "in", "ft", "yd", "kg", "g", "mg", "t", "lb", "lbm", "oz", "slug", "s", "ms", "min", "h"),
+    *("rad", "deg", "rev", "N", "kN", "mN", "lbf", "kgf", "J", "kJ", "W", "kW", "hp", "Pa", "kPa", "MPa", "bar", "psi"),
+    *("Hz", "rpm", "mph"),
+)
 _NO_UNITS = {"c", "pi", "tau", "e", "G", "speed_of_light", "count", "percent", "ppm"}
 
 _NUMBER = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*")
@@ -134,6 +149,13 @@ def _registry() -> pint.UnitRegistry[Fraction]:
     return registry
 
 
+def _not_a_unit() -> tuple[type[Exception], ...]:
+    """What the registry raises for words that it does not know, and for units with an offset or a logarithm."""
+    import pint
+
+    return (pint.errors.PintError, TypeError, ValueError, ArithmeticError)
+
+
 @cache
 def word(text: str) -> Unit | None:
     """The unit of one word, e.g. ``mm``; None when there is none of mechanics."""
@@ -141,9 +163,10 @@ def word(text: str) -> Unit | None:
         return Unit(Fraction(1), _COHERENT[text])
     if text in _NO_UNITS:
         return None
+    registry = _registry()
     try:
-        unit = _registry().Quantity(Fraction(1), "degree" if text == "°" else text).to_base_units()
-    except Exception:  # pint raises many kinds, also for units with an offset
+        unit = registry.Quantity(Fraction(1), "degree" if text == "°" else text).to_base_units()
+    except _not_a_unit():
         return None
     powers = {str(k): v for k, v in unit.unit_items()}
     known = {"meter": "length", "kilogram": "mass", "second": "time", "radian": "angle"}
@@ -193,7 +216,7 @@ class Rewritten(NamedTuple):
 
 def rewrite(text: str) -> Rewritten:
     """The expression with each number directly followed by a unit (``30 deg``) in SI. Raises ``Complaint``."""
-    tokens = [t for t in TOKEN.finditer(text)]
+    tokens = list(TOKEN.finditer(text))
     out: list[str] = []
     numbers: list[Dimension | None] = []
     before = ""
@@ -209,7 +232,7 @@ def rewrite(text: str) -> Rewritten:
                 if before in ("/", "^"):
                     raise Complaint(
                         f"`{before}{piece} {name}` can be read in two ways",
-                        f"put parentheses: `{before}({piece} {name})` with the unit inside, or give the number a name under `parameters`",
+                        f"write `{before}({piece} {name})` with the unit inside, or name the number under `parameters`",
                     )
                 size, dimension = _literal(piece, name)
                 piece, skip_to = repr(_rounded(piece, size)), after + 1
@@ -322,6 +345,9 @@ class _Reader:
             inside = self.product(until=")")
             return inside if self.take(")") else None
         piece = self.next()
+        if piece == "1" and self.at == 0:
+            self.at += 1
+            return Unit(Fraction(1), NUMBER_ONLY)  # of 1/s
         if not piece or not (piece[0].isalpha() or piece == "°"):
             return None
         self.at += 1

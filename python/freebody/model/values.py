@@ -47,14 +47,14 @@ class Section(BaseModel):
         kind, context = error["type"], error.get("ctx", {})
         if kind == "extra_forbidden" and len(error["loc"]) == 1:
             key = str(error["loc"][0])
-            kind = _complaint(f"unknown key `{key}`", suggestion(key, cls.words()))
+            kind = refuse(f"unknown key `{key}`", suggestion(key, cls.words()))
         elif kind == "missing" and len(error["loc"]) == 1:
             key = str(error["loc"][0])
-            kind = _complaint(f"`{key}` is missing", cls._about(key))
+            kind = refuse(f"`{key}` is missing", cls._about(key))
         elif kind == "freebody" and "what" not in context:
-            kind = _complaint(*error["msg"].split("\n"))
+            kind = refuse(*error["msg"].split("\n"))
         elif kind == "freebody":
-            kind = _complaint(context["what"], context["hint"])
+            kind = refuse(context["what"], context["hint"])
         return InitErrorDetails(type=kind, loc=error["loc"], input=error["input"], ctx=context)
 
     @classmethod
@@ -67,13 +67,9 @@ class Section(BaseModel):
         return self.model_dump(by_alias=True, exclude_unset=True)
 
 
-def _complaint(what: str, hint: str = "") -> PydanticCustomError:
-    return PydanticCustomError("freebody", "{what}", {"what": what, "hint": hint})
-
-
 def refuse(what: str, hint: str = "") -> PydanticCustomError:
     """The error that a validator raises: what is wrong and what to try."""
-    return _complaint(what, hint)
+    return PydanticCustomError("freebody", "{what}", {"what": what, "hint": hint})
 
 
 def _number(value: Any) -> float | int | str:
@@ -90,7 +86,9 @@ def _text(value: Any) -> str:
         return str(value)
     if isinstance(value, Real) and not isinstance(value, bool):
         return str(value)
-    raise refuse("an expression stands here as text" if value is not None else "nothing stands here", "write an expression, e.g. `R - l`")
+    raise refuse(
+        "an expression stands here as text" if value is not None else "nothing stands here", "write an expression, e.g. `R - l`"
+    )
 
 
 def _name(value: Any) -> str:
@@ -154,7 +152,6 @@ class Circle(Section):
 
     centre: Name
     radius: Length
-
 
 
 def one_of(what: str, hint: str, **kinds: Any) -> Any:

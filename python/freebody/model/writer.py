@@ -13,6 +13,7 @@ from .units import Dimension
 from .values import Circle, Through
 
 Number = float | str
+Unit = str | Dimension | None
 # What the functions of places take: a point, a line or a body each; ? where it may be left out.
 _ARGUMENTS = {"along": "pl", "across": "pl", "distance": "pp", "direction": "pp", "kinetic": "b?", "angular_momentum": "p"}
 _ARGUMENTS |= dict.fromkeys(("x", "y", "vx", "vy", "speed", "ax", "ay"), "p") | dict.fromkeys(("angle", "omega", "alpha"), "b")
@@ -29,7 +30,7 @@ class Writer:
 
     # -- numbers and expressions
 
-    def number(self, path: Path, value: Any, unit: str | None = None, positive: str = "") -> Number:
+    def number(self, path: Path, value: Any, unit: Unit = None, positive: str = "") -> Number:
         """A number of the model. ``positive`` says what may not be negative (``a mass``)."""
         try:
             found, dimension = self.number_of(value)
@@ -47,15 +48,15 @@ class Writer:
         """Two numbers."""
         return [self.number((*path, i), value, unit) for i, value in enumerate(values)]
 
-    def expression(self, path: Path, text: Any, unit: str | None = None, local: str = "", over: Dimension | None = None) -> str:
+    def expression(self, path: Path, text: Any, unit: Unit = None, local: str = "") -> str:
         """An expression of the configuration, of time or of answers; the core knows which of them may stand where.
 
-        ``unit`` is what it must measure (None: anything), divided by the dimension ``over``; ``local`` is a name that
-        only this expression knows (``s`` of a curve).
+        ``unit`` is what it must measure (None: anything); ``local`` is a name that only this expression knows (``s`` of
+        a curve).
         """
         try:
             found, dimension = self.measured(text, local)
-            self._check_dimension(path, text, dimension, unit, over)
+            self._check_dimension(path, text, dimension, unit)
             return found
         except Complaint as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
@@ -94,22 +95,23 @@ class Writer:
             kind = self.meanings.values.get(name, ("constant" if name == "pi" else "",))[0]
             if name == "t" or kind not in ("parameter", "constant", ""):
                 what = "the time" if name == "t" else f"a {kind}"
-                raise Complaint(f"`{name}` is {what}; this number cannot change with the motion", "it may depend on parameters only")
+                raise Complaint(
+                    f"`{name}` is {what}; this number cannot change with the motion", "it may depend on parameters only"
+                )
             if not kind:
                 raise self.meanings.unknown(name, self.scope)
         _, dimension = self.scope.parameters.measured(value)
         return expression.text, dimension
 
-    def _check_dimension(self, path: Path, text: Any, found: Dimension | None, unit: str | None, over: Dimension | None = None) -> None:
+    def _check_dimension(self, path: Path, text: Any, found: Dimension | None, unit: Unit) -> None:
         if unit is None or found is None:
             return
-        wanted = units.unit(unit).dimension
-        wanted = wanted if over is None else wanted.times(over, -1)
+        wanted = units.unit(unit).dimension if isinstance(unit, str) else unit
         if found.fits(wanted):
             return
         name = next((f"`{step}`" for step in reversed(path) if isinstance(step, str)), "this")
         words = [t[0] for t in TOKEN.finditer(str(text)) if t.lastgroup == "name" and t[0] in self.scope.model.parameters]
-        hint = f"write it in {wanted.unit() or 'plain numbers'}, or in a unit that is {_kind(wanted)}"
+        hint = f"write it in {wanted.unit()}, or in a unit of the same kind" if wanted.unit() else "write a plain number"
         if words and units.quantity(str(text)) is not None:
             hint = f"after a number, `{words[0]}` is read as a unit; for the parameter write a product, `*{words[0]}`"
         raise Complaint(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
@@ -132,8 +134,10 @@ class Writer:
         kinds = wanted.rstrip("?")
         if len(arguments) != len(kinds) and not (wanted.endswith("?") and not arguments):
             shown = ", ".join(_KINDS[k] for k in kinds)
-            raise Complaint(f"`{name}` takes {len(kinds)} argument{'s'[: len(kinds) > 1]}, not {len(arguments)}", f"write `{name}({shown})`")
-        for kind, argument in zip(kinds, arguments):
+            raise Complaint(
+                f"`{name}` takes {len(kinds)} argument{'s'[: len(kinds) > 1]}, not {len(arguments)}", f"write `{name}({shown})`"
+            )
+        for kind, argument in zip(kinds, arguments, strict=False):
             if "name" not in argument:
                 raise Complaint(f"`{name}` reads a {_KINDS[kind]}, not a number", "write its name")
             self._known(argument["name"], _KINDS[kind])
@@ -180,7 +184,10 @@ class Writer:
                 self.scope.complain(path, f"the points of a line {why}", "a line goes through two points of one body")
             return {"point": first, "towards": second}
         if isinstance(line, Through):
-            return {"point": self.point((*path, "through"), line.through, body), "angle": self.number((*path, "angle"), line.angle, "rad")}
+            return {
+                "point": self.point((*path, "through"), line.through, body),
+                "angle": self.number((*path, "angle"), line.angle, "rad"),
+            }
         return dict(self.lines.get(self._place(path, line, "line", body), {"point": "ground.O", "angle": 0.0}))
 
     def circle(self, path: Path, circle: Circle) -> dict[str, Any]:
@@ -209,7 +216,9 @@ class Writer:
             return name
         if kind == "body":
             short = name.removeprefix(self.scope.prefix)
-            what = f"`{short}` is a point, and a body is needed" if name in self.meanings.points else f"there is no body `{short}`"
+            what = (
+                f"`{short}` is a point, and a body is needed" if name in self.meanings.points else f"there is no body `{short}`"
+            )
             raise Complaint(what, suggestion(short.split(".")[0], self.meanings.seen_from(self.scope, self.meanings.bodies)))
         raise self.meanings.place(name, kind, self._all(kind), self.scope)
 
@@ -220,7 +229,3 @@ class Writer:
 
 def _body(point: str) -> str:
     return "ground" if point.startswith("ground.") else point.rpartition(".")[0]
-
-
-def _kind(dimension: Dimension) -> str:
-    return dimension.words().partition(" (")[0]
