@@ -3,10 +3,24 @@
 //! The core knows no files, no clock and no Python. `ARCHITECTURE.md` at the root of the
 //! repository is the map.
 
+pub mod assembly;
+pub mod balance;
+pub mod benchmark;
+pub mod compile;
+pub mod describe;
 pub mod expr;
+pub mod forces;
+pub mod gauges;
+pub mod graph;
 pub mod joints;
+pub mod kinematics;
+pub mod mechanism;
+pub mod mode;
 pub mod motion;
+pub mod numbers;
 pub mod plane;
 pub mod scalar;
+pub mod shapes;
+pub mod simulation;
 pub mod solve;
 pub mod spec;

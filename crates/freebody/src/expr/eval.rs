@@ -5,6 +5,9 @@ use super::tree::{Condition, Expr, Op};
 use crate::scalar::Scalar;
 
 /// Where the values of leaves `L` come from, as numbers `S`.
+///
+/// An environment that answers [`Env::rate`] by evaluating over `Jet<S>` needs a second type for
+/// the inside: were it its own, the compiler would build `Jet<Jet<…>>` without end.
 pub trait Env<S, L> {
     /// The value of a leaf.
     fn leaf(&self, leaf: &L) -> S;

@@ -83,7 +83,7 @@ fn number(rest: &str, start: usize) -> Result<(Token, usize), ExprError> {
     if rest[length..].starts_with('.') {
         length += 1 + digits(length + 1);
     }
-    let tail = rest[length..].as_bytes();
+    let tail = &rest.as_bytes()[length..];
     if matches!(tail.first(), Some(b'e' | b'E')) {
         let sign = usize::from(matches!(tail.get(1), Some(b'+' | b'-')));
         let exponent = digits(length + 1 + sign);
@@ -133,7 +133,9 @@ fn segment(rest: &str, start: usize, name: &mut String) -> Result<usize, ExprErr
         return Ok(length);
     };
     match quoted.find('\'') {
-        Some(0) => Err(Message::new("a quoted name is empty", "write the name between the quotes").at(&(start..start + 2))),
+        Some(0) => {
+            Err(Message::new("a quoted name is empty", "write the name between the quotes").at(&(start..start + 2)))
+        }
         Some(length) => {
             name.push_str(&quoted[..length]);
             Ok(length + 2)

@@ -219,3 +219,56 @@ impl Parser<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::spell;
+    use super::*;
+
+    #[test]
+    fn names_may_be_dotted_indexed_and_quoted() {
+        for (text, name) in [
+            ("rod.A", "rod.A"),
+            ("link[3].end", "link[3].end"),
+            ("'crank speed'", "crank speed"),
+            ("m1", "m1"),
+            ("'my rod'.A", "my rod.A"),
+            ("grid[i+1][2].µ", "grid[i+1][2].µ"),
+            ("'and'", "and"),
+        ] {
+            let ast = parse(text).unwrap();
+            assert_eq!((ast.kind, ast.span), (Kind::Name(name.into()), 0..text.len()));
+            assert_eq!(parse(&spell(name)).unwrap().kind, Kind::Name(name.into()));
+        }
+    }
+
+    #[test]
+    fn the_tree_is_compact_as_data() {
+        let tree = serde_json::to_string(&parse("f(x) - 2").unwrap()).unwrap();
+        let call = r#"{"call":["f",[{"name":"x","span":[2,3]}]],"span":[0,4]}"#;
+        assert_eq!(tree, format!(r#"{{"chain":[{call},[["-",{{"number":2.0,"span":[7,8]}}]]],"span":[0,8]}}"#));
+    }
+
+    #[test]
+    fn errors_say_where_and_what_to_do() {
+        for (text, at, what, hint) in [
+            ("", 0..0, "found the end", "empty"),
+            ("2kg", 1..3, "`kg`", "units belong to whole quantities"),
+            ("1 + 2 m", 6..7, "`m`", "needs `*`"),
+            ("(a + b", 6..6, "a closing parenthesis", "close"),
+            ("sin(x", 5..5, "a comma or a closing", "close"),
+            ("a + * b", 4..5, "`*`", "missing"),
+            ("a) + b", 1..2, "`)`", "drop it"),
+            ("a < b < c", 6..7, "do not chain", "and"),
+            ("a && b", 2..4, "`&&`", "`and`"),
+            ("a = b", 2..3, "`=`", "`==`"),
+            ("'abc", 0..4, "no end", "quote"),
+            ("link[3", 4..6, "bracket", "link[3]"),
+            ("1e999", 0..5, "too large", ""),
+        ] {
+            let error = parse(text).unwrap_err();
+            assert_eq!(error.at, at, "{text}: {error}");
+            assert!(error.what.contains(what) && error.hint.contains(hint), "{text}: {error}");
+        }
+    }
+}

@@ -81,7 +81,8 @@ impl<L> Op<L> {
         let infix = |a: usize, left: Bond, sign: &str, b: usize, right: Bond| {
             format!("{}{sign}{}", parts[a].within(left), parts[b].within(right))
         };
-        let call = |function: &str, a: usize, b: usize| (format!("{function}({}, {})", plain(a), plain(b)), Bond::Operand);
+        let call =
+            |function: &str, a: usize, b: usize| (format!("{function}({}, {})", plain(a), plain(b)), Bond::Operand);
         match *self {
             Op::Constant(value) if value.is_sign_negative() => (literal(value), Bond::Sign),
             Op::Constant(value) => (literal(value), Bond::Operand),

@@ -157,7 +157,13 @@ mod tests {
     fn points() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
         prop::collection::vec((0.01..3.0f64, -5.0..5.0f64), 2..12).prop_map(|pairs| {
             let mut at = -4.0;
-            pairs.into_iter().map(|(step, y)| { at += step; (at, y) }).unzip()
+            pairs
+                .into_iter()
+                .map(|(step, y)| {
+                    at += step;
+                    (at, y)
+                })
+                .unzip()
         })
     }
 

@@ -44,18 +44,43 @@ impl<S: Scalar> Env<S, char> for At<S> {
     }
     /// As if every leaf grew at the rate 1.
     fn rate(&self, of: &Expr<char>) -> S {
-        of.eval(&At { values: self.values.map(|v| Jet::new(v, S::one(), S::zero())), arm: self.arm }).d1
+        of.eval(&Moving(self)).d1
     }
     fn accel(&self, of: &Expr<char>) -> S {
-        of.eval(&At { values: self.values.map(|v| Jet::new(v, S::one(), S::zero())), arm: self.arm }).d2
+        of.eval(&Moving(self)).d2
     }
     fn table(&self, table: usize, x: S) -> S {
-        assert_eq!(table, 7);
-        Table::new(&[-2.0, 0.0, 2.0], &[0.0, 1.0, 5.0], Interpolation::Linear).unwrap().eval(x)
+        ramp(table, x)
     }
     fn arm(&self, _: usize) -> Option<bool> {
         self.arm
     }
+}
+
+/// The inside of time derivatives, which holds no further ones.
+struct Moving<'a, S>(&'a At<S>);
+
+impl<S: Scalar> Env<Jet<S>, char> for Moving<'_, S> {
+    fn leaf(&self, leaf: &char) -> Jet<S> {
+        Jet::new(self.0.leaf(leaf), S::one(), S::zero())
+    }
+    fn rate(&self, _: &Expr<char>) -> Jet<S> {
+        unreachable!()
+    }
+    fn accel(&self, _: &Expr<char>) -> Jet<S> {
+        unreachable!()
+    }
+    fn table(&self, table: usize, x: Jet<S>) -> Jet<S> {
+        ramp(table, x)
+    }
+    fn arm(&self, kink: usize) -> Option<bool> {
+        self.0.arm(kink)
+    }
+}
+
+fn ramp<S: Scalar>(table: usize, x: S) -> S {
+    assert_eq!(table, 7);
+    Table::new(&[-2.0, 0.0, 2.0], &[0.0, 1.0, 5.0], Interpolation::Linear).unwrap().eval(x)
 }
 
 fn resolve(text: &str) -> Result<Expr<char>, ExprError> {
@@ -89,16 +114,23 @@ fn slope(expr: &Expr<char>, x: f64, arm: Option<bool>) -> f64 {
 /// Any expression, as text.
 fn texts() -> impl Strategy<Value = String> {
     let atom = prop_oneof![
-        Just("x".to_string()), Just("y".to_string()), Just("z".to_string()), Just("gauge".to_string()),
-        Just("pi".to_string()), (0.0..1e3f64).prop_map(|v| format!("{v:?}")), (0..9u8).prop_map(|v| v.to_string()),
+        Just("x".to_string()),
+        Just("y".to_string()),
+        Just("z".to_string()),
+        Just("gauge".to_string()),
+        Just("pi".to_string()),
+        (0.0..1e3f64).prop_map(|v| format!("{v:?}")),
+        (0..9u8).prop_map(|v| v.to_string()),
     ];
     atom.prop_recursive(6, 60, 3, |inner| {
         let two = (inner.clone(), inner.clone());
         let three = (inner.clone(), inner.clone(), inner.clone(), inner.clone());
         prop_oneof![
-            (two.clone(), prop::sample::select(vec!["+", "-", "*", "/", " ** "])).prop_map(|((a, b), s)| format!("({a}){s}({b})")),
+            (two.clone(), prop::sample::select(vec!["+", "-", "*", "/", " ** "]))
+                .prop_map(|((a, b), s)| format!("({a}){s}({b})")),
             (two.clone(), prop::sample::select(vec!["+", "-", "*", "/"])).prop_map(|((a, b), s)| format!("{a}{s}{b}")),
-            (two, prop::sample::select(vec!["min", "max", "atan2", "hypot"])).prop_map(|((a, b), f)| format!("{f}({a}, {b})")),
+            (two, prop::sample::select(vec!["min", "max", "atan2", "hypot"]))
+                .prop_map(|((a, b), f)| format!("{f}({a}, {b})")),
             (inner.clone(), prop::sample::select(vec!["sin", "tanh", "abs", "sign", "step", "ramp", "double"]))
                 .prop_map(|(a, f)| format!("{f}({a})")),
             inner.prop_map(|a| format!("-({a})^2")),
@@ -161,54 +193,29 @@ proptest! {
 #[test]
 fn precedence_is_that_of_mathematics() {
     for (text, exact) in [
-        ("2 + 3*4^2/6 - 1", 9.0), ("-2^2", -4.0), ("2^3^2", 512.0), ("2**-1", 0.5), ("(-2)^2", 4.0), ("8/4/2", 1.0),
-        ("1 - 2 - 3", -4.0), ("--3", 3.0), ("+-+3", -3.0), ("2^-2^2", 0.0625), ("1.5e-3*1E3", 1.5), (".5 + 1.", 1.5),
-        ("if(not 1 < 2 or 3 >= 3 and 2 != 2, 1, 0)", 0.0), ("2*-3", -6.0), ("5 − 2", 3.0), ("min(4, 2, 3)", 2.0),
-        ("clamp(5, 0, 2)", 2.0), ("step(0) + step(1)", 1.0), ("sign(0)", 0.0), ("ramp(1)", 3.0), ("double(4)", 8.0),
+        ("2 + 3*4^2/6 - 1", 9.0),
+        ("-2^2", -4.0),
+        ("2^3^2", 512.0),
+        ("2**-1", 0.5),
+        ("(-2)^2", 4.0),
+        ("8/4/2", 1.0),
+        ("1 - 2 - 3", -4.0),
+        ("--3", 3.0),
+        ("+-+3", -3.0),
+        ("2^-2^2", 0.0625),
+        ("1.5e-3*1E3", 1.5),
+        (".5 + 1.", 1.5),
+        ("if(not 1 < 2 or 3 >= 3 and 2 != 2, 1, 0)", 0.0),
+        ("2*-3", -6.0),
+        ("5 − 2", 3.0),
+        ("min(4, 2, 3)", 2.0),
+        ("clamp(5, 0, 2)", 2.0),
+        ("step(0) + step(1)", 1.0),
+        ("sign(0)", 0.0),
+        ("ramp(1)", 3.0),
+        ("double(4)", 8.0),
     ] {
         assert_eq!(value(text), exact, "{text}");
-    }
-}
-
-#[test]
-fn names_may_be_dotted_indexed_and_quoted() {
-    for (text, name) in [
-        ("rod.A", "rod.A"), ("link[3].end", "link[3].end"), ("'crank speed'", "crank speed"), ("m1", "m1"),
-        ("'my rod'.A", "my rod.A"), ("grid[i+1][2].µ", "grid[i+1][2].µ"), ("'and'", "and"),
-    ] {
-        let ast = parse(text).unwrap();
-        assert_eq!((ast.kind, ast.span), (Kind::Name(name.into()), 0..text.len()));
-        assert_eq!(parse(&spell(name)).unwrap().kind, Kind::Name(name.into()));
-    }
-}
-
-#[test]
-fn the_tree_is_compact_as_data() {
-    let tree = serde_json::to_string(&parse("f(x) - 2").unwrap()).unwrap();
-    let call = r#"{"call":["f",[{"name":"x","span":[2,3]}]],"span":[0,4]}"#;
-    assert_eq!(tree, format!(r#"{{"chain":[{call},[["-",{{"number":2.0,"span":[7,8]}}]]],"span":[0,8]}}"#));
-}
-
-#[test]
-fn errors_say_where_and_what_to_do() {
-    for (text, at, what, hint) in [
-        ("", 0..0, "found the end", "empty"),
-        ("2kg", 1..3, "`kg`", "units belong to whole quantities"),
-        ("1 + 2 m", 6..7, "`m`", "needs `*`"),
-        ("(a + b", 6..6, "a closing parenthesis", "close"),
-        ("sin(x", 5..5, "a comma or a closing", "close"),
-        ("a + * b", 4..5, "`*`", "missing"),
-        ("a) + b", 1..2, "`)`", "drop it"),
-        ("a < b < c", 6..7, "do not chain", "and"),
-        ("a && b", 2..4, "`&&`", "`and`"),
-        ("a = b", 2..3, "`=`", "`==`"),
-        ("'abc", 0..4, "no end", "quote"),
-        ("link[3", 4..6, "bracket", "link[3]"),
-        ("1e999", 0..5, "too large", ""),
-    ] {
-        let error = parse(text).unwrap_err();
-        assert_eq!(error.at, at, "{text}: {error}");
-        assert!(error.what.contains(what) && error.hint.contains(hint), "{text}: {error}");
     }
 }
 
@@ -228,7 +235,7 @@ fn meanings_are_checked_where_they_stand() {
         ("x + 1/0", 6..7, "infinite", "division by 0"),
         ("min(x)", 0..6, "two arguments", ""),
     ] {
-        let error = resolve(text).map(|expr| print(&expr)).map_err(|e| e.clone()).unwrap_err();
+        let error = resolve(text).map(|expr| print(&expr)).unwrap_err();
         assert_eq!(error.at, at, "{text}: {error}");
         assert!(error.what.contains(what) && error.hint.contains(hint), "{text}: {error}");
     }
@@ -242,7 +249,7 @@ fn hostile_texts_are_refused_without_harm() {
     }
     refused(vec!["1"; 20_000].join("+"), "pieces");
     assert_eq!(value(&vec!["1"; 9_000].join("+")), 9_000.0);
-    assert_eq!(value(&vec!["x"; 3].join("*")), 0.7 * 0.7 * 0.7);
+    assert_eq!(value(&["x"; 3].join("*")), 0.7 * 0.7 * 0.7);
     let deepest = format!("{}x{}", "(".repeat(MAX_DEPTH), ")".repeat(MAX_DEPTH));
     assert_eq!(value(&deepest), 0.7);
 }
@@ -257,8 +264,13 @@ fn long_expressions_are_evaluated_too() {
 #[test]
 fn frozen_arms_go_on_smoothly() {
     for (text, positive, negative) in [
-        ("abs(x)", 1.0, -1.0), ("sign(x)*x", 1.0, -1.0), ("min(2*x, x)", 1.0, 2.0), ("max(2*x, x)", 2.0, 1.0),
-        ("if(x < y, 3*x, 4*x)", 3.0, 4.0), ("if(not x >= y, 3*x, 4*x)", 4.0, 3.0), ("rate(abs(x)*x)/2", 1.0, -1.0),
+        ("abs(x)", 1.0, -1.0),
+        ("sign(x)*x", 1.0, -1.0),
+        ("min(2*x, x)", 1.0, 2.0),
+        ("max(2*x, x)", 2.0, 1.0),
+        ("if(x < y, 3*x, 4*x)", 3.0, 4.0),
+        ("if(not x >= y, 3*x, 4*x)", 4.0, 3.0),
+        ("rate(abs(x)*x)/2", 1.0, -1.0),
     ] {
         let expr = resolve(text).unwrap();
         for x in [-2.0, 0.0, 1e-300, 2.0] {
@@ -274,8 +286,13 @@ fn frozen_arms_go_on_smoothly() {
 #[test]
 fn switching_functions_are_positive_on_the_true_arm() {
     for (text, switch) in [
-        ("abs(x)", 0.7), ("3*sign(x)", 0.7), ("min(x, y)", 2.0), ("max(x, y)", 2.0), ("if(x < y, 1, 0)", -2.0),
-        ("if(x >= y, 1, 0)", 2.0), ("rate(abs(y))", -1.3),
+        ("abs(x)", 0.7),
+        ("3*sign(x)", 0.7),
+        ("min(x, y)", 2.0),
+        ("max(x, y)", 2.0),
+        ("if(x < y, 1, 0)", -2.0),
+        ("if(x >= y, 1, 0)", 2.0),
+        ("rate(abs(y))", -1.3),
     ] {
         let expr = resolve(text).unwrap();
         assert_eq!(expr.kinks().collect::<Vec<_>>(), [1], "{text}");
@@ -288,8 +305,12 @@ fn switching_functions_are_positive_on_the_true_arm() {
 #[test]
 fn what_is_undefined_in_another_arm_does_no_harm() {
     for (text, x) in [
-        ("if(x > 0, sqrt(x), 2*x)", 0.0), ("if(x > 0, sqrt(x), 2*x)", -1.0), ("if(x != 0, x*ln(x)/x^2, 2*x)", 0.0),
-        ("max(x, 0)^1.5 + 2*x", 0.0), ("max(x, 0)^1.5 + 2*x", -1.0), ("max(2*x, min(2*x, -sqrt(-x)))", 0.0),
+        ("if(x > 0, sqrt(x), 2*x)", 0.0),
+        ("if(x > 0, sqrt(x), 2*x)", -1.0),
+        ("if(x != 0, x*ln(x)/x^2, 2*x)", 0.0),
+        ("max(x, 0)^1.5 + 2*x", 0.0),
+        ("max(x, 0)^1.5 + 2*x", -1.0),
+        ("max(2*x, min(2*x, -sqrt(-x)))", 0.0),
     ] {
         assert_eq!(slope(&resolve(text).unwrap(), x, None), 2.0, "{text} at {x}");
     }
@@ -297,15 +318,20 @@ fn what_is_undefined_in_another_arm_does_no_harm() {
 
 #[test]
 fn conditions_hold_or_not() {
-    for (text, holds) in [("x > 0 and y < 0", true), ("not x > 0", false), ("x == y or z >= 2", true), ("ln(y) < 0", false)] {
+    for (text, holds) in
+        [("x > 0 and y < 0", true), ("not x > 0", false), ("x == y or z >= 2", true), ("ln(y) < 0", false)]
+    {
         assert_eq!(condition(text).holds(&free([0.7, -1.3, 2.1])), holds, "{text}");
     }
     let condition = condition("x > 0 and (y < 0 or z < x)");
     assert_eq!(condition.as_expr().kinks().collect::<Vec<_>>(), [1, 2, 3]);
-    assert_eq!(condition.text(|named| match named {
-        Named::Leaf(leaf) => leaf.to_string(),
-        Named::Table(_) => unreachable!(),
-    }), "0 < x and (y < 0 or z < x)");
+    assert_eq!(
+        condition.text(|named| match named {
+            Named::Leaf(leaf) => leaf.to_string(),
+            Named::Table(_) => unreachable!(),
+        }),
+        "0 < x and (y < 0 or z < x)"
+    );
 }
 
 #[test]
@@ -323,9 +349,19 @@ fn leaves_and_derivatives_are_known() {
 #[test]
 fn composing_leaves_out_what_changes_nothing() {
     for (text, printed) in [
-        ("0 + x*1 - 0", "x"), ("x^1/1", "x"), ("0*x + 2*3", "6"), ("--x", "x"), ("0 - x", "-x"), ("x^2.0", "x^2"),
-        ("x^0.5", "sqrt(x)"), ("rate(3)", "0"), ("x - -(y + z)*2", "x - -(y + z)*2"), ("(x^2)^-3", "(x^2)^-3"),
-        ("x - (y - z) - 1e-7", "x - (y - z) - 1e-7"), ("gauge + gauge", "x*y + x*y"), ("2*(-3)^x", "2*(-3)^x"),
+        ("0 + x*1 - 0", "x"),
+        ("x^1/1", "x"),
+        ("0*x + 2*3", "6"),
+        ("--x", "x"),
+        ("0 - x", "-x"),
+        ("x^2.0", "x^2"),
+        ("x^0.5", "sqrt(x)"),
+        ("rate(3)", "0"),
+        ("x - -(y + z)*2", "x - -(y + z)*2"),
+        ("(x^2)^-3", "(x^2)^-3"),
+        ("x - (y - z) - 1e-7", "x - (y - z) - 1e-7"),
+        ("gauge + gauge", "x*y + x*y"),
+        ("2*(-3)^x", "2*(-3)^x"),
     ] {
         assert_eq!(print(&resolve(text).unwrap()), printed, "{text}");
     }

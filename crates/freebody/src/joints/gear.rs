@@ -36,7 +36,13 @@ impl Joint for Gear {
         Card::new("gear", "Two wheels with involute teeth, without backlash.")
             .needs("of", FieldKind::Points, Role::Both, "m", "the centres of the wheels")
             .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two pitch radii")
-            .takes("pressure_angle", FieldKind::Number, "rad", "20 deg", "angle of the line of action to the common tangent")
+            .takes(
+                "pressure_angle",
+                FieldKind::Number,
+                "rad",
+                "pi/9",
+                "angle of the line of action to the common tangent",
+            )
             .takes("internal", FieldKind::Flag, "", "false", "whether the second wheel is a ring around the first")
             .takes("flank", FieldKind::Number, "", "1", "+1 or -1: which side of the teeth carries")
             .phased("tooth force")
@@ -67,12 +73,15 @@ impl Belt {
 
 impl Joint for Belt {
     fn card(&self) -> Card {
-        Card::new("belt", "A belt without slip over two wheels; its reaction is the pull of one strand over that of the other.")
-            .needs("of", FieldKind::Points, Role::Both, "m", "the centres of the wheels")
-            .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two radii")
-            .takes("crossed", FieldKind::Flag, "", "false", "whether the strands cross")
-            .takes("strand", FieldKind::Number, "", "1", "+1 or -1: the strand that carries")
-            .phased("strand force")
+        Card::new(
+            "belt",
+            "A belt without slip over two wheels; its reaction is the pull of one strand over that of the other.",
+        )
+        .needs("of", FieldKind::Points, Role::Both, "m", "the centres of the wheels")
+        .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two radii")
+        .takes("crossed", FieldKind::Flag, "", "false", "whether the strands cross")
+        .takes("strand", FieldKind::Number, "", "1", "+1 or -1: the strand that carries")
+        .phased("strand force")
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         let (b1, b2) = Self::radii(n);

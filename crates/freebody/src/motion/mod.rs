@@ -1,1 +1,31 @@
-//! (stub)
+//! Integration of motions in time: methods, step control, dense output, events.
+//!
+//! Knows no mechanics: it moves an abstract [`System`]. A method is a table and a citation, one
+//! entry of [`METHODS`] and one file. [`run()`] is the only way in.
+
+mod dense;
+mod dop853;
+mod events;
+mod explicit;
+mod gauss6;
+mod landing;
+mod linear;
+mod method;
+mod norm;
+mod outcome;
+mod pace;
+mod radau;
+mod rk4;
+mod roots;
+mod run;
+mod system;
+#[cfg(test)]
+mod tests;
+mod tsit5;
+
+pub use dense::{Segment, Trajectory};
+pub use events::Kind;
+pub use method::{method, Method, METHODS};
+pub use outcome::{Happening, Outcome, Run};
+pub use run::{run, Options};
+pub use system::{After, Canonical, System, Trouble, Watch};

@@ -102,10 +102,7 @@ impl<const N: usize, S: Scalar> Scalar for Dual<N, S> {
     }
     fn atan2(self, x: Self) -> Self {
         let r2 = self.re * self.re + x.re * x.re;
-        Dual {
-            re: self.re.atan2(x.re),
-            du: std::array::from_fn(|i| (x.re * self.du[i] - self.re * x.du[i]) / r2),
-        }
+        Dual { re: self.re.atan2(x.re), du: std::array::from_fn(|i| (x.re * self.du[i] - self.re * x.du[i]) / r2) }
     }
     fn powi(self, n: i32) -> Self {
         match n {

@@ -1,1 +1,46 @@
-//! (stub)
+//! Linear algebra of one instant of a mechanism: M a − Bᵀ λ = f, G a = r.
+//!
+//! [`Saddle`] is the dense solver, exact about rank and about directions without inertia; it suits
+//! mechanisms of up to some forty unknowns. [`Pattern`] and [`Factor`] solve the symmetric case for
+//! thousands of bodies, at a cost that grows with the fill. The rest is what they stand on.
+
+mod dense;
+mod gmres;
+mod ldl;
+mod matrix;
+mod ordering;
+mod orthogonal;
+mod saddle;
+mod sparse;
+
+pub use dense::{Lu, Singular};
+pub use matrix::Matrix;
+pub use ordering::minimum_degree;
+pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};
+pub use saddle::{Saddle, SaddleError, Solution};
+pub use sparse::{Accuracy, Factor, Pattern, Stalled};
+
+#[cfg(test)]
+mod tests;
+
+/// Σ xᵢ yᵢ.
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(a, b)| a * b).sum()
+}
+
+/// y ← y + s x.
+fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += s * x;
+    }
+}
+
+/// max |xᵢ|, or NaN if any entry is NaN.
+fn max_abs(x: &[f64]) -> f64 {
+    largest(x.iter().copied())
+}
+
+/// The largest magnitude, or NaN if any is NaN; 0 of none.
+fn largest(x: impl Iterator<Item = f64>) -> f64 {
+    x.map(f64::abs).fold(0.0, |m, v| if m >= v || m.is_nan() { m } else { v })
+}

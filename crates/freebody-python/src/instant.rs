@@ -1,0 +1,82 @@
+//! One solved instant.
+
+use crate::array;
+use freebody::balance;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+/// One instant, solved.
+#[pyclass(frozen)]
+pub struct Instant {
+    pub solved: balance::Instant,
+    pub rank: String,
+    /// Row of each body of the model.
+    pub order: Vec<usize>,
+    /// Which drives are prescribed motions.
+    pub motions: Vec<usize>,
+}
+
+#[pymethods]
+impl Instant {
+    #[getter]
+    fn accelerations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.solved.accelerations)
+    }
+    #[getter]
+    fn body_accelerations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.by_body(py, &self.solved.bodies)
+    }
+    #[getter]
+    fn body_residuals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.by_body(py, &self.solved.residuals)
+    }
+    #[getter]
+    fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let sure = |x: f64, sure: bool| if sure { x } else { f64::NAN };
+        let loads = self.loads().into_iter().zip(&self.solved.determinate);
+        let flat = loads.flat_map(|(l, s)| [sure(l[0], s[0]), sure(l[1], s[1]), sure(l[2], s[2])]).collect();
+        array(py, flat, [self.solved.joints.len(), 3])
+    }
+    #[getter]
+    fn least_reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, self.loads().concat(), [self.solved.joints.len(), 3])
+    }
+    #[getter]
+    fn determinate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
+        PyArray1::from_vec(py, self.solved.determinate.concat()).reshape([self.solved.joints.len(), 3])
+    }
+    /// Direction of the first body's marker at each joint, rad.
+    #[getter]
+    fn axes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.solved.joints.iter().map(|l| l.axes).collect())
+    }
+    /// Where each reaction acts, fixed axes, m.
+    #[getter]
+    fn places<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let flat = self.solved.joints.iter().flat_map(|l| [l.point.x, l.point.y]).collect();
+        array(py, flat, [self.solved.joints.len(), 2])
+    }
+    #[getter]
+    fn motions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        let sure = |d: usize| if self.solved.drives_determinate[d] { self.solved.drives[d] } else { f64::NAN };
+        PyArray1::from_vec(py, self.motions.iter().map(|&d| sure(d)).collect())
+    }
+    #[getter]
+    fn residual(&self) -> f64 {
+        self.solved.residual
+    }
+    #[getter]
+    fn rank(&self) -> &str {
+        &self.rank
+    }
+}
+
+impl Instant {
+    fn loads(&self) -> Vec<[f64; 3]> {
+        self.solved.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect()
+    }
+    fn by_body<'py>(&self, py: Python<'py>, rows: &[[f64; 3]]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let flat = self.order.iter().flat_map(|&body| rows[body - 1]).collect();
+        array(py, flat, [self.order.len(), 3])
+    }
+}

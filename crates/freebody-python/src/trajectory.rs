@@ -1,0 +1,117 @@
+//! A finished run.
+
+use crate::mechanism::Shared;
+use crate::{array, errors};
+use freebody::simulation;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// A finished run with dense output.
+#[pyclass(frozen)]
+pub struct Trajectory {
+    pub of: Arc<Shared>,
+    pub run: simulation::Trajectory,
+}
+
+#[pymethods]
+impl Trajectory {
+    #[getter]
+    fn steps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.run.steps)
+    }
+    #[getter]
+    fn events(&self) -> String {
+        let m = self.of.mechanism();
+        let n = m.freedom();
+        let told = |h: &freebody::motion::Happening| {
+            let (name, crossing) = self.run.event(&m, h);
+            serde_json::json!({
+                "name": name, "t": h.t, "kind": if crossing { "crossing" } else { "touch" },
+                "direction": h.direction, "q": h.y[..n], "u": h.y[n..2 * n],
+            })
+        };
+        serde_json::Value::Array(self.run.events.iter().map(told).collect()).to_string()
+    }
+    #[getter]
+    fn outcome(&self) -> String {
+        let o = &self.run.outcome;
+        let sentence = match o {
+            freebody::motion::Outcome::StoppedByEvent { index } => {
+                format!("the event `{}` ended the run", self.of.mechanism().events[*index].name)
+            }
+            other => other.to_string(),
+        };
+        serde_json::json!({"name": o.name(), "ok": o.is_ok(), "t": self.run.steps.last(), "sentence": sentence})
+            .to_string()
+    }
+    #[getter]
+    fn stats(&self) -> String {
+        let r = &self.run;
+        serde_json::json!({
+            "accepted": r.counts[0], "rejected": r.counts[1], "evaluations": r.counts[2], "kinks": r.kinks,
+            "method": r.settings.method, "rtol": r.settings.options.rtol, "closure": r.worst_gap, "stiff_since": r.stiff_since,
+        })
+        .to_string()
+    }
+    fn sample<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let m = self.of.mechanism();
+        let rows = self.run.sample(&m, times.as_slice()?).map_err(errors::motion)?;
+        let n = m.freedom();
+        let part = |from: usize| rows.iter().flat_map(|r| r[from..from + n].to_vec()).collect::<Vec<_>>();
+        Ok((array(py, part(0), [rows.len(), n])?, array(py, part(n), [rows.len(), n])?))
+    }
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        texts: Vec<String>,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let laws = self.of.observables(&texts)?;
+        let rows = self.run.evaluate(&self.of.mechanism(), &laws.iter().collect::<Vec<_>>(), times.as_slice()?);
+        let rows = rows.map_err(errors::motion)?;
+        array(py, rows.concat(), [rows.len(), texts.len()])
+    }
+    fn poses<'py>(&self, py: Python<'py>, times: PyReadonlyArray1<f64>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let m = self.of.mechanism();
+        let rows = self.run.poses(&m, times.as_slice()?).map_err(errors::motion)?;
+        let bodies = m.listed_bodies().len();
+        array(py, rows.concat().concat(), [rows.len(), bodies, 3])
+    }
+    #[allow(clippy::type_complexity)]
+    fn instants<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<bool>>)> {
+        let m = self.of.mechanism();
+        let rows = self.run.reactions(&m, times.as_slice()?).map_err(errors::motion)?;
+        let shape = [rows.len(), m.joints.len(), 3];
+        let known = |x: f64, sure: bool| if sure { x } else { f64::NAN };
+        let values = rows.iter().flatten().flat_map(|(x, s)| (0..3).map(|i| known(x[i], s[i]))).collect();
+        let sure: Vec<bool> = rows.iter().flatten().flat_map(|(_, s)| *s).collect();
+        Ok((array(py, values, shape)?, PyArray1::from_vec(py, sure).reshape(shape)?))
+    }
+    fn ledger<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<(Vec<String>, Bound<'py, PyArray2<f64>>)> {
+        let ledger = self.run.ledger(&self.of.mechanism(), times.as_slice()?).map_err(errors::motion)?;
+        let columns = ledger.names.len();
+        Ok((ledger.names, array(py, ledger.rows.concat(), [ledger.rows.len(), columns])?))
+    }
+    #[allow(clippy::type_complexity)]
+    fn r#final<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String) {
+        let (t, q, u, p) = self.run.end(&self.of.mechanism());
+        let list = |v: &[f64]| PyArray1::from_slice(py, v);
+        (t, list(&q), list(&u), list(&p), "{}".to_string())
+    }
+}

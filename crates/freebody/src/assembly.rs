@@ -1,0 +1,268 @@
+//! Assembly: coordinates and rates that close all loops and keep what was asked for.
+
+use crate::balance::{Balance, Row, Trouble, CLOSED, OPEN};
+use crate::gauges::{jet, Law, Moving};
+
+/// What an initial state is asked to be.
+#[derive(Clone, Debug, Default)]
+pub struct Wish {
+    /// Starting values of the tree's coordinates, in the order of `q`.
+    pub start: Vec<f64>,
+    /// Starting values of their rates.
+    pub start_rates: Vec<f64>,
+    /// Gauges that must have a value.
+    pub held: Vec<(String, Law, f64)>,
+    /// Gauges that should be near a value, to choose an assembly.
+    pub near: Vec<(Law, f64)>,
+    /// Gauges whose rate must have a value.
+    pub held_rates: Vec<(String, Law, f64)>,
+    /// Expressions that must be positive (+1) or negative (−1).
+    pub branch: Vec<(String, Law, i8)>,
+    /// Of each coordinate, whether another assembly may be looked for by changing its start.
+    pub free: Vec<bool>,
+}
+
+/// An assembled state.
+#[derive(Clone, Debug)]
+pub struct Assembled {
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Rates.
+    pub u: Vec<f64>,
+    /// Largest gap, m or rad over the unit of its row.
+    pub gap: f64,
+    /// Coordinates of the other assemblies that were found, when the state is fully determined.
+    pub others: Vec<Vec<f64>>,
+}
+
+/// Iterations of one attempt.
+const ITERATIONS: usize = 200;
+/// Attempts from other starts.
+const ATTEMPTS: usize = 64;
+
+/// Assembles a mechanism at time `t`.
+///
+/// Positions by damped least squares (Levenberg 1944, Marquardt 1963) from the starting values, then velocities by the
+/// least correction.
+///
+/// # Errors
+/// `cannot_assemble` with the gap at each joint, `branch_not_found`, `inconsistent_velocities`.
+pub fn assemble(balance: &mut Balance, t: f64, wish: &Wish) -> Result<Assembled, Trouble> {
+    let first = attempt(balance, t, wish, &wish.start);
+    let q = match first {
+        Ok(q) if on_branch(balance, t, &q, wish) => q,
+        first => search(balance, t, wish, first)?,
+    };
+    let others = other_assemblies(balance, t, wish, &q);
+    let u = velocities(balance, t, wish, &q)?;
+    balance.place(t, &q, &u);
+    let gap = balance.worst_gap();
+    Ok(Assembled { q, u, gap, others })
+}
+
+/// Rows to close: loops, drives and what is held.
+fn rows(balance: &mut Balance, held: &[(String, Law, f64)]) -> Vec<(Row, f64)> {
+    balance.take_rows();
+    let mut rows: Vec<(Row, f64)> =
+        balance.rows().iter().filter_map(|row| balance.gap(row).map(|gap| (row.clone(), gap))).collect();
+    for (_, gauge, value) in held {
+        let row = balance.target_row(gauge, *value, 0.0);
+        let gap = row.value.unwrap_or(0.0);
+        rows.push((row, gap));
+    }
+    rows
+}
+
+fn worst(balance: &Balance, rows: &[(Row, f64)]) -> f64 {
+    rows.iter().map(|(row, gap)| gap.abs() / balance.row_unit(row)).fold(0.0, f64::max)
+}
+
+/// One attempt from one start: first drawn to what should be near, then closed exactly.
+fn attempt(balance: &mut Balance, t: f64, wish: &Wish, start: &[f64]) -> Result<Vec<f64>, Trouble> {
+    let mut q = start.to_vec();
+    if !wish.near.is_empty() {
+        let near: Vec<_> = wish.near.iter().map(|(law, x)| (String::new(), law.clone(), *x)).collect();
+        let all: Vec<_> = wish.held.iter().chain(&near).cloned().collect();
+        descend(balance, t, &all, &mut q);
+    }
+    let gap = descend(balance, t, &wish.held, &mut q);
+    if gap <= OPEN {
+        return Ok(q);
+    }
+    Err(cannot_assemble(balance, t, wish, &q))
+}
+
+/// Damped least squares on all rows; returns the largest gap left.
+fn descend(balance: &mut Balance, t: f64, held: &[(String, Law, f64)], q: &mut Vec<f64>) -> f64 {
+    let still = vec![0.0; q.len()];
+    balance.place(t, q, &still);
+    let mut present = rows(balance, held);
+    let mut size = norm(balance, &present);
+    let mut damping = 1e-3;
+    for _ in 0..ITERATIONS {
+        let gap = worst(balance, &present);
+        if gap <= CLOSED || !gap.is_finite() {
+            break;
+        }
+        let step = balance.damped_motion(&present, if gap < 1e-4 { 0.0 } else { damping });
+        let mut user = vec![0.0; q.len()];
+        balance.to_user(&step, &mut user);
+        let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d).collect();
+        balance.place(t, &trial, &still);
+        let next = rows(balance, held);
+        let next_size = norm(balance, &next);
+        if next_size < size {
+            let stalled = next_size > 0.9 * size && gap <= OPEN;
+            (*q, present, size) = (trial, next, next_size);
+            damping = (damping * 0.2).max(1e-12);
+            if stalled {
+                break;
+            }
+        } else {
+            balance.place(t, q, &still);
+            if gap <= OPEN || damping > 1e12 {
+                break;
+            }
+            damping = (damping * 5.0).max(1e-9);
+            if gap < 1e-4 && damping > 1e-6 {
+                // A full step near the solution that does not help means a singular assembly.
+                let step = balance.damped_motion(&present, damping);
+                balance.to_user(&step, &mut user);
+                let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d).collect();
+                balance.place(t, &trial, &still);
+                let next = rows(balance, held);
+                let next_size = norm(balance, &next);
+                if next_size < size {
+                    (*q, present, size) = (trial, next, next_size);
+                } else {
+                    balance.place(t, q, &still);
+                }
+            }
+        }
+    }
+    worst(balance, &present)
+}
+
+fn norm(balance: &Balance, rows: &[(Row, f64)]) -> f64 {
+    rows.iter().map(|(row, gap)| (gap / balance.row_unit(row)).powi(2)).sum::<f64>().sqrt()
+}
+
+fn on_branch(balance: &mut Balance, t: f64, q: &[f64], wish: &Wish) -> bool {
+    balance.place(t, q, &vec![0.0; q.len()]);
+    let going = Moving { at: balance.at(), bodies: None, accelerations: None };
+    wish.branch.iter().all(|(_, law, sign)| jet(&going, law).d0 * f64::from(*sign) > 0.0)
+}
+
+/// Other starts, until one closes on the branch wished for.
+fn search(balance: &mut Balance, t: f64, wish: &Wish, first: Result<Vec<f64>, Trouble>) -> Result<Vec<f64>, Trouble> {
+    for k in 1..=ATTEMPTS {
+        let start = scattered(balance, wish, k);
+        if let Ok(q) = attempt(balance, t, wish, &start) {
+            if on_branch(balance, t, &q, wish) {
+                return Ok(q);
+            }
+        }
+    }
+    first?;
+    let names: Vec<&str> = wish.branch.iter().map(|(text, ..)| text.as_str()).collect();
+    Err(Trouble::new(
+        "branch_not_found",
+        format!(
+            "no assembly was found in which the signs of {} are as asked; try the other sign or a nearer guess",
+            names.join(", ")
+        ),
+    ))
+}
+
+/// Start `k` of a sequence that covers angles and lengths evenly (a lattice of square roots of primes).
+fn scattered(balance: &Balance, wish: &Wish, k: usize) -> Vec<f64> {
+    const PRIMES: [f64; 12] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0];
+    let place = |i: usize| {
+        let x = k as f64 * PRIMES[i % 12].sqrt() * (1.0 + (i / 12) as f64);
+        2.0 * (x - x.floor()) - 1.0
+    };
+    (0..wish.start.len())
+        .map(|i| {
+            let reach = if balance.m.coordinate(i).dimension == "rad" { std::f64::consts::PI } else { balance.length };
+            wish.start[i] + if wish.free[i] { reach * place(i) } else { 0.0 }
+        })
+        .collect()
+}
+
+/// The other assemblies of a small, fully determined mechanism with loops.
+fn other_assemblies(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Vec<Vec<f64>> {
+    let free = wish.free.iter().filter(|f| **f).count();
+    if balance.m.closures.is_empty() || free == 0 || free > 6 || q.len() > 12 {
+        return vec![];
+    }
+    balance.place(t, q, &vec![0.0; q.len()]);
+    let determined = rows(balance, &wish.held);
+    if balance.rank_of(&determined) < q.len() {
+        return vec![];
+    }
+    let open = Wish { near: vec![], branch: vec![], ..wish.clone() };
+    let mut found = vec![q.to_vec()];
+    for k in 1..=ATTEMPTS / 4 {
+        let start = scattered(balance, wish, k);
+        if let Ok(other) = attempt(balance, t, &open, &start) {
+            if !found.iter().any(|known| same(balance, known, &other)) {
+                found.push(other);
+            }
+        }
+    }
+    found.split_off(1)
+}
+
+/// Whether two sets of coordinates are the same place, angles up to whole turns.
+fn same(balance: &Balance, a: &[f64], b: &[f64]) -> bool {
+    (0..a.len()).all(|i| {
+        let d = a[i] - b[i];
+        let turn = std::f64::consts::TAU;
+        let d = if balance.m.coordinate(i).dimension == "rad" { d - turn * (d / turn).round() } else { d };
+        d.abs() < 1e-6 * if balance.m.coordinate(i).dimension == "m" { balance.length } else { 1.0 }
+    })
+}
+
+/// Rates that keep the loops closed and what is held, nearest to the starting rates.
+fn velocities(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Result<Vec<f64>, Trouble> {
+    let mut u = wish.start_rates.clone();
+    for _ in 0..3 {
+        balance.align_with(t, q, &mut u, &wish.held_rates)?;
+    }
+    balance.place(t, q, &u);
+    balance.take_rows();
+    let speed = u.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+    let drive = balance.rows().iter().filter_map(|r| r.rate.map(|x| (r.source.name(balance.m).to_string(), x)));
+    let going = Moving { at: balance.at(), bodies: None, accelerations: None };
+    let held = wish.held_rates.iter().map(|(name, law, rate)| (format!("rate of {name}"), jet(&going, law).d1 - rate));
+    let worst = drive.chain(held).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    match worst {
+        Some((name, left)) if left.abs() > 1e-8 * speed * balance.length.max(1.0) => Err(Trouble::new(
+            "inconsistent_velocities",
+            format!("the rates asked for exclude each other: {left:.3e} is left at {name}; give fewer rates, or rates that agree with the loops and motions"),
+        )),
+        _ => Ok(u),
+    }
+}
+
+fn cannot_assemble(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Trouble {
+    balance.place(t, q, &vec![0.0; q.len()]);
+    let mut gaps: Vec<(String, f64)> = vec![];
+    for (i, (row, gap)) in rows(balance, &wish.held).iter().enumerate() {
+        let closing = balance.rows().iter().filter(|r| balance.gap(r).is_some()).count();
+        let name = match i.checked_sub(closing) {
+            None => row.source.name(balance.m).to_string(),
+            Some(k) => wish.held[k].0.clone(),
+        };
+        match gaps.iter_mut().find(|(n, _)| *n == name) {
+            Some((_, g)) => *g = g.hypot(*gap),
+            None => gaps.push((name, gap.abs())),
+        }
+    }
+    gaps.retain(|(_, gap)| *gap > 1e-9 * balance.length);
+    let told: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
+    Trouble::new(
+        "cannot_assemble",
+        format!("the loops cannot be closed from here; at the nearest approach the gaps (m or rad) are {}; check the lengths, give values that agree under `initial`, or approximate ones under `guess`", told.join(", ")),
+    )
+}

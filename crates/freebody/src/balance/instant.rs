@@ -1,0 +1,161 @@
+//! A solved instant, as it is handed out, and the reading of expressions at states.
+
+use super::{force_power, force_value, Balance, JointLoad, Route, Trouble};
+use crate::gauges::{Axis, Law, Leaf, Observed, Reading};
+
+/// Everything about one instant.
+#[derive(Clone, Debug)]
+pub struct Instant {
+    /// Accelerations of the coordinates, in the order of `q`.
+    pub accelerations: Vec<f64>,
+    /// Of each body (ground left out): acceleration of the mass centre and angular acceleration.
+    pub bodies: Vec<[f64; 3]>,
+    /// The reaction of each joint; of all that balance, the least where it is not determinate.
+    pub joints: Vec<JointLoad>,
+    /// Whether (Fx, Fy, M) of each joint are determinate.
+    pub determinate: Vec<[bool; 3]>,
+    /// Force or torque of each coupling and motion.
+    pub drives: Vec<f64>,
+    /// Whether those are determinate.
+    pub drives_determinate: Vec<bool>,
+    /// What is left of the momentum balance of each body, N, N, N·m.
+    pub residuals: Vec<[f64; 3]>,
+    /// The largest of them relative to the largest load.
+    pub residual: f64,
+    /// Ways in which joints can load each other, in words.
+    pub self_stress: Vec<String>,
+}
+
+impl Balance<'_> {
+    /// Everything about the present state.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn instant(&mut self, route: Route) -> Result<Instant, Trouble> {
+        self.solve_by(route)?;
+        let mut accelerations = vec![0.0; self.m.freedom()];
+        self.accelerations(&mut accelerations);
+        let joints = self.joint_loads();
+        let drives = self.drive_forces();
+        let (residuals, largest) = self.residuals();
+        let length = self.length;
+        let size = |r: &[f64; 3]| r[0].abs().max(r[1].abs()).max(r[2].abs() / length);
+        let residual = residuals.iter().map(size).fold(0.0, f64::max) / largest;
+        let bodies = (1..self.m.bodies.len())
+            .map(|i| {
+                let a = self.centre_acceleration(i);
+                [a.x, a.y, self.solved.bodies[i].w]
+            })
+            .collect();
+        let stresses = self.self_stresses();
+        let (determinate, drives_determinate) = self.determinate(&stresses);
+        let self_stress = stresses.iter().map(|s| self.tell(s)).collect();
+        Ok(Instant {
+            accelerations,
+            bodies,
+            joints,
+            determinate,
+            drives,
+            drives_determinate,
+            residuals,
+            residual,
+            self_stress,
+        })
+    }
+}
+
+/// Reads expressions at states, solving the instant only when one of them asks for it.
+pub struct Observer<'b, 'm> {
+    balance: &'b mut Balance<'m>,
+    needs_solution: bool,
+    needs_reactions: bool,
+}
+
+impl<'b, 'm> Observer<'b, 'm> {
+    /// An observer for the given expressions.
+    pub fn new<'l>(balance: &'b mut Balance<'m>, laws: impl IntoIterator<Item = &'l Law>) -> Self {
+        let (mut needs_solution, mut needs_reactions) = (false, false);
+        for law in laws {
+            needs_solution |= law.depends_on_accelerations();
+            for leaf in law.leaves() {
+                if let Leaf::Reading(Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_)) = leaf {
+                    needs_solution = true;
+                    needs_reactions = true;
+                }
+            }
+        }
+        Observer { balance, needs_solution, needs_reactions }
+    }
+
+    /// Goes to a state.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn place(&mut self, t: f64, q: &[f64], u: &[f64]) -> Result<(), Trouble> {
+        self.balance.place(t, q, u);
+        if self.needs_solution {
+            self.balance.solve()?;
+        }
+        Ok(())
+    }
+
+    /// The values of expressions at the present state; `works` of all forces, then of all drives. What is not
+    /// determinate is NaN.
+    pub fn read(&mut self, laws: &[&Law], works: &[f64]) -> Vec<f64> {
+        let b = &mut *self.balance;
+        let (mut joints, mut drives, mut powers) = (vec![], vec![], vec![]);
+        let (mut sure, mut drives_sure) = (vec![], vec![]);
+        if self.needs_reactions {
+            joints = b.joint_loads();
+            drives = b.drive_forces();
+            powers = b.drive_powers();
+            let stresses = b.self_stresses();
+            (sure, drives_sure) = b.determinate(&stresses);
+        }
+        let mut accelerations = vec![0.0; b.m.freedom()];
+        if self.needs_solution {
+            b.accelerations(&mut accelerations);
+        }
+        let b = &*b;
+        let read = |reading: Reading| -> f64 {
+            let known = |sure: bool, x: f64| if sure { x } else { f64::NAN };
+            match reading {
+                Reading::Reaction(j, axis) => component(&joints[j], sure[j], axis),
+                Reading::Drive(d) => known(drives_sure[d], drives[d]),
+                Reading::DrivePower(d) => known(drives_sure[d], powers[d]),
+                Reading::DriveWork(d) => works.get(b.m.forces.len() + d).copied().unwrap_or(0.0),
+                Reading::Force(f) => force_value(b.at(), &b.m.forces[f]),
+                Reading::ForcePower(f) => force_power(b.at(), &b.m.forces[f]),
+                Reading::ForceWork(f) => works.get(f).copied().unwrap_or(0.0),
+                Reading::Kinetic(Some(body)) => b.kinetic(body),
+                Reading::Kinetic(None) => b.kinetic_energy(),
+                Reading::Potential => b.potential_energy(),
+                Reading::Momentum(Axis::X) => b.momentum().x,
+                Reading::Momentum(_) => b.momentum().y,
+                Reading::AngularMomentum(site) => b.angular_momentum(b.site(site)),
+                Reading::Centre(Axis::X) => b.mass_centre().x,
+                Reading::Centre(_) => b.mass_centre().y,
+            }
+        };
+        let observed = Observed { at: b.at(), bodies: &b.solved().bodies, accelerations: &accelerations, read: &read };
+        laws.iter().map(|law| law.eval(&observed)).collect()
+    }
+}
+
+/// One component of a reaction, NaN where it is not determinate.
+fn component(load: &JointLoad, sure: [bool; 3], axis: Axis) -> f64 {
+    let (needed, value) = match axis {
+        Axis::X => (sure[0], load.force.x),
+        Axis::Y => (sure[1], load.force.y),
+        Axis::Couple => (sure[2], load.couple),
+        Axis::Along => (sure[0] && sure[1], load.in_joint_axes().x),
+        Axis::Across => (sure[0] && sure[1], load.in_joint_axes().y),
+        Axis::Size => (sure[0] && sure[1], load.force.norm()),
+        Axis::Tension => (sure[0] && sure[1], load.tension()),
+    };
+    if needed {
+        value
+    } else {
+        f64::NAN
+    }
+}

@@ -1,0 +1,245 @@
+//! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
+
+use super::rows::closing_rows;
+use super::{effective, project, Balance, Row, Trouble};
+use crate::gauges::Placed;
+use crate::plane::{Twist, Wrench};
+use crate::solve::{Matrix, Saddle, SaddleError};
+
+/// Memory of the dense solution.
+#[derive(Clone, Debug, Default)]
+pub struct Dense {
+    pub(super) mass: Matrix,
+    pub(super) g: Matrix,
+    b: Matrix,
+    pub(super) saddle: Saddle,
+}
+
+/// Along what the multipliers act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Force {
+    /// The gradient of their rows.
+    Gradient,
+    /// Each actuator its own gauge.
+    OwnWay,
+}
+
+/// Largest contradiction of the rows, relative to what they ask for, that is put down to round-off.
+const CONTRADICTION: f64 = 1e-7;
+
+impl Balance<'_> {
+    pub(super) fn solve_minimal(&mut self) -> Result<(), Trouble> {
+        let force = self.set_up()?;
+        let asked: Vec<f64> = self.rows.iter().map(|row| -row.bias).collect();
+        let solution = self.dense.saddle.solve(&force, &asked);
+        self.check_consistent(solution.inconsistency, &asked)?;
+        self.solved.nu_dot.copy_from_slice(&solution.a);
+        self.solved.lambda = solution.lambda;
+        self.k.spread(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
+        self.pass_loads();
+        Ok(())
+    }
+
+    /// Sets up and factors the equations of the present state; returns the generalized forces.
+    fn set_up(&mut self) -> Result<Vec<f64>, Trouble> {
+        let still = vec![0.0; self.m.freedom()];
+        self.k.spread(self.m, &still, true, &mut self.solved.bodies);
+        self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
+        let mut force = vec![0.0; self.m.freedom()];
+        let needed = self.net_loads();
+        project(self.at(), &needed, &mut force);
+        self.factor(Force::OwnWay)?;
+        Ok(force)
+    }
+
+    /// Loads less effective loads of the present accelerations, body by body.
+    fn net_loads(&self) -> Vec<(usize, Wrench)> {
+        (1..self.m.bodies.len())
+            .map(|i| (i, self.loads[i] - effective(self.at(), i, self.arms[i], self.solved.bodies[i])))
+            .collect()
+    }
+
+    /// Factors mass matrix and rows of the present state.
+    pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
+        let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        mass_matrix(at, &self.arms, &mut self.dense.mass);
+        rows_in_coordinates(at, &self.rows, &mut self.dense.g, &mut self.dense.b);
+        let columns = column_scales(at, self.length);
+        let scales = row_scales(&self.dense.g, &columns);
+        let own = force == Force::OwnWay && self.rows.iter().any(|row| row.force.is_some());
+        let d = &mut self.dense;
+        let b = own.then_some(&d.b);
+        d.saddle.refactor(&d.mass, &d.g, b, &scales, &columns).map_err(|error| self.explain(error))
+    }
+
+    /// Says in the model's words why there is no unique motion.
+    fn explain(&self, error: SaddleError) -> Trouble {
+        match error {
+            SaddleError::ZeroInertia { direction } => Trouble::new(
+                "singular_mass",
+                format!("{} with no inertia to resist it; give it mass and inertia, or lock that motion", self.describe(&direction)),
+            ),
+            SaddleError::NoAuthority { direction } => Trouble::new(
+                "no_authority",
+                format!("the actuators cannot bring about the prescribed motion: {} out of their reach", self.describe(&direction)),
+            ),
+            SaddleError::RankMismatch { motion, force } => Trouble::new(
+                "no_authority",
+                format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
+            ),
+        }
+    }
+
+    /// Which bodies take part in a motion of the tree, in words.
+    pub(super) fn describe(&self, direction: &[f64]) -> String {
+        let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
+        self.k.spread(self.m, direction, false, &mut bodies);
+        let size = |t: &Twist| t.v.norm() / self.length + t.w.abs();
+        let most = bodies.iter().map(size).fold(0.0, f64::max);
+        let moving: Vec<String> = (1..bodies.len())
+            .filter(|&i| size(&bodies[i]) > 1e-6 * most)
+            .map(|i| {
+                let turning = bodies[i].w.abs() * self.length > 1e3 * bodies[i].v.norm();
+                let pin = self.m.bodies[i].branch.map_or("", |b| self.m.joints[b.joint].name.as_str());
+                if turning {
+                    format!("`{}` can spin about `{pin}`", self.m.bodies[i].name)
+                } else {
+                    format!("`{}` can move", self.m.bodies[i].name)
+                }
+            })
+            .collect();
+        moving.join(" and ")
+    }
+
+    fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), Trouble> {
+        let columns = column_scales(self.at(), self.length);
+        let scales = row_scales(&self.dense.g, &columns);
+        let most = asked.iter().zip(&scales).map(|(r, s)| (r * s).abs()).fold(1.0, f64::max);
+        if inconsistency <= CONTRADICTION * most {
+            return Ok(());
+        }
+        let names: Vec<String> = self.rows.iter().map(|row| format!("`{}`", row.source.name(self.m))).collect();
+        let mut unique = names.clone();
+        unique.dedup();
+        Err(Trouble::new(
+            "inconsistent_constraints",
+            format!("{} ask for motions that exclude each other; remove one, or make them agree", unique.join(", ")),
+        ))
+    }
+
+    /// The load that each body's joint passes, from the balance of all that hangs on it.
+    pub(super) fn pass_loads(&mut self) {
+        let n = self.m.bodies.len();
+        let mut needed = vec![Wrench::zero(); n];
+        for (i, load) in self.net_loads() {
+            needed[i] = -load;
+        }
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            for &(body, load) in row.loads() {
+                needed[body] = needed[body] - load * lambda;
+            }
+        }
+        for i in (1..n).rev() {
+            let b = self.m.bodies[i].branch.expect("every body hangs in the tree");
+            let passed = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
+            self.solved.passed[i] = passed;
+            needed[b.parent] += passed.seen_from(self.k.arm[i]);
+        }
+    }
+}
+
+/// Unit of each coordinate: 1 for angles and curve parameters, the characteristic length for lengths.
+pub(super) fn column_scales(at: Placed<'_>, length: f64) -> Vec<f64> {
+    let unit = |i: usize| if at.m.coordinate(i).dimension == "m" { length } else { 1.0 };
+    (0..at.m.freedom()).map(unit).collect()
+}
+
+/// Makes every row of order one in scaled coordinates.
+pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
+    (0..g.rows())
+        .map(|i| {
+            let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c).powi(2)).sum::<f64>().sqrt();
+            if norm > 0.0 {
+                1.0 / norm
+            } else {
+                1.0
+            }
+        })
+        .collect()
+}
+
+/// Rows by joint coordinates, n columns, and the loads of their multipliers.
+pub(super) fn rows_in_coordinates(at: Placed<'_>, rows: &[Row], g: &mut Matrix, b: &mut Matrix) {
+    let n = at.m.freedom();
+    g.reset(rows.len(), n);
+    b.reset(rows.len(), n);
+    for (i, row) in rows.iter().enumerate() {
+        project(at, &row.motion, g.row_mut(i));
+        project(at, row.loads(), b.row_mut(i));
+    }
+}
+
+/// The inertia of a body with all that hangs on it, at its pin (composite rigid bodies; Featherstone ch. 6).
+#[derive(Clone, Copy, Default)]
+struct Composite {
+    mass: f64,
+    moment: crate::plane::Vec2,
+    turn: f64,
+}
+
+/// The mass matrix of the tree by joint coordinates, n × n.
+pub(super) fn mass_matrix(at: Placed<'_>, arms: &[crate::plane::Vec2], out: &mut Matrix) {
+    let bodies = at.m.bodies.len();
+    out.reset(at.m.freedom(), at.m.freedom());
+    let mut whole = vec![Composite::default(); bodies];
+    for i in (1..bodies).rev() {
+        let (m, arm) = (at.n.mass[i], arms[i]);
+        let own = &mut whole[i];
+        own.mass += m;
+        own.moment += arm * m;
+        own.turn += at.n.inertia[i] + m * arm.dot(arm);
+        let own = *own;
+        let branch = at.m.bodies[i].branch.expect("every body hangs in the tree");
+        let particle = at.m.bodies[i].particle;
+        for k in 0..branch.freedom {
+            let mut load = momentum(&own, at.k.columns[i][k]);
+            if particle {
+                load.m = 0.0;
+            }
+            couple(at, i, branch.start + k, load, out);
+        }
+        let r = at.k.arm[i];
+        let up = &mut whole[branch.parent];
+        up.mass += own.mass;
+        if particle {
+            // A particle resists the turning of its parent by its place only.
+            up.moment += r * own.mass;
+            up.turn += own.mass * r.dot(r);
+        } else {
+            up.moment += own.moment + r * own.mass;
+            up.turn += own.turn + 2.0 * r.dot(own.moment) + own.mass * r.dot(r);
+        }
+    }
+}
+
+fn momentum(c: &Composite, motion: Twist) -> Wrench {
+    let f = motion.v * c.mass + c.moment.perp() * motion.w;
+    Wrench { f, m: c.moment.cross(motion.v) + c.turn * motion.w }
+}
+
+/// Enters what the load of coordinate `j` does on every coordinate from body `i` down to ground.
+fn couple(at: Placed<'_>, i: usize, j: usize, load: Wrench, out: &mut Matrix) {
+    let (mut body, mut load) = (i, load);
+    while let Some(b) = at.m.bodies[body].branch {
+        for k in 0..b.freedom {
+            let value = load.power(at.k.columns[body][k]);
+            out[(b.start + k, j)] = value;
+            out[(j, b.start + k)] = value;
+        }
+        if at.m.bodies[body].particle {
+            load.m = 0.0;
+        }
+        load = load.seen_from(at.k.arm[body]);
+        body = b.parent;
+    }
+}

@@ -1,0 +1,251 @@
+//! The momentum balance of one instant: accelerations of everything and every reaction, in three ways.
+//!
+//! - [`Route::Minimal`]: as many equations as degrees of freedom. A tree is swept in joint coordinates; loops and drives
+//!   are eliminated by the null space of their rows.
+//! - [`Route::NewtonEuler`]: three balance equations a body, for the joint accelerations and all reactions at once.
+//! - [`Route::Constraints`]: three coordinates a body and every joint a constraint.
+//!
+//! All agree to round-off where the reactions are determinate; they share the loads and the rows, and nothing else.
+
+mod constraints;
+mod energy;
+mod instant;
+mod load;
+mod minimal;
+mod newton_euler;
+mod project;
+mod rank;
+mod reactions;
+mod rows;
+mod sweep;
+
+pub use instant::{Instant, Observer};
+pub use load::{effective, force_power, force_value, unaccounted_power};
+pub(crate) use project::{CLOSED, OPEN};
+pub use rank::{Freedom, SelfStress};
+pub use reactions::JointLoad;
+pub use rows::{Row, Source, Spread};
+
+use crate::gauges::Placed;
+use crate::kinematics::Kinematics;
+use crate::mechanism::Mechanism;
+use crate::mode::Mode;
+pub use crate::motion::Trouble;
+use crate::numbers::Numbers;
+use crate::plane::{Twist, Vec2, Wrench};
+use crate::scalar::Scalar;
+
+/// How the equations of an instant are set up and solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// As few equations as degrees of freedom.
+    Minimal,
+    /// Three balance equations a body.
+    NewtonEuler,
+    /// Three coordinates a body, every joint a constraint.
+    Constraints,
+}
+
+impl Route {
+    /// Every route with its word.
+    pub const ALL: &'static [(&'static str, Route)] =
+        &[("minimal", Route::Minimal), ("newton_euler", Route::NewtonEuler), ("constraints", Route::Constraints)];
+    /// The route of a word.
+    pub fn named(word: &str) -> Option<Route> {
+        Route::ALL.iter().find(|r| r.0 == word).map(|r| r.1)
+    }
+}
+
+impl Trouble {
+    /// A motion of a body that nothing resists.
+    pub(crate) fn can_move_freely(m: &Mechanism, body: usize) -> Trouble {
+        let branch = m.bodies[body].branch.expect("a body of the tree");
+        let (name, joint) = (&m.bodies[body].name, &m.joints[branch.joint].name);
+        Trouble::new(
+            "singular_mass",
+            format!("`{name}` can move at `{joint}` with no inertia to resist it; give it (or what hangs on it) mass and inertia, or lock that motion"),
+        )
+    }
+}
+
+/// The unknowns of an instant, found.
+#[derive(Clone, Debug, Default)]
+pub struct Solved {
+    /// Joint accelerations, in the order of `q`.
+    pub nu_dot: Vec<f64>,
+    /// Accelerations of the pins and angles of all bodies.
+    pub bodies: Vec<Twist>,
+    /// Multipliers of the closing rows.
+    pub lambda: Vec<f64>,
+    /// The load that each body's joint in the tree puts on it, at its pin.
+    pub passed: Vec<Wrench>,
+}
+
+/// One state of a mechanism with everything that its equations need; the memory is kept from one state to the next.
+pub struct Balance<'m> {
+    /// The mechanism.
+    pub m: &'m Mechanism,
+    /// Its numbers.
+    pub n: Numbers,
+    /// Which arms of switches are frozen.
+    pub mode: Mode,
+    /// Characteristic length, for the scaling of rows and coordinates, m.
+    pub length: f64,
+    k: Kinematics,
+    t: f64,
+    q: Vec<f64>,
+    u: Vec<f64>,
+    arms: Vec<Vec2>,
+    loads: Vec<Wrench>,
+    rows: Vec<Row>,
+    solved: Solved,
+    sweep: sweep::Sweep,
+    dense: minimal::Dense,
+    sparse: Option<constraints::Sparse>,
+    many_loops: bool,
+    preferred: Option<Route>,
+    /// Zero of each row of which only the change counts, by joint and row; none before a motion starts.
+    phases: std::collections::HashMap<(usize, usize), f64>,
+}
+
+impl<'m> Balance<'m> {
+    /// The mechanism at parameters `p`.
+    pub fn new(m: &'m Mechanism, p: &[f64]) -> Self {
+        let n = m.bind(p);
+        let (bodies, freedom) = (m.bodies.len(), m.freedom());
+        let length = characteristic_length(&n);
+        let mut balance = Balance {
+            m,
+            n,
+            mode: Mode::free(m.switches),
+            length,
+            k: Kinematics::of(m),
+            t: 0.0,
+            q: vec![0.0; freedom],
+            u: vec![0.0; freedom],
+            arms: vec![Vec2::zero(); bodies],
+            loads: vec![Wrench::zero(); bodies],
+            rows: vec![],
+            solved: Solved {
+                nu_dot: vec![0.0; freedom],
+                bodies: vec![Twist::zero(); bodies],
+                lambda: vec![],
+                passed: vec![Wrench::zero(); bodies],
+            },
+            sweep: Default::default(),
+            dense: Default::default(),
+            sparse: None,
+            many_loops: false,
+            preferred: None,
+            phases: Default::default(),
+        };
+        balance.many_loops = balance.prefers_sparse();
+        balance
+    }
+
+    /// Lets [`Balance::solve`] take a given route, or the cheapest.
+    pub fn prefer(&mut self, route: Option<Route>) {
+        self.preferred = route;
+    }
+
+    /// Takes other parameters.
+    pub fn rebind(&mut self, p: &[f64]) {
+        self.n = self.m.bind(p);
+        self.length = characteristic_length(&self.n);
+    }
+
+    /// Goes to a state.
+    pub fn place(&mut self, t: f64, q: &[f64], u: &[f64]) {
+        self.t = t;
+        self.q.copy_from_slice(q);
+        self.u.copy_from_slice(u);
+        self.k.sweep(self.m, &self.n, q, u);
+    }
+
+    /// The present state, as what measures sees it.
+    pub fn at(&self) -> Placed<'_> {
+        Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode }
+    }
+
+    /// Solves the present state the quickest way; see [`Balance::solved`].
+    ///
+    /// # Errors
+    /// `singular_mass`, `inconsistent_constraints`, named after the bodies and joints concerned.
+    pub fn solve(&mut self) -> Result<(), Trouble> {
+        let cheapest = if self.many_loops { Route::Constraints } else { Route::Minimal };
+        self.solve_by(self.preferred.unwrap_or(cheapest))
+    }
+
+    /// Solves the present state by a given route.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
+        let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        load::centre_arms(at, &mut self.arms);
+        load::loads(at, &self.arms, &mut self.loads);
+        match route {
+            Route::Minimal if !self.is_closed() => {
+                self.solved.lambda.clear();
+                let s = &mut self.solved;
+                self.sweep.solve(at, &self.arms, &self.loads, &mut s.nu_dot, &mut s.bodies, &mut s.passed)
+            }
+            Route::Minimal => self.solve_minimal(),
+            Route::NewtonEuler => self.solve_newton_euler(),
+            Route::Constraints => self.solve_constraints(),
+        }
+    }
+
+    /// Whether anything but the tree constrains the motion.
+    pub fn is_closed(&self) -> bool {
+        !self.m.closures.is_empty() || !self.m.drives.is_empty()
+    }
+
+    /// What the last solution found.
+    pub fn solved(&self) -> &Solved {
+        &self.solved
+    }
+
+    /// The closing rows of the last solution.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Accelerations of the user's coordinates of the last solution.
+    pub fn accelerations(&self, out: &mut [f64]) {
+        self.k.user_rates(self.m, &self.solved.bodies, &self.solved.nu_dot, out);
+    }
+
+    /// A motion of the coordinates from joint rates (or displacements) `nu` of the tree.
+    pub(crate) fn to_user(&self, nu: &[f64], out: &mut [f64]) {
+        let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
+        self.k.spread(self.m, nu, false, &mut bodies);
+        self.k.user_rates(self.m, &bodies, nu, out);
+    }
+}
+
+/// The median distance of the mechanism's places from their bodies' pins, or 1 m.
+fn characteristic_length(n: &Numbers) -> f64 {
+    let mut lengths: Vec<f64> =
+        n.arms.iter().chain(&n.centre).map(|arm| arm.norm()).filter(|&l| l.is_finite() && l > 0.0).collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.
+fn project<S: Scalar>(at: Placed<'_, S>, spread: &[(usize, Wrench<S>)], out: &mut [S]) {
+    for &(body, load) in spread {
+        let (mut body, mut load) = (body, load);
+        while let Some(b) = at.m.bodies[body].branch {
+            for k in 0..b.freedom {
+                out[b.start + k] += load.power(at.k.columns[body][k]);
+            }
+            load = load.seen_from(at.k.arm[body]);
+            if at.m.bodies[body].particle {
+                // A particle passes no couple on.
+                load = Wrench::force(load.f, at.k.arm[body]);
+            }
+            body = b.parent;
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Back onto the closed loops: corrections of positions and velocities that change the motion least.
+
+use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
+use super::rows::closing_rows;
+use super::{Balance, Row, Source, Trouble};
+use crate::gauges::{Law, Placed};
+use crate::kinematics::JointView;
+use crate::solve::{Lu, Matrix, Orthogonal};
+use std::collections::HashMap;
+
+/// Corrections after which a position is given up.
+const TRIES: usize = 12;
+/// Gap, relative to the characteristic length, at which a loop counts as closed.
+pub(crate) const CLOSED: f64 = 1e-14;
+/// Gap above which the closing of a loop has failed.
+pub(crate) const OPEN: f64 = 1e-9;
+
+impl Balance<'_> {
+    /// Takes the present values of all rows of which only the change counts as their zeros.
+    pub fn take_phases(&mut self) {
+        self.phases.clear();
+        for row in closing_rows(self.at(), None) {
+            if let Source::Joint(j, r) = row.source {
+                if self.m.joints[j].phased[r] {
+                    self.phases.insert((j, r), row.value.unwrap_or(0.0));
+                }
+            }
+        }
+    }
+
+    /// Zeros of the rows of which only the change counts.
+    pub(crate) fn phases(&self) -> &HashMap<(usize, usize), f64> {
+        &self.phases
+    }
+
+    /// Takes zeros as they were in an earlier motion.
+    pub(crate) fn set_phases(&mut self, phases: HashMap<(usize, usize), f64>) {
+        self.phases = phases;
+    }
+
+    /// What is open at a row: its value less its zero, angles brought to the nearest turn; None where nothing
+    /// is prescribed at the level of positions.
+    pub(crate) fn gap(&self, row: &Row) -> Option<f64> {
+        let value = row.value?;
+        let Source::Joint(j, r) = row.source else { return Some(value) };
+        let joint = &self.m.joints[j];
+        let zero = match (joint.phased[r], self.phases.get(&(j, r))) {
+            (true, None) => return None,
+            (true, Some(zero)) => *zero,
+            _ => 0.0,
+        };
+        let period = JointView::new(self.m, &self.n, joint, |x: f64| x).period(r);
+        let open = value - zero;
+        Some(if period > 0.0 { open - period * (open / period).round() } else { open })
+    }
+
+    /// The closing rows of the present state.
+    pub(crate) fn take_rows(&mut self) {
+        self.rows = closing_rows(self.at(), None);
+    }
+
+    /// Largest gap of the present state, lengths in units of the characteristic length.
+    pub fn worst_gap(&mut self) -> f64 {
+        self.take_rows();
+        let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
+        self.rows.iter().map(size).fold(0.0, f64::max)
+    }
+
+    /// Unit of a row's value: the characteristic length, or 1 where it is an angle.
+    pub(crate) fn row_unit(&self, row: &Row) -> f64 {
+        let turns = row.motion.iter().map(|(_, w)| w.m.abs()).fold(0.0, f64::max);
+        let moves = row.motion.iter().map(|(_, w)| w.f.norm()).fold(0.0, f64::max);
+        if moves * self.length >= 1e-9 * turns && moves > 0.0 {
+            self.length.max(turns)
+        } else {
+            1.0
+        }
+    }
+
+    /// Closes the loops at (t, q): returns the size of the correction.
+    ///
+    /// # Errors
+    /// `branch_lost` when the loops cannot be closed from here.
+    pub fn close(&mut self, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, Trouble> {
+        let (mut moved, mut last) = (0.0_f64, f64::INFINITY);
+        for _ in 0..TRIES {
+            self.place(t, q, u);
+            let gap = self.worst_gap();
+            if gap <= CLOSED || (gap >= 0.5 * last && gap <= OPEN) {
+                return Ok(moved);
+            }
+            last = gap;
+            let asked: Vec<f64> = self.rows.iter().map(|row| self.gap(row).map_or(0.0, |g| -g)).collect();
+            let present: Vec<bool> = self.rows.iter().map(|row| self.gap(row).is_some()).collect();
+            let step = self.correction(&asked, &present)?;
+            let mut user = vec![0.0; q.len()];
+            self.to_user(&step, &mut user);
+            moved = moved.max(self.size_of(&user));
+            q.iter_mut().zip(&user).for_each(|(q, d)| *q += d);
+        }
+        self.place(t, q, u);
+        let gap = self.worst_gap();
+        if gap <= OPEN {
+            return Ok(moved);
+        }
+        Err(Trouble::new(
+            "branch_lost",
+            format!(
+                "the loop at {} opened by {:.3e} m and could not be closed again",
+                self.most_open(),
+                gap * self.length
+            ),
+        ))
+    }
+
+    /// Makes the velocities at (t, q) keep the loops closed: returns the size of the correction.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn align(&mut self, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, Trouble> {
+        self.place(t, q, u);
+        self.take_rows();
+        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
+        if asked.iter().all(|&r| r == 0.0) {
+            return Ok(0.0);
+        }
+        let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
+        let step = self.correction(&asked, &present)?;
+        let mut user = vec![0.0; u.len()];
+        self.to_user(&step, &mut user);
+        u.iter_mut().zip(&user).for_each(|(u, d)| *u += d);
+        Ok(self.size_of(&user))
+    }
+
+    /// The motion that changes the present rows by `asked`, least in the metric of the masses; least in plain scaled
+    /// coordinates where a free motion has no mass.
+    fn correction(&mut self, asked: &[f64], present: &[bool]) -> Result<Vec<f64>, Trouble> {
+        if self.many_loops && present.iter().all(|&p| p) {
+            return self.sparse_correction(asked);
+        }
+        let mut keep = present.iter();
+        self.rows.retain(|_| *keep.next().expect("one for each row"));
+        let asked: Vec<f64> = asked.iter().zip(present).filter(|(_, &p)| p).map(|(a, _)| *a).collect();
+        super::load::centre_arms(
+            Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode },
+            &mut self.arms,
+        );
+        match self.factor(Force::Gradient) {
+            Ok(()) => Ok(self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked).a),
+            Err(_) => Ok(self.least_motion(&self.rows, &asked)),
+        }
+    }
+
+    /// The least motion, in scaled coordinates, that changes `rows` by `asked` as nearly as possible.
+    pub(crate) fn least_motion(&self, rows: &[Row], asked: &[f64]) -> Vec<f64> {
+        let (scaled, scales, columns) = self.scaled(rows);
+        let side: Vec<f64> = asked.iter().zip(&scales).map(|(a, s)| a * s).collect();
+        let mut step = vec![0.0; columns.len()];
+        Orthogonal::factor(&scaled).add_solution(&side, &mut step);
+        step.iter_mut().zip(&columns).for_each(|(s, c)| *s *= c);
+        step
+    }
+
+    /// As [`Balance::align`], with further gauges whose rates must have given values.
+    pub(crate) fn align_with(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        u: &mut [f64],
+        held: &[(String, Law, f64)],
+    ) -> Result<(), Trouble> {
+        self.place(t, q, u);
+        self.take_rows();
+        let targets: Vec<Row> = held.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
+        self.rows.extend(targets);
+        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
+        let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
+        let dense = std::mem::replace(&mut self.many_loops, false);
+        let step = self.correction(&asked, &present);
+        self.many_loops = dense;
+        let mut user = vec![0.0; u.len()];
+        self.to_user(&step?, &mut user);
+        u.iter_mut().zip(&user).for_each(|(u, d)| *u += d);
+        Ok(())
+    }
+
+    /// Number of independent rows.
+    pub(crate) fn rank_of(&self, rows: &[(Row, f64)]) -> usize {
+        let rows: Vec<Row> = rows.iter().map(|(row, _)| row.clone()).collect();
+        if rows.is_empty() {
+            return 0;
+        }
+        Orthogonal::factor(&self.scaled(&rows).0).rank().rank
+    }
+
+    /// The motion that lessens the gaps of rows, damped (in scaled coordinates).
+    pub(crate) fn damped_motion(&self, rows: &[(Row, f64)], damping: f64) -> Vec<f64> {
+        let asked: Vec<f64> = rows.iter().map(|(_, gap)| -gap).collect();
+        let rows: Vec<Row> = rows.iter().map(|(row, _)| row.clone()).collect();
+        if damping == 0.0 {
+            return self.least_motion(&rows, &asked);
+        }
+        let (g, scales, columns) = self.scaled(&rows);
+        let n = g.cols();
+        let side: Vec<f64> = asked.iter().zip(&scales).map(|(a, s)| a * s).collect();
+        let normal = Matrix::from_fn(n, n, |i, j| {
+            let sum: f64 = (0..g.rows()).map(|r| g[(r, i)] * g[(r, j)]).sum();
+            sum + if i == j { damping } else { 0.0 }
+        });
+        let mut right = vec![0.0; n];
+        g.add_t_mul_vec(&side, &mut right);
+        let mut step = Lu::factor(&normal).map(|lu| lu.solve(&right)).unwrap_or(right);
+        step.iter_mut().zip(&columns).for_each(|(s, c)| *s *= c);
+        step
+    }
+
+    /// Rows by scaled coordinates, each of order one, with the scales of rows and coordinates.
+    fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
+        let (mut g, mut b) = (Matrix::default(), Matrix::default());
+        rows_in_coordinates(self.at(), rows, &mut g, &mut b);
+        let columns = column_scales(self.at(), self.length);
+        let scales = row_scales(&g, &columns);
+        let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
+        (scaled, scales, columns)
+    }
+
+    /// A row that holds a gauge at a value, and its rate at a rate.
+    pub(crate) fn target_row(&self, gauge: &Law, value: f64, rate: f64) -> Row {
+        let going = crate::gauges::Moving { at: self.at(), bodies: None, accelerations: None };
+        let jet = crate::gauges::jet(&going, gauge);
+        Row {
+            source: Source::Drive(usize::MAX),
+            value: Some(jet.d0 - value),
+            rate: Some(jet.d1 - rate),
+            bias: 0.0,
+            motion: super::rows::spread(self.at(), gauge),
+            force: None,
+        }
+    }
+
+    fn size_of(&self, user: &[f64]) -> f64 {
+        let unit = column_scales(self.at(), self.length);
+        user.iter().zip(&unit).map(|(x, u)| (x / u).abs()).fold(0.0, f64::max)
+    }
+
+    /// The joint or motion whose row is farthest from closed.
+    pub(crate) fn most_open(&self) -> String {
+        let open = |row: &Row| self.gap(row).map_or(0.0, f64::abs) / self.row_unit(row);
+        let worst = self.rows.iter().max_by(|a, b| open(a).total_cmp(&open(b)));
+        worst.map_or(String::new(), |row| format!("`{}`", row.source.name(self.m)))
+    }
+}

@@ -1,0 +1,184 @@
+//! Degrees of freedom, redundant constraints, and which reactions statics and dynamics determine.
+//!
+//! A reaction component is determinate if and only if no self-stress, a set of multipliers that loads no motion
+//! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
+
+use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
+use super::reactions::joint_load;
+use super::rows::closing_rows;
+use super::{Balance, Source};
+use crate::plane::Wrench;
+use crate::solve::{Matrix, Orthogonal};
+
+/// Relative size below which a self-stress does not touch a component.
+const UNTOUCHED: f64 = 1e-9;
+
+/// Degrees of freedom at a configuration, told in several ways.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Freedom {
+    /// Coordinates of all bodies less the rows of all joints (Grübler's formula); motions not counted.
+    pub count: i64,
+    /// True degrees of freedom at this configuration.
+    pub here: usize,
+    /// Rows of all joints and couplings.
+    pub rows: usize,
+    /// Rows that say nothing new at this configuration.
+    pub redundant: usize,
+    /// Prescribed motions.
+    pub driven: usize,
+    /// Whether the rank was too close to call.
+    pub uncertain: bool,
+}
+
+/// A way in which joints can load each other without moving anything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SelfStress {
+    /// Of each joint: force and couple on the second body at its point, fixed axes, in any common unit.
+    pub joints: Vec<[f64; 3]>,
+    /// Of each drive: its force.
+    pub drives: Vec<f64>,
+}
+
+impl Freedom {
+    /// Why the count and the true number differ, or that they agree.
+    pub fn explain(&self) -> String {
+        let (count, here) = (self.count, self.here);
+        let mut told = match (self.redundant, here as i64 - count) {
+            (0, 0) => format!("{here} degrees of freedom, as the count of coordinates less constraints says"),
+            (r, more) => format!(
+                "{here} degrees of freedom, {more} more than the count of {count}: {r} of the {} constraints say nothing new here",
+                self.rows
+            ),
+        };
+        if self.driven > 0 {
+            told += &format!("; {} prescribed by motions", self.driven);
+        }
+        if self.uncertain {
+            told += "; the rank is too close to call: the mechanism is near a singular configuration";
+        }
+        told
+    }
+}
+
+impl Balance<'_> {
+    /// Degrees of freedom at the present state.
+    pub fn freedom(&self) -> Freedom {
+        let m = self.m;
+        let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
+        let couplings = m.drives.iter().filter(|d| d.coupling).count();
+        let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
+        let (rank, uncertain) = self.closing_rank();
+        let redundant = self.geometric_rows() - rank;
+        Freedom {
+            count: bodies as i64 - rows as i64,
+            here: m.freedom() - rank,
+            rows,
+            redundant,
+            driven: m.drives.len() - couplings,
+            uncertain,
+        }
+    }
+
+    fn geometric_rows(&self) -> usize {
+        let closures: usize = self.m.closures.iter().map(|&j| self.m.joints[j].rows.len()).sum();
+        closures + self.m.drives.iter().filter(|d| d.coupling).count()
+    }
+
+    /// Rank of the rows that close loops, motions left out.
+    fn closing_rank(&self) -> (usize, bool) {
+        let motion = |s: Source| matches!(s, Source::Drive(d) if !self.m.drives[d].coupling);
+        let rows: Vec<_> = closing_rows(self.at(), None).into_iter().filter(|r| !motion(r.source)).collect();
+        if rows.is_empty() || self.m.freedom() == 0 {
+            return (0, false);
+        }
+        let (mut g, mut b) = (Matrix::default(), Matrix::default());
+        rows_in_coordinates(self.at(), &rows, &mut g, &mut b);
+        let columns = column_scales(self.at(), self.length);
+        let scales = row_scales(&g, &columns);
+        let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
+        let rank = Orthogonal::factor(&scaled).rank();
+        (rank.rank, rank.uncertain)
+    }
+
+    /// All independent self-stresses at the present, solved state; the mechanism must not be too large for a
+    /// dense factorisation.
+    pub fn self_stresses(&mut self) -> Vec<SelfStress> {
+        if !self.is_closed() {
+            return vec![];
+        }
+        // A factorisation that fails for want of inertia has still decided the ranks.
+        let _ = self.factor(Force::OwnWay);
+        let multipliers = self.dense.saddle.self_stress();
+        (0..multipliers.cols()).map(|k| self.self_stress(&multipliers, k)).collect()
+    }
+
+    fn self_stress(&self, multipliers: &Matrix, k: usize) -> SelfStress {
+        let n = self.m.bodies.len();
+        let lambda: Vec<f64> = (0..self.rows.len()).map(|i| multipliers[(i, k)]).collect();
+        let mut needed = vec![Wrench::zero(); n];
+        for (row, &l) in self.rows.iter().zip(&lambda) {
+            for &(body, load) in row.loads() {
+                needed[body] = needed[body] - load * l;
+            }
+        }
+        let mut passed = vec![Wrench::zero(); n];
+        for i in (1..n).rev() {
+            let parent = self.m.bodies[i].branch.expect("every body hangs in the tree").parent;
+            passed[i] = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
+            needed[parent] += passed[i].seen_from(self.k.arm[i]);
+        }
+        let joint = |j| {
+            let load = joint_load(self.at(), j, &passed, &self.rows, &lambda);
+            [load.force.x, load.force.y, load.couple]
+        };
+        let mut drives = vec![0.0; self.m.drives.len()];
+        for (row, &l) in self.rows.iter().zip(&lambda) {
+            if let Source::Drive(d) = row.source {
+                drives[d] = l;
+            }
+        }
+        SelfStress { joints: (0..self.m.joints.len()).map(joint).collect(), drives }
+    }
+
+    /// Of each joint, which of (Fx, Fy, M) are determinate; and of each drive its force.
+    pub fn determinate(&self, stresses: &[SelfStress]) -> (Vec<[bool; 3]>, Vec<bool>) {
+        let mut joints = vec![[true; 3]; self.m.joints.len()];
+        let mut drives = vec![true; self.m.drives.len()];
+        for s in stresses {
+            let size = |c: &[f64; 3]| c[0].abs().max(c[1].abs()).max(c[2].abs() / self.length);
+            let most = s.joints.iter().map(size).chain(s.drives.iter().map(|d| d.abs())).fold(0.0, f64::max);
+            for (flags, c) in joints.iter_mut().zip(&s.joints) {
+                let scaled = [c[0], c[1], c[2] / self.length];
+                for (flag, x) in flags.iter_mut().zip(scaled) {
+                    *flag &= x.abs() <= UNTOUCHED * most;
+                }
+            }
+            for (flag, d) in drives.iter_mut().zip(&s.drives) {
+                *flag &= d.abs() <= UNTOUCHED * most;
+            }
+        }
+        (joints, drives)
+    }
+
+    /// A self-stress in words.
+    pub fn tell(&self, s: &SelfStress) -> String {
+        let size = |c: &[f64; 3]| c[0].abs().max(c[1].abs()).max(c[2].abs() / self.length);
+        let most = s.joints.iter().map(size).fold(0.0, f64::max);
+        let mut names: Vec<String> = vec![];
+        for (joint, c) in self.m.joints.iter().zip(&s.joints) {
+            let forced = c[0].abs().max(c[1].abs()) > UNTOUCHED * most;
+            match (forced, c[2].abs() / self.length > UNTOUCHED * most) {
+                (true, true) => names.push(format!("`{}` (force and couple)", joint.name)),
+                (true, false) => names.push(format!("`{}`", joint.name)),
+                (false, true) => names.push(format!("`{}` (couple)", joint.name)),
+                _ => {}
+            }
+        }
+        for (drive, &d) in self.m.drives.iter().zip(&s.drives) {
+            if d.abs() > UNTOUCHED * most.max(d.abs()) {
+                names.push(format!("`{}`", drive.name));
+            }
+        }
+        format!("{} can load each other by any amount without moving anything", names.join(", "))
+    }
+}

@@ -1,0 +1,140 @@
+//! What every joint does to its bodies.
+
+use super::rows::{Row, Source};
+use super::Balance;
+use crate::gauges::Placed;
+use crate::kinematics::{relative, JointView};
+use crate::mechanism::Mechanism;
+use crate::plane::{vec2, Vec2, Wrench};
+
+/// The reaction of a joint on its second body: force in fixed axes and couple about the joint's point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLoad {
+    /// The joint's point, fixed axes.
+    pub point: Vec2,
+    /// Force on the second body, N.
+    pub force: Vec2,
+    /// Couple on the second body about the point, N·m.
+    pub couple: f64,
+    /// Direction of the first body's marker, rad.
+    pub axes: f64,
+    /// From the first body's marker to the second's, fixed axes.
+    pub span: Vec2,
+}
+
+impl Source {
+    /// The name of the joint or motion.
+    pub fn name(self, m: &Mechanism) -> &str {
+        match self {
+            Source::Joint(joint, _) => &m.joints[joint].name,
+            Source::Drive(drive) => &m.drives[drive].name,
+        }
+    }
+}
+
+/// The reaction of joint `index`: in the tree from the load passed, else from the multipliers.
+pub(super) fn joint_load(at: Placed<'_>, index: usize, passed: &[Wrench], rows: &[Row], lambda: &[f64]) -> JointLoad {
+    let joint = &at.m.joints[index];
+    let (axes, place) = relative(joint, at.m, &at);
+    let view = JointView::new(at.m, at.n, joint, |x| x);
+    let point = axes.place(view.contact(&place));
+    let [first, second] = at.m.ends(joint);
+    let load = match joint.child {
+        Some(child) if child == second => about(at, child, passed[child], point),
+        Some(child) => -about(at, child, passed[child], point),
+        None => {
+            let mut load = Wrench::zero();
+            let told = if second > 0 { second } else { first };
+            let sign = if second > 0 { 1.0 } else { -1.0 };
+            for (row, &l) in
+                rows.iter().zip(lambda).filter(|(r, _)| matches!(r.source, Source::Joint(j, _) if j == index))
+            {
+                let on = row.motion.iter().find(|(body, _)| *body == told).map_or(Wrench::zero(), |(_, w)| *w);
+                load += on * (l * sign);
+            }
+            about(at, told, load, point)
+        }
+    };
+    JointLoad { point, force: load.f, couple: load.m, axes: axes.turn.angle, span: axes.turn.apply(place.at()) }
+}
+
+/// A load at a body's pin, told about another place.
+fn about(at: Placed<'_>, body: usize, load: Wrench, place: Vec2) -> Wrench {
+    load.seen_from(at.k.pose[body].at - place)
+}
+
+impl JointLoad {
+    /// The pull along the line of the two markers: positive when it draws the second towards the first, N.
+    pub fn tension(&self) -> f64 {
+        -self.force.dot(self.span) / self.span.norm()
+    }
+    /// The force along and across the first body's marker.
+    pub fn in_joint_axes(&self) -> Vec2 {
+        let (sin, cos) = self.axes.sin_cos();
+        vec2(cos * self.force.x + sin * self.force.y, cos * self.force.y - sin * self.force.x)
+    }
+}
+
+impl Balance<'_> {
+    /// The reaction of every joint in the last solution.
+    pub fn joint_loads(&self) -> Vec<JointLoad> {
+        let s = &self.solved;
+        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &s.passed, &self.rows, &s.lambda)).collect()
+    }
+
+    /// Force or torque of each drive in the last solution.
+    pub fn drive_forces(&self) -> Vec<f64> {
+        let mut forces = vec![0.0; self.m.drives.len()];
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if let Source::Drive(drive) = row.source {
+                forces[drive] = lambda;
+            }
+        }
+        forces
+    }
+
+    /// Power of each drive in the last solution, W.
+    pub fn drive_powers(&self) -> Vec<f64> {
+        let mut powers = vec![0.0; self.m.drives.len()];
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if let Source::Drive(drive) = row.source {
+                let rate: f64 = row.loads().iter().map(|(body, w)| w.power(self.k.twist[*body])).sum();
+                powers[drive] = lambda * rate;
+            }
+        }
+        powers
+    }
+
+    /// What is left of the momentum balance of each body in the last solution (N, N, N·m at its mass centre), and
+    /// the largest force (or couple over the characteristic length) that entered it.
+    pub fn residuals(&self) -> (Vec<[f64; 3]>, f64) {
+        let at = self.at();
+        let n = self.m.bodies.len();
+        let mut left: Vec<Wrench> =
+            (0..n).map(|i| self.loads[i] - super::effective(at, i, self.arms[i], self.solved.bodies[i])).collect();
+        let mut largest: f64 = 1e-300;
+        let mut note = |w: &Wrench| largest = largest.max(w.f.norm()).max(w.m.abs() / self.length);
+        self.loads.iter().for_each(&mut note);
+        for joint in 0..self.m.joints.len() {
+            let load = joint_load(at, joint, &self.solved.passed, &self.rows, &self.solved.lambda);
+            let wrench = Wrench { f: load.force, m: load.couple };
+            note(&wrench);
+            for (body, w) in super::rows::pair(at, &self.m.joints[joint], load.point, wrench) {
+                left[body] += w;
+            }
+        }
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if let Source::Drive(_) = row.source {
+                for &(body, load) in row.loads() {
+                    note(&(load * lambda));
+                    left[body] += load * lambda;
+                }
+            }
+        }
+        let at_centre = |i: usize| {
+            let w = left[i].seen_from(-self.arms[i]);
+            [w.f.x, w.f.y, if self.m.bodies[i].particle { 0.0 } else { w.m }]
+        };
+        ((1..n).map(at_centre).collect(), largest)
+    }
+}

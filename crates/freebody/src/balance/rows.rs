@@ -1,0 +1,143 @@
+//! The rows that close loops and drive motions.
+//!
+//! A row is a quantity that must vanish: with its value, its rate, the acceleration it would have if
+//! no joint of the tree accelerated (or no body, see [`Base`]), the loads that a unit multiplier puts on the bodies (which are
+//! also its gradient), and, for an actuator that acts along another gauge, the loads of that one.
+
+use crate::expr::Env;
+use crate::gauges::{gradient, jet, Law, Moving, Placed, State};
+use crate::kinematics::{relative, JointView};
+use crate::mechanism::{Drive, Joint, Level};
+use crate::plane::{vec2, Twist, Vec2, Wrench};
+use crate::scalar::{Dual, Scalar};
+
+/// Loads on bodies, at their pins.
+pub type Spread<S> = Vec<(usize, Wrench<S>)>;
+
+/// Where a row comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Row `1` (of the card) of joint `0`.
+    Joint(usize, usize),
+    /// A coupling or prescribed motion.
+    Drive(usize),
+}
+
+/// One row.
+#[derive(Clone, Debug)]
+pub struct Row<S = f64> {
+    /// Where it comes from.
+    pub source: Source,
+    /// What must vanish; None when only a rate or an acceleration is prescribed.
+    pub value: Option<S>,
+    /// Its rate, or the rate that must vanish; None when only an acceleration is prescribed.
+    pub rate: Option<S>,
+    /// The acceleration that the joints must cancel.
+    pub bias: S,
+    /// Gradient of the quantity by the motion of the bodies.
+    pub motion: Spread<S>,
+    /// Loads for a unit multiplier, when they are not the gradient.
+    pub force: Option<Spread<S>>,
+}
+
+impl<S: Scalar> Row<S> {
+    /// Loads for a unit multiplier.
+    pub fn loads(&self) -> &Spread<S> {
+        self.force.as_ref().unwrap_or(&self.motion)
+    }
+}
+
+/// The accelerations of the bodies at which biases are told.
+pub type Base<'a, S> = Option<&'a [Twist<S>]>;
+
+/// All rows outside the tree.
+pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> {
+    let mut rows = vec![];
+    for &joint in &at.m.closures {
+        joint_rows(at, joint, base, &mut rows);
+    }
+    for drive in 0..at.m.drives.len() {
+        rows.push(drive_row(at, drive, base));
+    }
+    rows
+}
+
+/// The rows of one joint told as a constraint.
+pub fn joint_rows<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>, out: &mut Vec<Row<S>>) {
+    let joint = &at.m.joints[index];
+    let going = Moving { at, bodies: base, accelerations: None };
+    let (_, place) = relative(joint, at.m, &going);
+    let jets = JointView::new(at.m, at.n, joint, crate::scalar::Jet::constant).residual(&place);
+    let loads = joint_loads(at, joint);
+    for &row in &joint.rows {
+        out.push(Row {
+            source: Source::Joint(index, row),
+            value: Some(jets[row].d0),
+            rate: Some(jets[row].d1),
+            bias: jets[row].d2,
+            motion: loads[row].clone(),
+            force: None,
+        });
+    }
+}
+
+/// The loads of a unit multiplier of each row of a joint's card.
+fn joint_loads<S: Scalar>(at: Placed<'_, S>, joint: &Joint) -> Vec<Spread<S>> {
+    let (axes, place) = relative(joint, at.m, &at);
+    let seeded = crate::joints::Relative {
+        x: Dual::<3, S>::variable(place.x, 0),
+        y: Dual::variable(place.y, 1),
+        angle: Dual::variable(place.angle, 2),
+    };
+    let rows = JointView::new(at.m, at.n, joint, Dual::constant).residual(&seeded);
+    let point = axes.place(place.at());
+    rows.iter()
+        .map(|row| {
+            let [x, y, angle] = row.du;
+            pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle })
+        })
+        .collect()
+}
+
+/// A load on the second body at a place, and its opposite on the first, each at its body's pin.
+pub fn pair<S: Scalar>(at: Placed<'_, S>, joint: &Joint, place: Vec2<S>, load: Wrench<S>) -> Spread<S> {
+    let [a, b] = at.m.ends(joint);
+    let mut spread = vec![];
+    if b > 0 {
+        spread.push((b, load.seen_from(place - at.k.pose[b].at)));
+    }
+    if a > 0 {
+        spread.push((a, -load.seen_from(place - at.k.pose[a].at)));
+    }
+    spread
+}
+
+/// The row of a coupling or of a prescribed motion.
+fn drive_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let drive: &Drive = &at.m.drives[index];
+    let going = Moving { at, bodies: base, accelerations: None };
+    let of = jet(&going, &drive.of);
+    let (value, rate, bias, gauge) = match drive.level {
+        Level::Position => {
+            let law = jet(&going, &drive.law);
+            (Some(of.d0 - law.d0), Some(of.d1 - law.d1), of.d2 - law.d2, drive.of.clone() - drive.law.clone())
+        }
+        Level::Velocity => {
+            let law = jet(&going, &drive.law);
+            (None, Some(of.d1 - law.d0), of.d2 - law.d1, drive.of.clone())
+        }
+        Level::Acceleration => {
+            let law: S = drive.law.eval(&State(at) as &dyn Env<S, _>);
+            (None, None, of.d2 - law, drive.of.clone())
+        }
+    };
+    let motion = spread(at, &gauge);
+    let own_way = drive.by.is_some() || (drive.feedback && drive.level == Level::Position && !drive.coupling);
+    let force = own_way.then(|| spread(at, drive.by.as_ref().unwrap_or(&drive.of)));
+    Row { source: Source::Drive(index), value, rate, bias, motion, force }
+}
+
+/// The loads of a unit force along a gauge.
+pub fn spread<S: Scalar>(at: Placed<'_, S>, gauge: &Law) -> Spread<S> {
+    at.m.bodies_of(gauge).into_iter().map(|body| (body, gradient(at, gauge, body))).collect()
+}

@@ -1,0 +1,207 @@
+//! From the model as data to the mechanism: names resolved, numbers in slots, the tree chosen.
+
+mod elements;
+mod fields;
+mod names;
+mod places;
+mod tree;
+
+pub use elements::coupling_card;
+pub use fields::Fields;
+pub use names::{distance, unknown, Names, Reach, Scope};
+
+use crate::expr::{Interpolation, Table};
+use crate::gauges::Law;
+use crate::mechanism::{Mechanism, Parameter, Slot};
+use crate::spec::{Number, Spec};
+use std::collections::HashSet;
+
+/// What is wrong with a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompileError {
+    /// Where in the model, e.g. `joints.pivot.of`.
+    pub path: String,
+    /// What is wrong.
+    pub what: String,
+    /// What to try.
+    pub hint: String,
+}
+
+impl CompileError {
+    pub(crate) fn new(path: impl Into<String>, what: impl Into<String>, hint: impl Into<String>) -> Self {
+        CompileError { path: path.into(), what: what.into(), hint: hint.into() }
+    }
+    pub(crate) fn from(path: impl Into<String>, message: crate::expr::Message) -> Self {
+        CompileError::new(path, message.what, message.hint)
+    }
+}
+
+impl std::fmt::Display for CompileError {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "{}: {}; {}", self.path, self.what, self.hint)
+    }
+}
+
+impl std::error::Error for CompileError {}
+
+type Result<T> = std::result::Result<T, CompileError>;
+
+/// A mechanism being built, with the meaning of its names.
+pub struct Compiler<'s> {
+    pub(crate) spec: &'s Spec,
+    pub(crate) names: Names,
+    pub(crate) m: Mechanism,
+}
+
+/// A compiled mechanism with the names by which expressions may read it.
+pub struct Compiled {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its names.
+    pub names: Names,
+}
+
+impl Compiled {
+    /// Compiles a model.
+    pub fn new(spec: &Spec) -> Result<Compiled> {
+        let mut c = Compiler { spec, names: Names::default(), m: Mechanism::empty(&spec.name) };
+        c.parameters()?;
+        c.tables()?;
+        let elements = tree::joints_of(spec)?;
+        let branches = c.bodies(&elements)?;
+        c.points()?;
+        c.lines()?;
+        c.curves()?;
+        c.gravity()?;
+        c.joints(&elements, &branches)?;
+        c.gauges()?;
+        c.drives()?;
+        c.forces()?;
+        c.events()?;
+        c.find_kinks();
+        Ok(Compiled { mechanism: c.m, names: c.names })
+    }
+
+    /// An expression over the solved instant: a quantity to report.
+    pub fn observable(&mut self, text: &str) -> Result<Law> {
+        let mut scope = Scope { names: &self.names, reach: Reach::Instant, switches: &mut self.mechanism.switches };
+        scope.law(text).map_err(|e| Names::complaint("", text, e))
+    }
+}
+
+impl Compiler<'_> {
+    pub(crate) fn scope(&mut self, reach: Reach) -> Scope<'_> {
+        Scope { names: &self.names, reach, switches: &mut self.m.switches }
+    }
+
+    pub(crate) fn law(&mut self, path: &str, text: &str, reach: Reach) -> Result<Law> {
+        self.scope(reach).law(text).map_err(|e| Names::complaint(path, text, e))
+    }
+
+    pub(crate) fn number(&mut self, path: &str, number: &Number) -> Result<Law> {
+        match number {
+            Number::Literal(value) if value.is_finite() => Ok(Law::constant(*value)),
+            Number::Literal(value) => {
+                Err(CompileError::new(path, format!("{value} is no number"), "give a finite number"))
+            }
+            Number::Expression(text) => self.law(path, text, Reach::Numbers),
+        }
+    }
+
+    /// A new slot.
+    pub(crate) fn slot(&mut self, law: Law) -> Slot {
+        self.m.slots.push(law);
+        self.m.slots.len() - 1
+    }
+
+    pub(crate) fn number_slot(&mut self, path: &str, number: &Number) -> Result<Slot> {
+        let law = self.number(path, number)?;
+        Ok(self.slot(law))
+    }
+
+    fn parameters(&mut self) -> Result<()> {
+        for (i, p) in self.spec.parameters.iter().enumerate() {
+            if self.names.parameters.insert(p.name.clone(), i).is_some() {
+                return Err(twice(format!("parameters.{}", p.name), &p.name));
+            }
+        }
+        for p in &self.spec.parameters {
+            let value = self.number(&format!("parameters.{}", p.name), &p.value)?;
+            self.m.parameters.push(Parameter { name: p.name.clone(), unit: p.unit.clone(), value });
+        }
+        self.order_parameters()
+    }
+
+    /// An order in which every parameter comes after those it uses.
+    fn order_parameters(&mut self) -> Result<()> {
+        let needs: Vec<HashSet<usize>> = self.m.parameters.iter().map(|p| uses(&p.value)).collect();
+        let mut done = vec![false; needs.len()];
+        while self.m.parameter_order.len() < needs.len() {
+            let ready = (0..needs.len()).find(|&i| !done[i] && needs[i].iter().all(|&j| done[j]));
+            let Some(i) = ready else {
+                let stuck = (0..needs.len()).find(|&i| !done[i]).expect("one is left");
+                let name = &self.m.parameters[stuck].name;
+                let what = format!("`{name}` is defined by way of itself");
+                return Err(CompileError::new(
+                    format!("parameters.{name}"),
+                    what,
+                    "give one parameter of the circle a number",
+                ));
+            };
+            done[i] = true;
+            self.m.parameter_order.push(i);
+        }
+        Ok(())
+    }
+
+    fn tables(&mut self) -> Result<()> {
+        for (i, t) in self.spec.tables.iter().enumerate() {
+            let path = format!("tables.{}", t.name);
+            let how = Interpolation::named(&t.interpolation)
+                .map_err(|m| CompileError::from(format!("{path}.interpolation"), m))?;
+            let table = Table::new(&t.x, &t.y, how).map_err(|m| CompileError::from(&path, m))?;
+            self.m.tables.push(table);
+            self.m.table_names.push(t.name.clone());
+            self.names.tables.insert(t.name.clone(), i);
+        }
+        Ok(())
+    }
+
+    fn gravity(&mut self) -> Result<()> {
+        let g = self.spec.gravity.clone().unwrap_or([Number::Literal(0.0), Number::Literal(0.0)]);
+        self.m.gravity = [self.number_slot("gravity", &g[0])?, self.number_slot("gravity", &g[1])?];
+        Ok(())
+    }
+
+    /// Laws that hold switches: the integrator must not step over them.
+    fn find_kinks(&mut self) {
+        let m = &self.m;
+        let forces = m.forces.iter().flat_map(|f| f.laws());
+        let drives = m.drives.iter().flat_map(|d| [&d.of, &d.law].into_iter().chain(&d.by));
+        let laws: Vec<Law> = forces.chain(drives).filter(|l| l.kinks().next().is_some()).cloned().collect();
+        for law in laws {
+            let mut kinks: Vec<usize> = law.kinks().collect();
+            kinks.sort_unstable();
+            kinks.dedup();
+            for kink in kinks {
+                if !self.m.kinks.iter().any(|(known, _)| *known == kink) {
+                    self.m.kinks.push((kink, law.clone()));
+                }
+            }
+        }
+    }
+}
+
+/// The parameters that a number uses.
+fn uses(law: &Law) -> HashSet<usize> {
+    law.leaves()
+        .filter_map(|leaf| match leaf {
+            crate::gauges::Leaf::Parameter(i) => Some(*i),
+            _ => None,
+        })
+        .collect()
+}
+
+pub(crate) fn twice(path: impl Into<String>, name: &str) -> CompileError {
+    CompileError::new(path, format!("the name `{name}` is given twice"), "give each its own name")
+}

@@ -1,0 +1,144 @@
+//! Points, lines and curves.
+
+use super::{CompileError, Compiler, Names, Reach, Result};
+use crate::gauges::Law;
+use crate::mechanism::{Curve, Marker, Site, Spot};
+use crate::spec::{Number, Place};
+
+impl Compiler<'_> {
+    /// All named points, and the origin and mass centre of every body.
+    pub(crate) fn points(&mut self) -> Result<()> {
+        let zero = self.slot(Law::constant(0.0));
+        for body in 0..self.m.bodies.len() {
+            let name = self.m.bodies[body].name.clone();
+            let origin = self.site(body, Spot::At([zero, zero]));
+            self.m.bodies[body].pin = origin;
+            self.names.sites.insert(format!("{name}.origin"), origin);
+            if body == 0 {
+                self.names.sites.insert("ground.O".to_string(), origin);
+            } else {
+                let centre = self.site(body, Spot::MassCentre);
+                self.names.sites.insert(format!("{name}.G"), centre);
+            }
+        }
+        for point in &self.spec.points {
+            let path = format!("points.{}", point.name);
+            let known = self.names.bodies.keys();
+            let missing = || CompileError::from(&path, super::names::unknown("body", &point.body, known));
+            let body = *self.names.bodies.get(&point.body).ok_or_else(missing)?;
+            let [x, y] = &point.at;
+            let at = Spot::At([self.number_slot(&path, x)?, self.number_slot(&path, y)?]);
+            let site = self.site(body, at);
+            self.names.sites.insert(point.name.clone(), site);
+            self.m.points.push((point.name.clone(), site));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn site(&mut self, body: usize, at: Spot) -> usize {
+        self.m.sites.push(Site { body, at });
+        self.m.sites.len() - 1
+    }
+
+    pub(crate) fn lines(&mut self) -> Result<()> {
+        for line in &self.spec.lines {
+            let path = format!("lines.{}", line.name);
+            let (marker, direction) = self.place(&path, &line.line)?;
+            let body = self.m.body_of(marker.site);
+            self.names.lines.insert(line.name.clone(), (marker, body, direction));
+            self.m.lines.push((line.name.clone(), marker));
+        }
+        Ok(())
+    }
+
+    /// A site with a direction, and that direction.
+    pub(crate) fn place(&mut self, path: &str, place: &Place) -> Result<(Marker, Law)> {
+        let site = self.names.site(&place.point).map_err(|m| CompileError::from(path, m))?;
+        let direction = match (&place.angle, &place.towards) {
+            (None, Some(other)) => {
+                let other = self.names.site(other).map_err(|m| CompileError::from(path, m))?;
+                self.towards(path, site, other)?
+            }
+            (Some(angle), None) => self.number(path, angle)?,
+            (None, None) => Law::constant(0.0),
+            _ => {
+                return Err(CompileError::new(path, "a line has an angle or a second point, not both", "leave one out"))
+            }
+        };
+        let marker = Marker { site, angle: self.slot(direction.clone()) };
+        Ok((marker, direction))
+    }
+
+    /// Direction, in their body's frame, from one site to another of the same body.
+    pub(crate) fn towards(&mut self, path: &str, from: usize, to: usize) -> Result<Law> {
+        let [dx, dy] = self.offset(path, from, to)?;
+        Ok(dy.atan2(dx))
+    }
+
+    /// The vector, in their body's frame, from one site to another of the same body.
+    pub(crate) fn offset(&mut self, path: &str, from: usize, to: usize) -> Result<[Law; 2]> {
+        let (a, b) = (self.m.sites[from], self.m.sites[to]);
+        if a.body != b.body {
+            let names = [&self.m.bodies[a.body].name, &self.m.bodies[b.body].name];
+            let what = format!("these two points are on different bodies, `{}` and `{}`", names[0], names[1]);
+            return Err(CompileError::new(path, what, "a line is given by two points of one body"));
+        }
+        match (a.at, b.at) {
+            (Spot::At(a), Spot::At(b)) => {
+                let slot = |s: usize| self.m.slots[s].clone();
+                Ok([slot(b[0]) - slot(a[0]), slot(b[1]) - slot(a[1])])
+            }
+            _ => Err(CompileError::new(
+                path,
+                "a line cannot be drawn through the mass centre by name",
+                "give the point its coordinates",
+            )),
+        }
+    }
+
+    pub(crate) fn curves(&mut self) -> Result<()> {
+        for (i, curve) in self.spec.curves.iter().enumerate() {
+            let path = format!("curves.{}", curve.name);
+            let known = self.names.bodies.keys();
+            let missing = || CompileError::from(&path, super::names::unknown("body", &curve.body, known));
+            let body = *self.names.bodies.get(&curve.body).ok_or_else(missing)?;
+            let (x, y) = (self.law(&path, &curve.x, Reach::Curve)?, self.law(&path, &curve.y, Reach::Curve)?);
+            self.m.curves.push(Curve { name: curve.name.clone(), body, x, y });
+            self.names.curves.insert(curve.name.clone(), i);
+        }
+        Ok(())
+    }
+
+    /// Named gauges, in any order.
+    pub(crate) fn gauges(&mut self) -> Result<()> {
+        let mut left: Vec<_> = self.spec.gauges.iter().collect();
+        while !left.is_empty() {
+            let before = left.len();
+            let mut trouble = None;
+            let mut later = vec![];
+            for gauge in left {
+                let read = self.scope(Reach::Configuration).law(&gauge.value);
+                match read {
+                    Ok(law) => {
+                        self.names.gauges.insert(gauge.name.clone(), law.clone());
+                        self.m.gauges.push((gauge.name.clone(), law));
+                    }
+                    Err(e) => {
+                        trouble.get_or_insert(Names::complaint(&format!("gauges.{}", gauge.name), &gauge.value, e));
+                        later.push(gauge);
+                    }
+                }
+            }
+            if later.len() == before {
+                return Err(trouble.expect("a gauge is left because it could not be read"));
+            }
+            left = later;
+        }
+        Ok(())
+    }
+}
+
+/// The number 0, as a model writes it.
+pub(crate) fn nought() -> Number {
+    Number::Literal(0.0)
+}

@@ -1,0 +1,139 @@
+//! What a mechanism says of itself, as data for whoever shows it.
+
+use crate::joints::Joint as _;
+use crate::mechanism::{Joint, Level, Mechanism};
+use crate::numbers::Numbers;
+use serde_json::{json, Map, Value};
+
+/// Bodies, parameters, coordinates, joints, forces, motions, events and notes.
+pub fn describe(m: &Mechanism) -> Value {
+    let numbers = m.bind(&m.parameters_with(&[]));
+    json!({
+        "name": m.name,
+        "bodies": bodies(m, &numbers),
+        "parameters": parameters(m, &numbers),
+        "coordinates": coordinates(m, true),
+        "closure_coordinates": coordinates(m, false),
+        "joints": m.joints.iter().map(|j| joint(m, j)).collect::<Vec<_>>(),
+        "forces": m.forces.iter().map(|f| json!({"name": f.name, "type": f.word, "conservative": f.potential.is_some()})).collect::<Vec<_>>(),
+        "motions": motions(m),
+        "events": m.events.iter().map(|e| &e.name).collect::<Vec<_>>(),
+        "freedom": count(m),
+        "notes": notes(m, &numbers),
+    })
+}
+
+fn bodies(m: &Mechanism, n: &Numbers) -> Vec<Value> {
+    let told = |&i: &usize| {
+        let body = &m.bodies[i];
+        // The mass centre is kept from the pin; tell it in the body's own frame.
+        let origin = m.sites.iter().position(|s| s.body == i).expect("every body has its origin as a site");
+        let centre = n.centre[i] - n.arms[origin];
+        json!({
+            "name": body.name, "particle": body.particle, "mass": n.mass[i],
+            "inertia": if body.particle { 0.0 } else { n.inertia[i] }, "centre": [centre.x, centre.y],
+        })
+    };
+    m.listed_bodies().iter().map(told).collect()
+}
+
+fn parameters(m: &Mechanism, n: &Numbers) -> Vec<Value> {
+    let told = |(p, x): (&crate::mechanism::Parameter, &f64)| json!({"name": p.name, "unit": p.unit, "value": x});
+    m.parameters.iter().zip(&n.p).map(told).collect()
+}
+
+/// Coordinates of the joints in the tree, or of those that close loops.
+fn coordinates(m: &Mechanism, tree: bool) -> Vec<Value> {
+    let joints = m.joints.iter().filter(|j| j.child.is_some() == tree);
+    joints
+        .flat_map(|j| {
+            j.coordinates.iter().map(|c| {
+                json!({"name": c.name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, j, c)})
+            })
+        })
+        .collect()
+}
+
+/// What a coordinate measures, in words.
+fn meaning(m: &Mechanism, joint: &Joint, c: &crate::mechanism::Coordinate) -> String {
+    let [first, second] = m.ends(joint).map(|b| &m.bodies[b].name);
+    let what = joint.kind.card().coordinates[c.card].name;
+    let from = if c.absolute { "the fixed x axis".to_string() } else { format!("`{first}`") };
+    let sense = match (c.dimension, c.sense < 0.0) {
+        ("rad", true) => ", clockwise",
+        ("rad", false) => ", counter-clockwise",
+        (_, true) => ", backward",
+        _ => "",
+    };
+    format!("{what} of `{second}` from {from} at `{}`{sense}", joint.name)
+}
+
+fn joint(m: &Mechanism, j: &Joint) -> Value {
+    let card = j.kind.card();
+    let [first, second] = m.ends(j).map(|b| m.bodies[b].name.clone());
+    json!({
+        "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(),
+        "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
+        "reaction": j.rows.iter().map(|&r| card.rows[r].name).collect::<Vec<_>>(),
+    })
+}
+
+fn motions(m: &Mechanism) -> Vec<Value> {
+    let level = |l: Level| match l {
+        Level::Position => "position",
+        Level::Velocity => "velocity",
+        Level::Acceleration => "acceleration",
+    };
+    let motions = m.drives.iter().filter(|d| !d.coupling);
+    motions.map(|d| json!({"name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none()})).collect()
+}
+
+/// Grübler's count: coordinates of the bodies less rows of the joints and couplings.
+fn count(m: &Mechanism) -> Value {
+    let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
+    let couplings = m.drives.iter().filter(|d| d.coupling).count();
+    let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
+    json!({"count": bodies as i64 - rows as i64, "bodies": bodies, "rows": rows, "driven": m.drives.len() - couplings})
+}
+
+/// What is modelled, ignored and assumed.
+fn notes(m: &Mechanism, n: &Numbers) -> Vec<String> {
+    let mut notes = m.notes.clone();
+    let massless: Vec<_> = m
+        .listed_bodies()
+        .into_iter()
+        .filter(|&i| n.mass[i] == 0.0)
+        .map(|i| format!("`{}`", m.bodies[i].name))
+        .collect();
+    if !massless.is_empty() {
+        notes.push(format!("Without mass: {}.", massless.join(", ")));
+    }
+    match n.gravity.norm() {
+        0.0 => notes.push("No gravity acts in the plane.".to_string()),
+        _ => notes.push(format!("Gravity is ({}, {}) m/s².", n.gravity.x, n.gravity.y)),
+    }
+    notes.push(
+        "Bodies are rigid, joints are ideal: no friction, no clearance, no contact between bodies that no joint joins."
+            .to_string(),
+    );
+    if !m.closures.is_empty() {
+        let names: Vec<_> = m.closures.iter().map(|&j| format!("`{}`", m.joints[j].name)).collect();
+        notes.push(format!(
+            "Loops are closed at {}; the motion is carried by the other joints' coordinates.",
+            names.join(", ")
+        ));
+    }
+    notes
+}
+
+/// Named points in their bodies' frames: name → [body, x, y].
+pub fn places(m: &Mechanism, n: &Numbers) -> Value {
+    let mut all = Map::new();
+    for (name, site) in &m.points {
+        let body = m.body_of(*site);
+        let origin = m.sites.iter().position(|s| s.body == body).expect("every body has its origin as a site");
+        let at = n.arms[*site] - n.arms[origin];
+        all.insert(name.clone(), json!([m.bodies[body].name, at.x, at.y]));
+    }
+    Value::Object(all)
+}

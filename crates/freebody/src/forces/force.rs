@@ -1,0 +1,32 @@
+//! A force at a point.
+
+use super::{Force, ForceKind, Push};
+use crate::compile::{CompileError, Fields};
+use crate::gauges::Law;
+use crate::joints::{Card, FieldKind, Role};
+
+/// A force at a point, by size and direction or by components, in fixed axes or in those of the body.
+pub struct AtPoint;
+
+impl ForceKind for AtPoint {
+    fn card(&self) -> Card {
+        Card::new("force", "A force at a point, by its size and direction or by its components.")
+            .needs("at", FieldKind::Point, Role::Number, "m", "where it acts")
+            .takes("value", FieldKind::Law, "N", "0", "its size along `direction`")
+            .takes("direction", FieldKind::Law, "rad", "0", "its angle from the x axis of its frame")
+            .takes("x", FieldKind::Law, "N", "0", "its component along x")
+            .takes("y", FieldKind::Law, "N", "0", "its component along y")
+            .takes("frame", FieldKind::Frame, "", "fixed", "`fixed`, or `body` for axes that turn with the body")
+    }
+    fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
+        let along = fields.law("direction")?;
+        let (size, x, y) = (fields.law("value")?, fields.law("x")?, fields.law("y")?);
+        let push = Push {
+            site: fields.site("at")?,
+            x: x + size.clone() * Law::cos(along.clone()),
+            y: y + size * Law::sin(along),
+            with_body: fields.word("frame", &["fixed", "body"])? == "body",
+        };
+        Ok(Force { pushes: vec![push], ..Force::default() })
+    }
+}

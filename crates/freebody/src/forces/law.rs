@@ -1,0 +1,21 @@
+//! Any law on any gauge.
+
+use super::{Force, ForceKind};
+use crate::compile::{CompileError, Fields};
+use crate::joints::{Card, FieldKind, Role};
+
+/// A law on a gauge.
+pub struct General;
+
+impl ForceKind for General {
+    fn card(&self) -> Card {
+        Card::new("law", "A force that acts to increase a gauge, given by an expression.")
+            .needs("along", FieldKind::Gauge, Role::Number, "", "the gauge")
+            .needs("value", FieldKind::Law, Role::Number, "", "the force (N) or couple (N·m)")
+            .takes("potential", FieldKind::Gauge, "J", "", "its potential energy, if it has one")
+    }
+    fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
+        let potential = if fields.given("potential") { Some(fields.gauge("potential")?) } else { None };
+        Ok(Force::pulling(fields.gauge("along")?, fields.law("value")?, potential))
+    }
+}

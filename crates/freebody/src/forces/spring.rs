@@ -1,0 +1,85 @@
+//! Springs and dampers, between two points or along a gauge.
+
+use super::{Force, ForceKind};
+use crate::compile::{CompileError, Fields};
+use crate::gauges::Law;
+use crate::joints::{Card, FieldKind, Role};
+
+fn along(card: Card) -> Card {
+    card.takes("between", FieldKind::Points, "m", "", "the two points at its ends").takes(
+        "along",
+        FieldKind::Gauge,
+        "",
+        "",
+        "or the gauge along which it acts",
+    )
+}
+
+/// The gauge of a force along `along` or between two points.
+fn gauge(fields: &mut Fields) -> Result<Law, CompileError> {
+    match (fields.given("between"), fields.given("along")) {
+        (true, false) => {
+            let [p, q] = fields.two_sites("between")?;
+            Ok(crate::compile::distance(p, q))
+        }
+        (false, true) => fields.gauge("along"),
+        _ => Err(fields.error(
+            "between",
+            "a spring or damper needs `between: [P, Q]` or `along: gauge`",
+            "give one of the two",
+        )),
+    }
+}
+
+/// A linear spring with a damper on a gauge: −k(x − x₀) − cẋ, potential k(x − x₀)²/2.
+pub(super) fn elastic(gauge: Law, fields: &mut Fields, rest: &str) -> Result<Force, CompileError> {
+    let stretch = gauge.clone() - fields.number(rest)?;
+    let stiffness = fields.number("stiffness")?;
+    let damping = fields.number("damping")?;
+    let potential = Law::constant(0.5) * stiffness.clone() * stretch.clone().powi(2);
+    let mut force = Force::pulling(gauge.clone(), -(stiffness * stretch), Some(potential));
+    if damping.literal() != Some(0.0) {
+        force.pulls.push(drag(gauge, damping));
+    }
+    Ok(force)
+}
+
+fn drag(gauge: Law, damping: Law) -> super::Pull {
+    let rate = gauge.clone().rate().expect("a gauge of the configuration has a rate");
+    super::Pull { gauge, value: -(damping * rate), bodies: vec![] }
+}
+
+/// A spring, with a damper beside it if wished.
+pub struct Spring;
+
+impl ForceKind for Spring {
+    fn card(&self) -> Card {
+        along(Card::new("spring", "A linear spring, with a linear damper beside it if wished."))
+            .needs("stiffness", FieldKind::Number, Role::Number, "N/m", "force for each unit of stretch")
+            .takes("rest_length", FieldKind::Number, "m", "0", "length without force")
+            .takes("damping", FieldKind::Number, "N*s/m", "0", "force for each unit of stretching speed")
+    }
+    fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
+        let gauge = gauge(fields)?;
+        elastic(gauge, fields, "rest_length")
+    }
+}
+
+/// A damper.
+pub struct Damper;
+
+impl ForceKind for Damper {
+    fn card(&self) -> Card {
+        along(Card::new("damper", "A linear damper.")).needs(
+            "damping",
+            FieldKind::Number,
+            Role::Number,
+            "N*s/m",
+            "force for each unit of speed",
+        )
+    }
+    fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
+        let gauge = gauge(fields)?;
+        Ok(Force { pulls: vec![drag(gauge, fields.number("damping")?)], ..Force::default() })
+    }
+}

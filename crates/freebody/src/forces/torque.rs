@@ -1,0 +1,56 @@
+//! Couples between two bodies.
+
+use super::{Force, ForceKind};
+use crate::compile::{CompileError, Fields};
+use crate::gauges::{Law, Leaf};
+use crate::joints::{Card, FieldKind, Role};
+
+/// The turn of `on` against `from`.
+fn turn(fields: &mut Fields) -> Result<Law, CompileError> {
+    let (on, from) = (fields.body("on")?, fields.body("from")?);
+    Ok(Law::leaf(Leaf::Angle(on)) - Law::leaf(Leaf::Angle(from)))
+}
+
+fn between(card: Card) -> Card {
+    card.needs("on", FieldKind::Body, Role::Number, "", "the body it acts on").takes(
+        "from",
+        FieldKind::Body,
+        "",
+        "ground",
+        "the body that feels the opposite",
+    )
+}
+
+/// A torque or motor.
+pub struct Torque;
+
+impl ForceKind for Torque {
+    fn card(&self) -> Card {
+        between(Card::new("torque", "A couple on one body, from another, counter-clockwise.")).needs(
+            "value",
+            FieldKind::Law,
+            Role::Number,
+            "N*m",
+            "the couple",
+        )
+    }
+    fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
+        Ok(Force::pulling(turn(fields)?, fields.law("value")?, None))
+    }
+}
+
+/// A torsion spring with a damper.
+pub struct TorsionSpring;
+
+impl ForceKind for TorsionSpring {
+    fn card(&self) -> Card {
+        between(Card::new("torsion_spring", "A couple against the turn of one body relative to another."))
+            .needs("stiffness", FieldKind::Number, Role::Number, "N*m/rad", "couple for each radian")
+            .takes("rest_angle", FieldKind::Number, "rad", "0", "turn without couple")
+            .takes("damping", FieldKind::Number, "N*m*s/rad", "0", "couple for each radian a second")
+    }
+    fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
+        let gauge = turn(fields)?;
+        super::spring::elastic(gauge, fields, "rest_angle")
+    }
+}

@@ -1,0 +1,38 @@
+//! Gauges: scalars measured from the configuration, their rates and accelerations, and everything else
+//! that an expression of a model may read.
+//!
+//! A gauge is an [`Expr`] over [`Leaf`]s. One definition serves springs, drives, couplings, limits,
+//! events and reports: over plain numbers it gives a value, over [`Jet`]s its rate and acceleration, over
+//! [`Dual`]s seeded on one body the load that a unit force along the gauge puts on that body.
+
+mod place;
+mod reading;
+
+pub use place::{gradient, jet, Config, Moving, Placed, Poses, Seeded, State};
+pub use reading::{Axis, Observed, Reading};
+
+use crate::expr::Expr;
+
+/// What the names in an expression stand for, in the end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Leaf {
+    /// A parameter of the model.
+    Parameter(usize),
+    /// Time, s.
+    Time,
+    /// The parameter of the curve that is being described.
+    Local,
+    /// x of a site, m.
+    X(usize),
+    /// y of a site, m.
+    Y(usize),
+    /// Angle of a body, rad.
+    Angle(usize),
+    /// A coordinate of a joint, as its user reads it.
+    Coordinate(usize, usize),
+    /// Something that is known only when the instant is solved.
+    Reading(Reading),
+}
+
+/// An expression of a model.
+pub type Law = Expr<Leaf>;

@@ -1,0 +1,288 @@
+//! The configuration as expressions see it: with plain numbers, moving, or seeded on one body.
+
+use super::{Law, Leaf};
+use crate::expr::Env;
+use crate::kinematics::{relative, JointView, Kinematics};
+use crate::mechanism::Mechanism;
+use crate::mode::Mode;
+use crate::numbers::Numbers;
+use crate::plane::{Pose, Turn, Twist, Vec2, Wrench};
+use crate::scalar::{Dual, Jet, Scalar};
+
+/// Where all bodies are, as scalars `T`.
+pub trait Poses<T> {
+    /// The pose of a body at its pin.
+    fn pose(&self, body: usize) -> Pose<T>;
+    /// The place of a site from its body's pin, in the body's axes.
+    fn arm(&self, site: usize) -> Vec2<T>;
+    /// A number of the model.
+    fn slot(&self, slot: usize) -> T;
+    /// A parameter.
+    fn parameter(&self, i: usize) -> T;
+    /// Time.
+    fn time(&self) -> T;
+    /// A coordinate of a joint, as its user reads it.
+    fn coordinate(&self, joint: usize, k: usize) -> T;
+}
+
+/// One state of a mechanism, as everything that measures sees it.
+#[derive(Clone, Copy)]
+pub struct Placed<'a, S = f64> {
+    /// The mechanism.
+    pub m: &'a Mechanism,
+    /// Its numbers.
+    pub n: &'a Numbers<S>,
+    /// Where its bodies are and how they move.
+    pub k: &'a Kinematics<S>,
+    /// Coordinates of the tree.
+    pub q: &'a [S],
+    /// Their rates.
+    pub u: &'a [S],
+    /// Time.
+    pub t: S,
+    /// Which arms of switches are frozen.
+    pub mode: &'a Mode,
+}
+
+impl<S: Scalar> Poses<S> for Placed<'_, S> {
+    fn pose(&self, body: usize) -> Pose<S> {
+        self.k.pose[body]
+    }
+    fn arm(&self, site: usize) -> Vec2<S> {
+        self.n.arms[site]
+    }
+    fn slot(&self, slot: usize) -> S {
+        self.n.slots[slot]
+    }
+    fn parameter(&self, i: usize) -> S {
+        self.n.p[i]
+    }
+    fn time(&self) -> S {
+        self.t
+    }
+    fn coordinate(&self, joint: usize, k: usize) -> S {
+        match self.m.place_in_q(joint, k) {
+            Some(i) => self.q[i],
+            None => measured(self.m, self.n, self, joint, k, |x| x),
+        }
+    }
+}
+
+/// The state in motion: every measure comes with its rate and its acceleration.
+pub struct Moving<'a, S> {
+    /// The state.
+    pub at: Placed<'a, S>,
+    /// Accelerations of pins and angles of all bodies; 0 when not given.
+    pub bodies: Option<&'a [Twist<S>]>,
+    /// Accelerations of the coordinates, if they are known.
+    pub accelerations: Option<&'a [S]>,
+}
+
+impl<S: Scalar> Poses<Jet<S>> for Moving<'_, S> {
+    fn pose(&self, body: usize) -> Pose<Jet<S>> {
+        let (pose, twist) = (self.at.k.pose[body], self.at.k.twist[body]);
+        let acc = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]);
+        let turn = &pose.turn;
+        let (w, w2) = (twist.w, twist.w * twist.w);
+        Pose {
+            at: Vec2 { x: Jet::new(pose.at.x, twist.v.x, acc.v.x), y: Jet::new(pose.at.y, twist.v.y, acc.v.y) },
+            turn: Turn {
+                angle: Jet::new(turn.angle, w, acc.w),
+                cos: Jet::new(turn.cos, -turn.sin * w, -turn.cos * w2 - turn.sin * acc.w),
+                sin: Jet::new(turn.sin, turn.cos * w, -turn.sin * w2 + turn.cos * acc.w),
+            },
+        }
+    }
+    fn arm(&self, site: usize) -> Vec2<Jet<S>> {
+        let arm = self.at.n.arms[site];
+        Vec2 { x: Jet::constant(arm.x), y: Jet::constant(arm.y) }
+    }
+    fn slot(&self, slot: usize) -> Jet<S> {
+        Jet::constant(self.at.n.slots[slot])
+    }
+    fn parameter(&self, i: usize) -> Jet<S> {
+        Jet::constant(self.at.n.p[i])
+    }
+    fn time(&self) -> Jet<S> {
+        Jet::new(self.at.t, S::one(), S::zero())
+    }
+    fn coordinate(&self, joint: usize, k: usize) -> Jet<S> {
+        match (self.at.m.place_in_q(joint, k), self.accelerations) {
+            (Some(i), Some(a)) => Jet::new(self.at.q[i], self.at.u[i], a[i]),
+            _ => self.along_bodies(joint, k),
+        }
+    }
+}
+
+impl<S: Scalar> Moving<'_, S> {
+    /// A coordinate by way of the bodies: right for any accelerations of the bodies.
+    fn along_bodies(&self, joint: usize, k: usize) -> Jet<S> {
+        let (m, n) = (self.at.m, self.at.n);
+        if let Some(i) = m.place_in_q(joint, k) {
+            if m.joints[joint].curve.is_some() {
+                // Without joint accelerations the parameter of a curve has none either.
+                return Jet::new(self.at.q[i], self.at.u[i], S::zero());
+            }
+        }
+        let measured = measured(m, n, self, joint, k, Jet::constant);
+        Jet { d0: self.at.coordinate(joint, k), ..measured }
+    }
+}
+
+/// The state with the pose of one body seeded: measures come with their gradient by (x, y, angle) of its pin.
+pub struct Seeded<'a, S> {
+    /// The state.
+    pub at: Placed<'a, S>,
+    /// The seeded body.
+    pub body: usize,
+}
+
+impl<S: Scalar> Poses<Dual<3, S>> for Seeded<'_, S> {
+    fn pose(&self, body: usize) -> Pose<Dual<3, S>> {
+        let pose = self.at.k.pose[body];
+        let (x, y, turn) = (pose.at.x, pose.at.y, pose.turn);
+        if body != self.body {
+            let fixed = Dual::constant;
+            let at = Vec2 { x: fixed(x), y: fixed(y) };
+            return Pose { at, turn: Turn { angle: fixed(turn.angle), cos: fixed(turn.cos), sin: fixed(turn.sin) } };
+        }
+        let zero = S::zero();
+        Pose {
+            at: Vec2 { x: Dual::variable(x, 0), y: Dual::variable(y, 1) },
+            turn: Turn {
+                angle: Dual::variable(turn.angle, 2),
+                cos: Dual { re: turn.cos, du: [zero, zero, -turn.sin] },
+                sin: Dual { re: turn.sin, du: [zero, zero, turn.cos] },
+            },
+        }
+    }
+    fn arm(&self, site: usize) -> Vec2<Dual<3, S>> {
+        let arm = self.at.n.arms[site];
+        Vec2 { x: Dual::constant(arm.x), y: Dual::constant(arm.y) }
+    }
+    fn slot(&self, slot: usize) -> Dual<3, S> {
+        Dual::constant(self.at.n.slots[slot])
+    }
+    fn parameter(&self, i: usize) -> Dual<3, S> {
+        Dual::constant(self.at.n.p[i])
+    }
+    fn time(&self) -> Dual<3, S> {
+        Dual::constant(self.at.t)
+    }
+    fn coordinate(&self, joint: usize, k: usize) -> Dual<3, S> {
+        let (m, n) = (self.at.m, self.at.n);
+        let du = match m.joints[joint].curve {
+            None => measured(m, n, self, joint, k, Dual::constant).du,
+            Some(_) => self.along_curve(joint, k),
+        };
+        Dual { re: self.at.coordinate(joint, k), du }
+    }
+}
+
+impl<S: Scalar> Seeded<'_, S> {
+    /// The gradient of a coordinate that has no formula: of all loads that do unit work on it and none on
+    /// the joint's other coordinates, the least (columns S, wrench S(SᵀS)⁻¹eₖ).
+    fn along_curve(&self, joint: usize, k: usize) -> [S; 3] {
+        let (m, kin) = (self.at.m, self.at.k);
+        let child = m.joints[joint].child.expect("a joint along a curve is in the tree");
+        let branch = m.bodies[child].branch.expect("a body of the tree");
+        let column = kin.columns[child][k];
+        let sense = S::of(m.joints[joint].coordinates[k].sense);
+        let norm = column.v.dot(column.v) + column.w * column.w;
+        let load = Wrench { f: column.v * (sense / norm), m: column.w * (sense / norm) };
+        let on_parent = -load.seen_from(kin.arm[child]);
+        match self.body {
+            b if b == child => load.parts(),
+            b if b == branch.parent => on_parent.parts(),
+            _ => [S::zero(); 3],
+        }
+    }
+}
+
+/// A coordinate of a joint read off the bodies.
+fn measured<S: Scalar, T: Scalar>(
+    m: &Mechanism,
+    n: &Numbers<S>,
+    poses: &impl Poses<T>,
+    joint: usize,
+    k: usize,
+    to: impl Fn(S) -> T,
+) -> T {
+    let joint = &m.joints[joint];
+    let c = &joint.coordinates[k];
+    let (axes, place) = relative(joint, m, poses);
+    let view = JointView::new(m, n, joint, to);
+    let own = view.measure(&place).expect("a coordinate that can be read off")[c.card];
+    let reading = if c.absolute { own + axes.turn.angle } else { own };
+    (reading - poses.slot(c.zero)).scale(c.sense)
+}
+
+/// A configuration as an environment of expressions without time derivatives.
+pub struct Config<'a, P> {
+    /// Where everything is.
+    pub poses: &'a P,
+    /// The mechanism, for its tables.
+    pub m: &'a Mechanism,
+    /// Which arms of switches are frozen.
+    pub mode: &'a Mode,
+}
+
+impl<T: Scalar, P: Poses<T>> Env<T, Leaf> for Config<'_, P> {
+    fn leaf(&self, leaf: &Leaf) -> T {
+        let p = self.poses;
+        match leaf {
+            Leaf::Parameter(i) => p.parameter(*i),
+            Leaf::Time => p.time(),
+            Leaf::X(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).x,
+            Leaf::Y(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).y,
+            Leaf::Angle(body) => p.pose(*body).turn.angle,
+            Leaf::Coordinate(joint, k) => p.coordinate(*joint, *k),
+            Leaf::Local | Leaf::Reading(_) => unreachable!("{leaf:?} in an expression of the configuration"),
+        }
+    }
+    fn rate(&self, _: &Law) -> T {
+        unreachable!("a time derivative in an expression of the configuration")
+    }
+    fn accel(&self, _: &Law) -> T {
+        unreachable!("a time derivative in an expression of the configuration")
+    }
+    fn table(&self, table: usize, x: T) -> T {
+        self.m.tables[table].eval(x)
+    }
+    fn arm(&self, kink: usize) -> Option<bool> {
+        self.mode.arm(kink)
+    }
+}
+
+/// A state as an environment of laws, which may read rates.
+pub struct State<'a, S>(pub Placed<'a, S>);
+
+impl<S: Scalar> Env<S, Leaf> for State<'_, S> {
+    fn leaf(&self, leaf: &Leaf) -> S {
+        Config { poses: &self.0, m: self.0.m, mode: self.0.mode }.leaf(leaf)
+    }
+    fn rate(&self, of: &Law) -> S {
+        jet(&Moving { at: self.0, bodies: None, accelerations: None }, of).d1
+    }
+    fn accel(&self, _: &Law) -> S {
+        unreachable!("an acceleration in a law")
+    }
+    fn table(&self, table: usize, x: S) -> S {
+        self.0.m.tables[table].eval(x)
+    }
+    fn arm(&self, kink: usize) -> Option<bool> {
+        self.0.mode.arm(kink)
+    }
+}
+
+/// The load on `body`, at its pin, of a unit force along a gauge.
+pub fn gradient<S: Scalar>(at: Placed<'_, S>, gauge: &Law, body: usize) -> Wrench<S> {
+    let seeded = Seeded { at, body };
+    let value: Dual<3, S> = gauge.eval(&Config { poses: &seeded, m: at.m, mode: at.mode });
+    Wrench::from_parts(value.du)
+}
+
+/// A gauge with its rate and acceleration, for given accelerations of the bodies.
+pub fn jet<S: Scalar>(moving: &Moving<'_, S>, gauge: &Law) -> Jet<S> {
+    gauge.eval(&Config { poses: moving, m: moving.at.m, mode: moving.at.mode })
+}

@@ -1,0 +1,99 @@
+//! Quantities that are known only when the instant is solved, and the environment that knows them.
+
+use super::{jet, Law, Leaf, Moving, Placed, Poses};
+use crate::expr::Env;
+use crate::plane::{Twist, Vec2};
+
+/// A quantity of a solved instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// A component of a joint's reaction on its second body.
+    Reaction(usize, Axis),
+    /// Force or torque of a coupling or prescribed motion.
+    Drive(usize),
+    /// Power of a prescribed motion.
+    DrivePower(usize),
+    /// Work of a prescribed motion since the start.
+    DriveWork(usize),
+    /// Value of a force law.
+    Force(usize),
+    /// Power of a force.
+    ForcePower(usize),
+    /// Work of a force since the start.
+    ForceWork(usize),
+    /// Kinetic energy of a body, or of all.
+    Kinetic(Option<usize>),
+    /// Potential energy of gravity and of all conservative forces.
+    Potential,
+    /// Momentum of all bodies along x or y.
+    Momentum(Axis),
+    /// Angular momentum of all bodies about the place where a site is now.
+    AngularMomentum(usize),
+    /// Mass centre of all bodies.
+    Centre(Axis),
+}
+
+/// A component of a vector or of a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// The couple.
+    Couple,
+    /// The length of the vector.
+    Size,
+    /// Along the first marker.
+    Along,
+    /// Across the first marker, on its left.
+    Across,
+    /// The pull of a link: the force on the second point towards the first.
+    Tension,
+}
+
+/// A solved instant as an environment of expressions.
+pub struct Observed<'a> {
+    /// The state.
+    pub at: Placed<'a>,
+    /// Accelerations of pins and angles.
+    pub bodies: &'a [Twist],
+    /// Accelerations of the coordinates.
+    pub accelerations: &'a [f64],
+    /// What a reading is.
+    pub read: &'a dyn Fn(Reading) -> f64,
+}
+
+impl Observed<'_> {
+    fn moving(&self) -> Moving<'_, f64> {
+        Moving { at: self.at, bodies: Some(self.bodies), accelerations: Some(self.accelerations) }
+    }
+}
+
+impl Env<f64, Leaf> for Observed<'_> {
+    fn leaf(&self, leaf: &Leaf) -> f64 {
+        let place = |site: usize| -> Vec2 { self.at.pose(self.at.m.body_of(site)).place(self.at.arm(site)) };
+        match leaf {
+            Leaf::Parameter(i) => self.at.parameter(*i),
+            Leaf::Time => self.at.t,
+            Leaf::X(site) => place(*site).x,
+            Leaf::Y(site) => place(*site).y,
+            Leaf::Angle(body) => self.at.pose(*body).turn.angle,
+            Leaf::Coordinate(joint, k) => self.at.coordinate(*joint, *k),
+            Leaf::Reading(reading) => (self.read)(*reading),
+            Leaf::Local => unreachable!("a curve's parameter outside a curve"),
+        }
+    }
+    fn rate(&self, of: &Law) -> f64 {
+        jet(&self.moving(), of).d1
+    }
+    fn accel(&self, of: &Law) -> f64 {
+        jet(&self.moving(), of).d2
+    }
+    fn table(&self, table: usize, x: f64) -> f64 {
+        self.at.m.tables[table].eval(x)
+    }
+    fn arm(&self, kink: usize) -> Option<bool> {
+        self.at.mode.arm(kink)
+    }
+}

@@ -1,0 +1,186 @@
+//! Kinematics of the tree: where every body is, how it moves, and how it would accelerate if no
+//! joint did.
+//!
+//! Joint rates ν are relative (of the second body against the first); the user's rates u may be
+//! absolute or reversed. [`Kinematics::joint_rates`] and [`Kinematics::user_rates`] go between them.
+
+mod relative;
+
+pub use relative::{relative, JointView};
+
+use crate::joints::Relative;
+use crate::mechanism::{Branch, Coordinate, Joint, Mechanism};
+use crate::numbers::Numbers;
+use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
+use crate::scalar::{Dual, Jet, Scalar};
+
+/// Poses, twists and velocity-product accelerations of all bodies at one state.
+#[derive(Clone, Debug, Default)]
+pub struct Kinematics<S = f64> {
+    /// Pose of each body at its pin.
+    pub pose: Vec<Pose<S>>,
+    /// Velocity of the pin and angular velocity.
+    pub twist: Vec<Twist<S>>,
+    /// From the parent's pin to the own pin, fixed axes.
+    pub arm: Vec<Vec2<S>>,
+    /// Acceleration of the own pin against the parent's motion when all joint accelerations are 0:
+    /// centripetal, Coriolis and the joint's own.
+    pub drift: Vec<Twist<S>>,
+    /// Motion of the own pin against the parent for each unit joint rate, fixed axes.
+    pub columns: Vec<[Twist<S>; 3]>,
+    /// Joint rates of each coordinate, in the order of `q`.
+    pub nu: Vec<S>,
+}
+
+impl<S: Scalar> Kinematics<S> {
+    /// Memory for a mechanism.
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let n = mechanism.bodies.len();
+        Kinematics {
+            pose: vec![Pose::identity(); n],
+            twist: vec![Twist::zero(); n],
+            arm: vec![Vec2::zero(); n],
+            drift: vec![Twist::zero(); n],
+            columns: vec![[Twist::zero(); 3]; n],
+            nu: vec![S::zero(); mechanism.freedom()],
+        }
+    }
+
+    /// Goes through the tree from ground to the leaves, at coordinates `q` and rates `u`.
+    pub fn sweep(&mut self, m: &Mechanism, n: &Numbers<S>, q: &[S], u: &[S]) {
+        for body in 1..m.bodies.len() {
+            let Some(branch) = m.bodies[body].branch else { continue };
+            if branch.hinge {
+                self.hang_by_hinge(m, n, body, branch, q, u);
+            } else {
+                self.hang(m, n, body, branch, q, u);
+            }
+        }
+    }
+
+    /// A body on a plain hinge between body axes: the general case, written short.
+    #[inline]
+    fn hang_by_hinge(&mut self, m: &Mechanism, n: &Numbers<S>, body: usize, b: Branch, q: &[S], u: &[S]) {
+        let joint = &m.joints[b.joint];
+        let (near, far) = if b.reversed { (&joint.second, &joint.first) } else { (&joint.first, &joint.second) };
+        let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
+        let arm = base.turn.apply(n.arms[near.site]);
+        self.arm[body] = arm;
+        let mut pose = Pose { at: base.at + arm, turn: Turn::none() };
+        let mut twist = Twist { v: carrier.at(arm), w: S::zero() };
+        if !m.bodies[body].particle {
+            let c = &joint.coordinates[0];
+            let base_angle = base.turn.angle + n.slots[near.angle];
+            let (angle, rate) = joint_reading(c, n, q[b.start], u[b.start], base_angle, carrier.w);
+            let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
+            pose.turn = Turn::by(base_angle + angle - n.slots[far.angle]);
+            twist.w = carrier.w + rate;
+            self.nu[b.start] = if b.reversed { -rate } else { rate };
+            let sense = if b.reversed { -S::one() } else { S::one() };
+            self.columns[body][0] = Twist { v: Vec2::zero(), w: sense };
+        }
+        self.pose[body] = pose;
+        self.twist[body] = twist;
+        self.drift[body] = Twist { v: -(arm * (carrier.w * carrier.w)), w: S::zero() };
+    }
+
+    /// A body on any joint, from the joint's pose.
+    fn hang(&mut self, m: &Mechanism, n: &Numbers<S>, body: usize, b: Branch, q: &[S], u: &[S]) {
+        let joint = &m.joints[b.joint];
+        let (near, far) = if b.reversed { (&joint.second, &joint.first) } else { (&joint.first, &joint.second) };
+        let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
+        let axes = Turn::by(base.turn.angle + n.slots[near.angle]);
+        let (mut at, mut rate) = ([S::zero(); 3], [S::zero(); 3]);
+        for (k, c) in joint.coordinates.iter().enumerate() {
+            let i = b.start + k;
+            (at[c.card], rate[c.card]) = joint_reading(c, n, q[i], u[i], axes.angle, carrier.w);
+            self.nu[i] = rate[c.card];
+        }
+        let motion = JointMotion::of(m, n, joint, b.reversed, &at[..joint.size], &rate[..joint.size]);
+
+        let moved = axes.apply(motion.at.at());
+        let arm = base.turn.apply(n.arms[near.site]) + moved;
+        let slide = axes.apply(vec2(motion.rate[0], motion.rate[1]));
+        let curl = axes.apply(vec2(motion.drift[0], motion.drift[1]));
+        let w = carrier.w;
+        let particle = m.bodies[body].particle;
+        let turning = |x: S| if particle { S::zero() } else { x };
+        let angle = turning(axes.angle + motion.at.angle - n.slots[far.angle]);
+
+        self.arm[body] = arm;
+        self.pose[body] = Pose { at: base.at + arm, turn: Turn::by(angle) };
+        self.twist[body] = Twist { v: carrier.at(arm) + slide, w: turning(w + motion.rate[2]) };
+        self.drift[body] = Twist { v: curl + slide.perp() * w.scale(2.0) - arm * (w * w), w: turning(motion.drift[2]) };
+        for (k, coordinate) in joint.coordinates.iter().enumerate() {
+            let column = motion.columns[coordinate.card];
+            self.columns[body][k] = Twist { v: axes.apply(vec2(column[0], column[1])), w: turning(column[2]) };
+        }
+    }
+
+    /// The user's accelerations from the bodies' accelerations (of the pins) and the joints' own `nu_dot`.
+    pub fn user_rates(&self, m: &Mechanism, bodies: &[Twist<S>], nu: &[S], out: &mut [S]) {
+        for body in m.bodies.iter() {
+            let Some(b) = body.branch else { continue };
+            for (k, c) in m.joints[b.joint].coordinates.iter().enumerate() {
+                let carried = if c.absolute { bodies[b.parent].w } else { S::zero() };
+                out[b.start + k] = (nu[b.start + k] + carried).scale(c.sense);
+            }
+        }
+    }
+
+    /// Accelerations of all pins and angles for joint accelerations `nu_dot`; with `drift`, those that
+    /// the velocities cause are added (without, the result is a virtual displacement or a velocity).
+    pub fn spread(&self, m: &Mechanism, nu_dot: &[S], drift: bool, out: &mut [Twist<S>]) {
+        out[0] = Twist::zero();
+        for (i, body) in m.bodies.iter().enumerate() {
+            let Some(b) = body.branch else { continue };
+            let base = out[b.parent];
+            let mut motion = Twist { v: base.at(self.arm[i]), w: if body.particle { S::zero() } else { base.w } };
+            if drift {
+                motion = motion + self.drift[i];
+            }
+            for k in 0..b.freedom {
+                motion = motion + self.columns[i][k] * nu_dot[b.start + k];
+            }
+            out[i] = motion;
+        }
+    }
+}
+
+/// The joint's own coordinate and rate from the user's.
+#[inline(always)]
+fn joint_reading<S: Scalar>(c: &Coordinate, n: &Numbers<S>, q: S, u: S, base_angle: S, base_rate: S) -> (S, S) {
+    let (at, rate) = (n.slots[c.zero] + q.scale(c.sense), u.scale(c.sense));
+    if c.absolute {
+        (at - base_angle, rate - base_rate)
+    } else {
+        (at, rate)
+    }
+}
+
+/// A joint's relative pose with its derivatives, seen from the body nearer to ground.
+struct JointMotion<S> {
+    at: Relative<S>,
+    columns: [[S; 3]; 3],
+    rate: [S; 3],
+    drift: [S; 3],
+}
+
+impl<S: Scalar> JointMotion<S> {
+    fn of(m: &Mechanism, n: &Numbers<S>, joint: &Joint, reversed: bool, at: &[S], rate: &[S]) -> Self {
+        let still: [Dual<3, S>; 3] = std::array::from_fn(|i| Dual::variable(*at.get(i).unwrap_or(&S::zero()), i));
+        let seeded = JointView::new(m, n, joint, Dual::constant).pose(&still[..at.len()], reversed);
+        let zero = S::zero();
+        let going: [Jet<S>; 3] = std::array::from_fn(|i| match at.get(i) {
+            Some(&x) => Jet::new(x, rate[i], zero),
+            None => Jet::constant(zero),
+        });
+        let moving = JointView::new(m, n, joint, Jet::constant).pose(&going[..at.len()], reversed);
+        JointMotion {
+            at: Relative { x: seeded.x.re, y: seeded.y.re, angle: seeded.angle.re },
+            columns: std::array::from_fn(|k| [seeded.x.du[k], seeded.y.du[k], seeded.angle.du[k]]),
+            rate: [moving.x.d1, moving.y.d1, moving.angle.d1],
+            drift: [moving.x.d2, moving.y.d2, moving.angle.d2],
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The two sides of a joint: its own formulas read with any scalar, and the place of its second marker as
+//! seen from its first, read off the bodies.
+
+use crate::expr::Env;
+use crate::gauges::{Law, Leaf, Poses};
+use crate::joints::{Curve as CurveOf, Joint as Formulas, Numbers as JointNumbers, Relative};
+use crate::mechanism::{Curve, Joint, Mechanism};
+use crate::numbers::Numbers;
+use crate::plane::{vec2, Few, Pose, Turn, Vec2};
+use crate::scalar::{Dual, Scalar};
+
+/// Most numbers that a joint has.
+const MOST: usize = 6;
+
+/// A joint with its numbers, read with scalar `T`.
+pub struct JointView<'a, T> {
+    joint: &'a Joint,
+    own: [T; MOST],
+    curve: Option<CurveView<'a, T>>,
+}
+
+struct CurveView<'a, T> {
+    mechanism: &'a Mechanism,
+    curve: &'a Curve,
+    p: Vec<T>,
+}
+
+impl<'a, T: Scalar> JointView<'a, T> {
+    /// The joint with its numbers carried over by `to`.
+    pub fn new<S: Scalar>(m: &'a Mechanism, n: &Numbers<S>, joint: &'a Joint, to: impl Fn(S) -> T) -> Self {
+        let mut own = [T::zero(); MOST];
+        for (number, &slot) in own.iter_mut().zip(&joint.numbers) {
+            *number = to(n.slots[slot]);
+        }
+        let curve = joint.curve.map(|i| CurveView {
+            mechanism: m,
+            curve: &m.curves[i],
+            p: n.p.iter().map(|&x| to(x)).collect(),
+        });
+        JointView { joint, own, curve }
+    }
+    fn numbers(&self) -> JointNumbers<'_, T> {
+        JointNumbers {
+            of: &self.own[..self.joint.numbers.len()],
+            curve: self.curve.as_ref().map(|c| c as &dyn CurveOf<T>),
+        }
+    }
+    /// The pose at joint coordinates in the order of the card, seen from the second body if `reversed`.
+    pub fn pose(&self, q: &[T], reversed: bool) -> Relative<T> {
+        let pose = self.joint.kind.pose(&self.numbers(), q).expect("a joint of the tree has a pose");
+        if reversed {
+            pose.inverse()
+        } else {
+            pose
+        }
+    }
+    /// All rows of the card.
+    pub fn residual(&self, r: &Relative<T>) -> Few<T> {
+        self.joint.kind.residual(&self.numbers(), r).expect("a joint that closes a loop has a residual")
+    }
+    /// The coordinates in the order of the card, where they can be read off.
+    pub fn measure(&self, r: &Relative<T>) -> Option<Few<T>> {
+        self.joint.kind.measure(&self.numbers(), r)
+    }
+}
+
+impl JointView<'_, f64> {
+    /// Where the reaction acts, in the first marker's axes.
+    pub fn contact(&self, r: &Relative<f64>) -> Vec2<f64> {
+        self.joint.kind.contact(&self.numbers(), r)
+    }
+    /// Period of a row of the card.
+    pub fn period(&self, row: usize) -> f64 {
+        self.joint.kind.period(&self.numbers(), row)
+    }
+}
+
+impl<T: Scalar> CurveOf<T> for CurveView<'_, T> {
+    fn at(&self, s: T) -> (Vec2<T>, Vec2<T>) {
+        let env = Along { m: self.mechanism, p: &self.p, s };
+        let x: Dual<1, T> = self.curve.x.eval(&env);
+        let y: Dual<1, T> = self.curve.y.eval(&env);
+        (vec2(x.re, y.re), vec2(x.du[0], y.du[0]))
+    }
+}
+
+/// What the description of a curve may read.
+struct Along<'a, T> {
+    m: &'a Mechanism,
+    p: &'a [T],
+    s: T,
+}
+
+impl<T: Scalar> Env<Dual<1, T>, Leaf> for Along<'_, T> {
+    fn leaf(&self, leaf: &Leaf) -> Dual<1, T> {
+        match leaf {
+            Leaf::Parameter(i) => Dual::constant(self.p[*i]),
+            Leaf::Local => Dual::variable(self.s, 0),
+            other => unreachable!("{other:?} in the description of a curve"),
+        }
+    }
+    fn rate(&self, _: &Law) -> Dual<1, T> {
+        Dual::constant(T::zero())
+    }
+    fn accel(&self, _: &Law) -> Dual<1, T> {
+        Dual::constant(T::zero())
+    }
+    fn table(&self, table: usize, x: Dual<1, T>) -> Dual<1, T> {
+        self.m.tables[table].eval(x)
+    }
+}
+
+/// The place of a joint's second marker as seen from its first, with the pose of the first marker.
+pub fn relative<T: Scalar>(joint: &Joint, m: &Mechanism, poses: &impl Poses<T>) -> (Pose<T>, Relative<T>) {
+    let [a, b] = m.ends(joint);
+    let (first, second) = (poses.pose(a), poses.pose(b));
+    let axes = Turn::by(first.turn.angle + poses.slot(joint.first.angle));
+    let from = first.place(poses.arm(joint.first.site));
+    let to = second.place(poses.arm(joint.second.site));
+    let at = axes.undo(to - from);
+    let angle = second.turn.angle + poses.slot(joint.second.angle) - axes.angle;
+    (Pose { at: from, turn: axes }, Relative { x: at.x, y: at.y, angle })
+}

@@ -1,0 +1,333 @@
+//! The compiled mechanism: topology, immutable and without numbers.
+//!
+//! Every number of the model is a *slot*: an expression of the parameters `p`, evaluated once by
+//! [`Mechanism::bind`]. Bodies are numbered in the order of the tree, parents first; body 0 is ground.
+
+use crate::expr::Table;
+use crate::forces::Force;
+use crate::gauges::{Law, Leaf};
+use crate::joints::Kind;
+
+/// Index of a number of the model.
+pub type Slot = usize;
+
+/// A mechanism without numbers.
+pub struct Mechanism {
+    /// Title.
+    pub name: String,
+    /// The parameters, in the order of the model.
+    pub parameters: Vec<Parameter>,
+    /// An order in which every parameter comes after those it uses.
+    pub parameter_order: Vec<usize>,
+    /// Every number of the model.
+    pub slots: Vec<Law>,
+    /// Functions given by points.
+    pub tables: Vec<Table>,
+    /// Their names.
+    pub table_names: Vec<String>,
+    /// Acceleration of gravity.
+    pub gravity: [Slot; 2],
+    /// Ground, then the bodies in tree order.
+    pub bodies: Vec<Body>,
+    /// Places on bodies.
+    pub sites: Vec<Site>,
+    /// Named points: name and site.
+    pub points: Vec<(String, usize)>,
+    /// Named lines: name and marker.
+    pub lines: Vec<(String, Marker)>,
+    /// Curves of bodies.
+    pub curves: Vec<Curve>,
+    /// Named gauges.
+    pub gauges: Vec<(String, Law)>,
+    /// All joints: those of the model in its order, then those added while compiling.
+    pub joints: Vec<Joint>,
+    /// Joints that close loops.
+    pub closures: Vec<usize>,
+    /// The coordinates of the tree: joint and number within the joint, in the order of `q`.
+    pub coordinates: Vec<(usize, usize)>,
+    /// Couplings and prescribed motions.
+    pub drives: Vec<Drive>,
+    /// The forces, gravity apart.
+    pub forces: Vec<Force>,
+    /// What to watch for.
+    pub events: Vec<Event>,
+    /// Laws that hold switches, with the identifiers of those switches.
+    pub kinks: Vec<(usize, Law)>,
+    /// Number of switches in the model.
+    pub switches: usize,
+    /// What was assumed while compiling, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// A parameter.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Name.
+    pub name: String,
+    /// Unit for display.
+    pub unit: String,
+    /// Its value, an expression of other parameters.
+    pub value: Law,
+}
+
+/// A body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Name.
+    pub name: String,
+    /// Position in the model's list; ground has none.
+    pub listed: Option<usize>,
+    /// A particle has no rotation.
+    pub particle: bool,
+    /// Its pieces.
+    pub pieces: Vec<Piece>,
+    /// How it hangs in the tree; ground hangs on nothing.
+    pub branch: Option<Branch>,
+    /// Its reference point: the marker of its joint in the tree.
+    pub pin: usize,
+}
+
+/// How a body hangs in the tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Branch {
+    /// The body nearer to ground.
+    pub parent: usize,
+    /// The joint between them.
+    pub joint: usize,
+    /// Whether the parent is the joint's second body.
+    pub reversed: bool,
+    /// First coordinate in `q`.
+    pub start: usize,
+    /// Number of coordinates.
+    pub freedom: usize,
+    /// A plain hinge, told the short way.
+    pub hinge: bool,
+}
+
+/// A piece of a body.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// Its shape.
+    pub shape: crate::shapes::Shape,
+    /// Mass.
+    pub mass: Slot,
+    /// Origin of the shape in the body's frame.
+    pub at: [Slot; 2],
+    /// Turn of the shape's axes in the body's frame.
+    pub angle: Slot,
+    /// Inertia about the mass centre, when it is given.
+    pub inertia: Option<Slot>,
+    /// Sizes or corners of the shape.
+    pub sizes: Vec<Slot>,
+}
+
+/// A place on a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Site {
+    /// The body.
+    pub body: usize,
+    /// Where on the body.
+    pub at: Spot,
+}
+
+/// Where a site is, in its body's frame.
+#[derive(Clone, Copy, Debug)]
+pub enum Spot {
+    /// At coordinates.
+    At([Slot; 2]),
+    /// At the mass centre.
+    MassCentre,
+}
+
+/// A site with a direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Marker {
+    /// The site.
+    pub site: usize,
+    /// Direction in the body's frame.
+    pub angle: Slot,
+}
+
+/// A curve of a body, in the body's frame.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Name.
+    pub name: String,
+    /// The body.
+    pub body: usize,
+    /// x as a function of the curve's parameter.
+    pub x: Law,
+    /// y as a function of the curve's parameter.
+    pub y: Law,
+}
+
+/// A joint.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Name.
+    pub name: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Marker on the first body.
+    pub first: Marker,
+    /// Marker on the second body.
+    pub second: Marker,
+    /// Its numbers.
+    pub numbers: Vec<Slot>,
+    /// Its curve.
+    pub curve: Option<usize>,
+    /// Number of coordinates on its card.
+    pub size: usize,
+    /// Its coordinates, those that a particle does not have left out.
+    pub coordinates: Vec<Coordinate>,
+    /// Its rows as a constraint, those that a particle does not have left out: index among the card's rows.
+    pub rows: Vec<usize>,
+    /// Of each row of the card, whether only its change counts.
+    pub phased: Vec<bool>,
+    /// The body that hangs on it, if it is in the tree.
+    pub child: Option<usize>,
+}
+
+/// A joint coordinate, as its user reads it.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// Name.
+    pub name: String,
+    /// Which of the card's coordinates it is.
+    pub card: usize,
+    /// `m`, `rad` or nothing.
+    pub dimension: &'static str,
+    /// Reading of the joint's measure where the coordinate is 0.
+    pub zero: Slot,
+    /// +1 or −1.
+    pub sense: f64,
+    /// Measured from the fixed x axis instead of from the first body.
+    pub absolute: bool,
+}
+
+/// At which level a motion is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// The gauge's value is given.
+    Position,
+    /// Its rate is given.
+    Velocity,
+    /// Its acceleration is given.
+    Acceleration,
+}
+
+/// A coupling or a prescribed motion: one row on gauges.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    /// Name.
+    pub name: String,
+    /// Whether it is a coupling (a joint of the model) rather than a motion.
+    pub coupling: bool,
+    /// The gauge whose motion is given.
+    pub of: Law,
+    /// What it is given to be.
+    pub law: Law,
+    /// At which level.
+    pub level: Level,
+    /// The gauge along which the force acts, when it is another one.
+    pub by: Option<Law>,
+    /// Whether the law reads the state.
+    pub feedback: bool,
+}
+
+/// Something to watch for.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Name.
+    pub name: String,
+    /// Its zero is the event.
+    pub when: Law,
+    /// +1, −1 or 0.
+    pub direction: i8,
+    /// Armed only while this holds.
+    pub condition: Option<crate::expr::Condition<Leaf>>,
+    /// What happens then, besides being recorded.
+    pub then: Vec<Deed>,
+}
+
+/// What an event does.
+#[derive(Clone, Debug)]
+pub enum Deed {
+    /// End the run.
+    Stop,
+    /// Give a parameter the value of an expression.
+    Set(usize, Law),
+}
+
+impl Mechanism {
+    /// A mechanism of which only the title is known yet.
+    pub(crate) fn empty(name: &str) -> Self {
+        Mechanism {
+            name: name.to_string(),
+            parameters: vec![],
+            parameter_order: vec![],
+            slots: vec![],
+            tables: vec![],
+            table_names: vec![],
+            gravity: [0; 2],
+            bodies: vec![],
+            sites: vec![],
+            points: vec![],
+            lines: vec![],
+            curves: vec![],
+            gauges: vec![],
+            joints: vec![],
+            closures: vec![],
+            coordinates: vec![],
+            drives: vec![],
+            forces: vec![],
+            events: vec![],
+            kinks: vec![],
+            switches: 0,
+            notes: vec![],
+        }
+    }
+    /// Degrees of freedom of the tree: the length of `q`.
+    pub fn freedom(&self) -> usize {
+        self.coordinates.len()
+    }
+    /// The bodies in the order of the model.
+    pub fn listed_bodies(&self) -> Vec<usize> {
+        let mut bodies: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].listed.is_some()).collect();
+        bodies.sort_by_key(|&i| self.bodies[i].listed);
+        bodies
+    }
+    /// The body on which a site lies.
+    pub fn body_of(&self, site: usize) -> usize {
+        self.sites[site].body
+    }
+    /// First and second body of a joint.
+    pub fn ends(&self, joint: &Joint) -> [usize; 2] {
+        [self.body_of(joint.first.site), self.body_of(joint.second.site)]
+    }
+    /// Coordinate `i` of `q`.
+    pub fn coordinate(&self, i: usize) -> &Coordinate {
+        let (joint, k) = self.coordinates[i];
+        &self.joints[joint].coordinates[k]
+    }
+    /// Index in `q` of coordinate `k` of a joint, if the joint is in the tree.
+    pub fn place_in_q(&self, joint: usize, k: usize) -> Option<usize> {
+        let child = self.joints[joint].child?;
+        self.bodies[child].branch.map(|b| b.start + k)
+    }
+    /// The bodies on which a law depends, ground left out, each once.
+    pub fn bodies_of(&self, law: &Law) -> Vec<usize> {
+        let mut bodies: Vec<usize> = law.leaves().flat_map(|leaf| self.leaf_bodies(leaf)).filter(|&b| b > 0).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
+    }
+    fn leaf_bodies(&self, leaf: &Leaf) -> Vec<usize> {
+        match leaf {
+            Leaf::X(site) | Leaf::Y(site) => vec![self.body_of(*site)],
+            Leaf::Angle(body) => vec![*body],
+            Leaf::Coordinate(joint, _) => self.ends(&self.joints[*joint]).to_vec(),
+            _ => vec![],
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The motion between the steps.
+
+/// The solution over one step.
+///
+/// Every dense output here is the cubic Hermite interpolant plus θ²(1−θ)² times a polynomial,
+/// written as in HNW I, II.6: with θ = (t−t0)/(t1−t0),
+/// y = y0 + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Time at which the step starts.
+    pub t0: f64,
+    /// Time at which it ends; less than `t0` when the run goes backward.
+    pub t1: f64,
+    y0: Vec<f64>,
+    y1: Vec<f64>,
+    /// F₁, F₂, … one after the other; F₀ = y1 − y0.
+    bends: Vec<f64>,
+}
+
+impl Segment {
+    /// The cubic with the values `y0`, `y1` and the slopes `slope0`, `slope1` (dy/dt) at its ends.
+    pub(super) fn hermite((t0, y0, slope0): (f64, &[f64], &[f64]), (t1, y1, slope1): (f64, &[f64], &[f64])) -> Self {
+        let (n, h) = (y0.len(), t1 - t0);
+        let mut bends = vec![0.0; 2 * n];
+        for i in 0..n {
+            let rise = y1[i] - y0[i];
+            bends[i] = h * slope0[i] - rise;
+            bends[n + i] = 2.0 * rise - h * (slope0[i] + slope1[i]);
+        }
+        Self { t0, t1, y0: y0.to_vec(), y1: y1.to_vec(), bends }
+    }
+
+    /// Adds the next F, replacing those beyond `index` (F₃ has index 3).
+    pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = f64>) {
+        self.bends.truncate((index - 1) * self.y0.len());
+        self.bends.extend(values);
+    }
+
+    /// Writes the state at time `t`; exact at both ends.
+    pub fn at(&self, t: f64, y: &mut [f64]) {
+        if t == self.t1 {
+            y.copy_from_slice(&self.y1);
+            return;
+        }
+        let theta = (t - self.t0) / (self.t1 - self.t0);
+        let n = self.y0.len();
+        for (i, value) in y.iter_mut().enumerate() {
+            let mut sum = 0.0;
+            for k in (0..self.bends.len() / n).rev() {
+                let factor = if k % 2 == 0 { 1.0 - theta } else { theta };
+                sum = factor * (sum + self.bends[k * n + i]);
+            }
+            *value = self.y0[i] + theta * (self.y1[i] - self.y0[i] + sum);
+        }
+    }
+
+    /// State at the start of the step.
+    pub fn start(&self) -> &[f64] {
+        &self.y0
+    }
+
+    /// State at the end of the step.
+    pub fn end(&self) -> &[f64] {
+        &self.y1
+    }
+
+    fn spans(&self, t: f64) -> bool {
+        (t - self.t0) * (t - self.t1) <= 0.0
+    }
+}
+
+/// The solution over a run, step after step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// One segment per accepted step, in the order of the run.
+    pub segments: Vec<Segment>,
+}
+
+impl Trajectory {
+    /// Writes the state at time `t`; false, and `y` untouched, when the run did not pass there.
+    ///
+    /// Where an event made the state jump, this is the state after the jump.
+    pub fn at(&self, t: f64, y: &mut [f64]) -> bool {
+        let passed = self.segments.partition_point(|s| (t - s.t0) * (s.t1 - s.t0) >= 0.0);
+        match self.segments[..passed].last() {
+            Some(segment) if segment.spans(t) => {
+                segment.at(t, y);
+                true
+            }
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Finding where switching functions vanish within a step.
+
+use super::dense::Segment;
+use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, SAMPLES};
+use super::system::{System, Trouble};
+
+/// A value is zero when it is below this many times the size of its function.
+const NOISE: f64 = 4.0 * f64::EPSILON;
+/// An extremum touches zero when it is below this many times the size of its function.
+const TOUCH: f64 = 1e-12;
+
+/// How a switching function met zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It changed its sign.
+    Crossing,
+    /// It has an extremum that is zero; nothing was done about it.
+    Touch,
+}
+
+/// A zero of a switching function on a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mark {
+    pub t: f64,
+    pub index: usize,
+    pub kind: Kind,
+    /// +1 where the function rises as time grows, −1 where it falls, 0 for a touch.
+    pub direction: i8,
+}
+
+/// A point of a segment with the value of a switching function there.
+#[derive(Clone, Copy)]
+struct Node {
+    t: f64,
+    value: f64,
+    is_extremum: bool,
+}
+
+/// What is known of one switching function.
+#[derive(Clone, Debug)]
+struct Memory {
+    /// Sign of its last value clearly away from zero; 0 before there was one.
+    side: i8,
+    /// The side at the end of the segment last searched.
+    side_ahead: i8,
+    /// Largest value seen, or its physical scale.
+    size: f64,
+    /// It acted where the next segment starts: that zero is used up.
+    is_spent: bool,
+    last_touch: f64,
+}
+
+impl Memory {
+    /// Sign of a value that is clearly not zero, else 0.
+    fn sign(&self, value: f64) -> i8 {
+        match value.abs() > NOISE * self.size {
+            true => value.signum() as i8,
+            false => 0,
+        }
+    }
+}
+
+/// Watches the switching functions along a run.
+///
+/// A zero where the run starts does not count: the first value clearly away from zero tells on
+/// which side the function is. Nor does a zero where an event has just acted.
+pub(super) struct Watcher {
+    memory: Vec<Memory>,
+    points: [f64; SAMPLES],
+}
+
+impl Watcher {
+    pub fn new(system: &dyn System) -> Self {
+        let memory =
+            |i| Memory { side: 0, side_ahead: 0, size: system.switch(i).scale, is_spent: false, last_touch: f64::NAN };
+        Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
+    }
+
+    pub fn is_idle(&self) -> bool {
+        self.memory.is_empty()
+    }
+
+    /// All zeros on a segment, in the order of the run.
+    pub fn search(&mut self, system: &mut dyn System, on: &Segment) -> Result<Vec<Mark>, Trouble> {
+        let mut probe = Probe::new(system, on);
+        let mut samples = vec![[0.0; SAMPLES]; self.memory.len()];
+        for (j, &x) in self.points.iter().enumerate() {
+            let values = probe.all(probe.time(x))?;
+            samples.iter_mut().zip(values).for_each(|(samples, value)| samples[j] = *value);
+        }
+        let mut marks = Vec::new();
+        for (i, values) in samples.iter().enumerate() {
+            let largest = values.iter().fold(0.0, |top: f64, value| top.max(value.abs()));
+            self.memory[i].size = self.memory[i].size.max(largest);
+            let nodes = self.nodes(i, values, &mut probe)?;
+            self.walk(i, &nodes, &mut probe, &mut marks)?;
+        }
+        marks.sort_by(|a, b| (a.t - on.t0).abs().total_cmp(&(b.t - on.t0).abs()));
+        Ok(marks)
+    }
+
+    /// The samples and, when zero is near, the extrema of the function, in order: between two
+    /// neighbours the function is monotone.
+    fn nodes(&self, i: usize, values: &[f64; SAMPLES], probe: &mut Probe) -> Result<Vec<Node>, Trouble> {
+        let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
+        let mut nodes: Vec<Node> = self.points.iter().zip(values).map(sample).collect();
+        let coefficients = chebyshev(values);
+        let swing: f64 = coefficients[1..].iter().map(|c| c.abs()).sum();
+        // |Tₖ| ≤ 1: the polynomial cannot reach zero.
+        if coefficients[0].abs() > 1.001 * swing {
+            return Ok(nodes);
+        }
+        for x in extrema(&monomial(&coefficients)) {
+            let t = probe.time(x);
+            nodes.push(Node { t, value: probe.one(i, t)?, is_extremum: true });
+        }
+        let (t0, ahead) = (probe.segment.t0, probe.ahead());
+        nodes.sort_by(|a, b| (ahead * (a.t - t0)).total_cmp(&(ahead * (b.t - t0))));
+        Ok(nodes)
+    }
+
+    fn walk(&mut self, i: usize, nodes: &[Node], probe: &mut Probe, marks: &mut Vec<Mark>) -> Result<(), Trouble> {
+        let memory = &mut self.memory[i];
+        let (mut side, mut last, mut touch) = (memory.side, nodes[0], None);
+        for node in &nodes[usize::from(memory.is_spent)..] {
+            if node.is_extremum && node.value.abs() <= TOUCH * memory.size {
+                touch = Some(node.t);
+            }
+            let sign = memory.sign(node.value);
+            if sign == 0 {
+                // Too small to tell, but the zero lies beyond it.
+                last = if node.value * f64::from(side) > 0.0 { *node } else { last };
+                continue;
+            }
+            if side == -sign {
+                let t = probe.root(i, last, *node)?;
+                let direction = sign * probe.ahead() as i8;
+                marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
+            } else if let Some(t) = touch.filter(|_| side == sign) {
+                // Neighbouring segments may both see an extremum on their border.
+                if (t - memory.last_touch).abs() > 1e-6 * probe.length() || memory.last_touch.is_nan() {
+                    marks.push(Mark { t, index: i, kind: Kind::Touch, direction: 0 });
+                }
+                memory.last_touch = t;
+            }
+            (side, last, touch) = (sign, *node, None);
+        }
+        memory.side_ahead = side;
+        Ok(())
+    }
+
+    /// The segment last searched was passed to its end.
+    pub fn pass(&mut self) {
+        for memory in &mut self.memory {
+            memory.side = memory.side_ahead;
+            memory.is_spent = false;
+        }
+    }
+
+    /// The run stopped at a zero; `values` are those of all functions there. After a jump the
+    /// sides are found anew: a sign that an action changed is no event.
+    pub fn stop_at(&mut self, values: &[f64], has_jumped: bool) {
+        for (memory, &value) in self.memory.iter_mut().zip(values) {
+            memory.is_spent = false;
+            memory.side = match memory.sign(value) {
+                _ if has_jumped => 0,
+                0 => memory.side,
+                sign => sign,
+            };
+        }
+    }
+
+    /// Function `i` acted where the run stopped and is now heading for `side`: its zero there
+    /// is used up.
+    pub fn spend(&mut self, i: usize, side: i8) {
+        (self.memory[i].side, self.memory[i].is_spent) = (side, true);
+    }
+}
+
+/// Evaluates switching functions along a segment.
+pub(super) struct Probe<'a> {
+    system: &'a mut dyn System,
+    segment: &'a Segment,
+    y: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl<'a> Probe<'a> {
+    pub fn new(system: &'a mut dyn System, segment: &'a Segment) -> Self {
+        let (y, values) = (vec![0.0; system.dim()], vec![0.0; system.switches()]);
+        Self { system, segment, y, values }
+    }
+
+    /// Time at `x` in [−1, 1].
+    fn time(&self, x: f64) -> f64 {
+        match x {
+            1.0 => self.segment.t1,
+            _ => self.segment.t0 + 0.5 * (1.0 + x) * (self.segment.t1 - self.segment.t0),
+        }
+    }
+
+    fn length(&self) -> f64 {
+        (self.segment.t1 - self.segment.t0).abs()
+    }
+
+    fn ahead(&self) -> f64 {
+        (self.segment.t1 - self.segment.t0).signum()
+    }
+
+    fn all(&mut self, t: f64) -> Result<&[f64], Trouble> {
+        self.segment.at(t, &mut self.y);
+        self.system.switch_values(t, &self.y, &mut self.values)?;
+        Ok(&self.values)
+    }
+
+    fn one(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
+        Ok(self.all(t)?[i])
+    }
+
+    fn root(&mut self, i: usize, a: Node, b: Node) -> Result<f64, Trouble> {
+        // The sign changed in the noise at the end of the segment before.
+        if a.value == 0.0 || (a.value < 0.0) == (b.value < 0.0) {
+            return Ok(a.t);
+        }
+        bracketed(|t| self.one(i, t), (a.t, a.value), (b.t, b.value))
+    }
+
+    /// Rate of switching function `i` at time `t`.
+    pub fn slope(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
+        let (low, high) =
+            if self.ahead() > 0.0 { (self.segment.t0, self.segment.t1) } else { (self.segment.t1, self.segment.t0) };
+        let reach = 1e-4 * self.length();
+        let (a, b) = ((t - reach).max(low), (t + reach).min(high));
+        Ok((self.one(i, b)? - self.one(i, a)?) / (b - a))
+    }
+}

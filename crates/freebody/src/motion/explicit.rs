@@ -1,0 +1,149 @@
+//! Explicit Runge–Kutta methods: one engine for all tables.
+
+use super::dense::Segment;
+use super::method::{Counted, Failure, Point, Stepper};
+use super::norm::{measure, Norm};
+
+/// The numbers of an explicit method of s stages. Stage s (counted from 0) is the rate at the end
+/// of the step; the stages of the dense output come after it.
+pub(super) struct Table {
+    /// Times of stages 1 …, as fractions of the step.
+    pub c: &'static [f64],
+    /// Weights of the earlier stages in stages 1 ….
+    pub a: &'static [&'static [f64]],
+    /// Weights of the step.
+    pub b: &'static [f64],
+    /// Weights of the error estimate, and of a second one that tempers it (HNW I, II.10).
+    pub errors: &'static [&'static [f64]],
+    /// Times and weights of the extra stages of the dense output.
+    pub more_c: &'static [f64],
+    /// Weights of all earlier stages in the extra ones.
+    pub more_a: &'static [&'static [f64]],
+    /// Weights of F₃, F₄, … of [`Segment`].
+    pub dense: &'static [&'static [f64]],
+    /// The method is at its stability limit when |hλ| exceeds this.
+    pub stability: Option<f64>,
+}
+
+/// Runs a [`Table`].
+pub(super) struct Explicit {
+    table: &'static Table,
+    /// Rates at the stages.
+    k: Vec<Vec<f64>>,
+    /// State at the stage being evaluated.
+    y: Vec<f64>,
+    weights: Vec<f64>,
+    stiffness: Stiffness,
+}
+
+impl Explicit {
+    pub fn boxed(table: &'static Table, n: usize) -> Box<dyn Stepper> {
+        let stages = table.b.len() + 1 + table.more_c.len();
+        Box::new(Self {
+            table,
+            k: vec![vec![0.0; n]; stages],
+            y: vec![0.0; n],
+            weights: vec![0.0; n],
+            stiffness: Stiffness::default(),
+        })
+    }
+
+    fn stage(
+        &mut self,
+        system: &mut Counted,
+        from: &Point,
+        h: f64,
+        (index, c, a): (usize, f64, &[f64]),
+    ) -> Result<(), Failure> {
+        let (known, rest) = self.k.split_at_mut(index);
+        for (i, y) in self.y.iter_mut().enumerate() {
+            *y = from.y[i] + h * combine(a, known, i);
+        }
+        system.rate(from.t + c * h, &self.y, &mut rest[0])
+    }
+
+    fn error(&mut self, h: f64) -> f64 {
+        let k = &self.k;
+        let norms = self.table.errors.iter().map(|e| {
+            for (i, y) in self.y.iter_mut().enumerate() {
+                *y = h * combine(e, k, i);
+            }
+            measure(&self.y, &self.weights)
+        });
+        match norms.collect::<Vec<_>>()[..] {
+            [main, tempering] if main > 0.0 => main * main / main.hypot(0.1 * tempering),
+            [main, ..] => main,
+            [] => 0.0,
+        }
+    }
+}
+
+/// Σ aⱼ kⱼ for component `i`.
+fn combine(a: &[f64], k: &[Vec<f64>], i: usize) -> f64 {
+    a.iter().zip(k).map(|(a, k)| a * k[i]).sum()
+}
+
+impl Stepper for Explicit {
+    fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure> {
+        let (table, h) = (self.table, to.t - from.t);
+        self.k[0].copy_from_slice(&from.dy);
+        for (j, (&c, a)) in table.c.iter().zip(table.a).enumerate() {
+            self.stage(system, from, h, (j + 1, c, a))?;
+        }
+        for (i, y) in to.y.iter_mut().enumerate() {
+            *y = from.y[i] + h * combine(table.b, &self.k, i);
+        }
+        system.rate_of(to)?;
+        let stages = table.b.len();
+        self.k[stages].copy_from_slice(&to.dy);
+        if let Some(limit) = table.stability {
+            self.stiffness.note(limit, h, (&self.k[stages - 1], &self.y), to);
+        }
+        norm.weights(from, to, &mut self.weights);
+        Ok(self.error(h))
+    }
+
+    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
+        let (table, h, stages) = (self.table, to.t - from.t, self.table.b.len());
+        self.k[stages].copy_from_slice(&to.dy);
+        for (j, (&c, a)) in table.more_c.iter().zip(table.more_a).enumerate() {
+            self.stage(system, from, h, (stages + 1 + j, c, a))?;
+        }
+        let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
+        for (j, row) in table.dense.iter().enumerate() {
+            segment.bend(3 + j, (0..from.y.len()).map(|i| h * combine(row, &self.k, i)));
+        }
+        Ok(segment)
+    }
+
+    fn is_stiff(&self) -> bool {
+        self.stiffness.suspicions >= 15
+    }
+
+    fn reset(&mut self) {
+        self.stiffness = Stiffness::default();
+    }
+}
+
+/// Hairer's stiffness test (HW II, IV.2): the ratio of two rates at the end of the step to the
+/// distance of their states estimates |hλ|; 15 steps near the limit are suspicious, 6 clear it.
+#[derive(Default)]
+struct Stiffness {
+    suspicions: u32,
+    clear: u32,
+}
+
+impl Stiffness {
+    fn note(&mut self, limit: f64, h: f64, (k, y): (&[f64], &[f64]), to: &Point) {
+        let distance =
+            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt() };
+        if h.abs() * distance(k, &to.dy) > limit * distance(y, &to.y) {
+            *self = Self { suspicions: self.suspicions + 1, clear: 0 };
+            return;
+        }
+        self.clear += 1;
+        if self.clear >= 6 {
+            self.suspicions = 0;
+        }
+    }
+}

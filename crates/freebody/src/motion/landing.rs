@@ -1,0 +1,189 @@
+//! What a run does about events: land on them, let them act, go on.
+
+use super::dense::Segment;
+use super::events::{Kind, Mark, Probe};
+use super::method::all_finite;
+use super::outcome::{Happening, Outcome};
+use super::run::{ending, Runner};
+use super::system::After;
+
+impl Runner<'_> {
+    /// The zeros on a segment that count, in order.
+    pub(super) fn search(&mut self, segment: &Segment) -> Result<Vec<Mark>, Outcome> {
+        if self.watcher.is_idle() {
+            return Ok(Vec::new());
+        }
+        let system = &mut *self.system.system;
+        let marks = self.watcher.search(system, segment).map_err(Outcome::Trouble)?;
+        let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
+        for mark in marks {
+            let watch = system.switch(mark.index);
+            let is_passing = mark.kind == Kind::Touch && watch.is_kink;
+            if is_passing || watch.direction * mark.direction < 0 {
+                continue;
+            }
+            segment.at(mark.t, &mut y);
+            if system.armed(mark.index, mark.t, &y).map_err(Outcome::Trouble)? {
+                counting.push(mark);
+            }
+        }
+        Ok(counting)
+    }
+
+    /// Steps to the first crossing of `marks`, lets it act and goes on from there.
+    pub(super) fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
+        let mut crossings = marks.iter().filter(|mark| mark.kind == Kind::Crossing);
+        let first = *crossings.next().expect("the caller saw one");
+        let together = crossings.filter(|mark| is_tie(mark.t, first.t));
+        let hits: Vec<Mark> = std::iter::once(&first).chain(together).copied().collect();
+        self.note_touches(&segment, marks, first.t);
+        self.land(&segment, first)?;
+        let has_jumped = self.act(&hits)?;
+        if has_jumped {
+            self.stepper.reset();
+            self.system.rate_of(&mut self.now).map_err(ending)?;
+            self.restart_pace();
+        }
+        self.look_around(&hits, has_jumped)
+    }
+
+    /// Tells the watcher on which side of zero all functions go on.
+    fn look_around(&mut self, hits: &[Mark], has_jumped: bool) -> Result<(), Outcome> {
+        let values = self.switch_values(0.0)?;
+        self.watcher.stop_at(&values, has_jumped);
+        for hit in hits {
+            let is_kink = self.system.system.switch(hit.index).is_kink;
+            // A kink has changed to the arm beyond; other actions may have turned the motion.
+            let side = match has_jumped && !is_kink {
+                true => self.heading(hit.index, values[hit.index])?,
+                false => hit.direction * self.sign() as i8,
+            };
+            self.watcher.spend(hit.index, side);
+        }
+        Ok(())
+    }
+
+    /// Sign of the change of switching function `i` from its present `value`; 0 when it rests.
+    fn heading(&mut self, i: usize, value: f64) -> Result<i8, Outcome> {
+        let rise = self.switch_values(1e-3 * self.pace.h)?[i] - value;
+        Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
+    }
+
+    /// Makes a true step to a zero that was found on the dense output of a longer one, and once
+    /// more when the function is not yet zero there.
+    fn land(&mut self, segment: &Segment, hit: Mark) -> Result<(), Outcome> {
+        let (t0, t1) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
+        let mut t = hit.t;
+        for _ in 0..3 {
+            if t == self.now.t {
+                return Ok(());
+            }
+            self.step_to(t)?;
+            let mut values = vec![0.0; self.system.system.switches()];
+            let system = &mut *self.system.system;
+            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::Trouble)?;
+            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::Trouble)?;
+            let better = (t - values[hit.index] / slope).clamp(t0, t1);
+            if better.is_nan() || (better - t).abs() <= 4.0 * f64::EPSILON * t.abs() {
+                break;
+            }
+            t = better;
+        }
+        let landed = self.segment()?;
+        self.push(landed);
+        Ok(())
+    }
+
+    /// Makes a step to `t`, which is known to be short enough.
+    fn step_to(&mut self, t: f64) -> Result<(), Outcome> {
+        self.next.t = t;
+        let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
+        attempt.map_err(ending)?;
+        self.settle()
+    }
+
+    /// Lets the events at the present act; returns whether the state or the law changed.
+    fn act(&mut self, hits: &[Mark]) -> Result<bool, Outcome> {
+        let (before, mut has_jumped, mut stop) = (self.now.y.clone(), false, None);
+        for hit in hits {
+            self.chatter.note(hit.index, self.now.t)?;
+            let system = &mut *self.system.system;
+            let is_kink = system.switch(hit.index).is_kink;
+            let after = system.act(hit.index, self.now.t, &mut self.now.y);
+            let after = after.map_err(Outcome::Trouble)?;
+            match is_kink {
+                true => self.run.kinks += 1,
+                false => self.run.events.push(happening(hit, self.now.t, &before)),
+            }
+            has_jumped |= is_kink || after == After::Restart;
+            if after == After::Stop {
+                stop.get_or_insert(hit.index);
+            }
+        }
+        all_finite(&self.now.y).map_err(ending)?;
+        match stop {
+            Some(index) => Err(Outcome::StoppedByEvent { index }),
+            None => Ok(has_jumped || self.now.y != before),
+        }
+    }
+
+    /// Records the touches before time `until`.
+    pub(super) fn note_touches(&mut self, segment: &Segment, marks: &[Mark], until: f64) {
+        let start = segment.t0;
+        for mark in marks.iter().filter(|mark| mark.kind == Kind::Touch) {
+            if (mark.t - start).abs() <= (until - start).abs() {
+                let mut y = vec![0.0; self.now.y.len()];
+                segment.at(mark.t, &mut y);
+                self.run.events.push(happening(mark, mark.t, &y));
+            }
+        }
+    }
+
+    /// The switching functions at the present, or a time `h` further along its tangent.
+    fn switch_values(&mut self, h: f64) -> Result<Vec<f64>, Outcome> {
+        let system = &mut *self.system.system;
+        let mut values = vec![0.0; system.switches()];
+        let y: Vec<f64> = self.now.y.iter().zip(&self.now.dy).map(|(y, dy)| y + h * dy).collect();
+        system.switch_values(self.now.t + h, &y, &mut values).map_err(Outcome::Trouble)?;
+        Ok(values)
+    }
+}
+
+fn happening(mark: &Mark, t: f64, y: &[f64]) -> Happening {
+    Happening { t, y: y.to_vec(), index: mark.index, kind: mark.kind, direction: mark.direction }
+}
+
+/// Whether two times are one instant.
+fn is_tie(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * (1.0 + b.abs())
+}
+
+/// Guards against events that come ever more densely.
+pub(super) struct Chatter {
+    since: f64,
+    /// Indices of the events of this instant, and their time.
+    instant: (f64, Vec<usize>),
+    count: usize,
+}
+
+impl Chatter {
+    pub fn new(t: f64) -> Self {
+        Self { since: t, instant: (t, Vec::new()), count: 0 }
+    }
+
+    /// Refuses an event that happens twice in one instant, or too many in a short time.
+    fn note(&mut self, index: usize, t: f64) -> Result<(), Outcome> {
+        if !is_tie(t, self.instant.0) {
+            self.instant = (t, Vec::new());
+        }
+        if (t - self.since).abs() > 1e-9 {
+            (self.since, self.count) = (t, 0);
+        }
+        self.count += 1;
+        if self.count > 10_000 || self.instant.1.contains(&index) {
+            return Err(Outcome::TooManyEvents);
+        }
+        self.instant.1.push(index);
+        Ok(())
+    }
+}

@@ -1,0 +1,118 @@
+//! The list of methods and what each of them must be able to do.
+
+use super::dense::Segment;
+use super::norm::Norm;
+use super::system::{System, Trouble};
+use super::{dop853, gauss6, radau, rk4, tsit5};
+
+/// An integration method.
+pub struct Method {
+    /// Name by which it is asked for.
+    pub name: &'static str,
+    /// Where it comes from.
+    pub citation: &'static str,
+    /// Global error is O(hᵖ) with this p.
+    pub order: u32,
+    /// The dense output adds an error O(hᵖ⁺¹) within a step, with this p.
+    pub dense_order: u32,
+    /// How the error estimate shrinks with the step, O(hᵏ); `None`: the step is fixed.
+    pub estimate_order: Option<u32>,
+    /// Needs [`System::canonical`].
+    pub symplectic: bool,
+    /// The step is kept unless it may grow by more than this factor.
+    pub(super) growth_threshold: f64,
+    pub(super) stepper: fn(usize) -> Box<dyn Stepper>,
+}
+
+/// All methods; the first one is the default.
+pub const METHODS: [&Method; 5] = [&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
+
+/// The method called `name`.
+pub fn method(name: &str) -> Option<&'static Method> {
+    METHODS.into_iter().find(|method| method.name == name)
+}
+
+/// A time, the state there and its rate.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub t: f64,
+    pub y: Vec<f64>,
+    pub dy: Vec<f64>,
+}
+
+impl Point {
+    pub fn new(t: f64, y: &[f64]) -> Self {
+        Self { t, y: y.to_vec(), dy: vec![0.0; y.len()] }
+    }
+}
+
+/// Why a step could not be made.
+#[derive(Clone, Debug)]
+pub(super) enum Failure {
+    /// The system refused.
+    Trouble(Trouble),
+    /// A rate or a state is infinite or not a number.
+    NotFinite,
+    /// Newton's iteration of an implicit step did not converge.
+    NoConvergence,
+}
+
+impl From<Trouble> for Failure {
+    fn from(trouble: Trouble) -> Self {
+        Failure::Trouble(trouble)
+    }
+}
+
+/// A system whose evaluations are counted and checked.
+pub(super) struct Counted<'a> {
+    pub system: &'a mut dyn System,
+    pub evaluations: usize,
+}
+
+impl Counted<'_> {
+    pub fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Failure> {
+        self.evaluations += 1;
+        all_finite(y)?;
+        self.system.rate(t, y, dy)?;
+        all_finite(dy)
+    }
+
+    /// Evaluates the rate of a point in place.
+    pub fn rate_of(&mut self, point: &mut Point) -> Result<(), Failure> {
+        self.rate(point.t, &point.y, &mut point.dy)
+    }
+
+    pub fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), Failure> {
+        self.evaluations += 1;
+        all_finite(z)?;
+        let canonical = self.system.canonical().expect("checked when the run starts");
+        canonical.flow(t, z, dz)?;
+        all_finite(dz)
+    }
+}
+
+/// Refuses infinities and NaN.
+pub(super) fn all_finite(values: &[f64]) -> Result<(), Failure> {
+    match values.iter().all(|value| value.is_finite()) {
+        true => Ok(()),
+        false => Err(Failure::NotFinite),
+    }
+}
+
+/// The working part of a method.
+pub(super) trait Stepper {
+    /// Steps from `from` to `to.t`, filling `to.y` and `to.dy`; returns the estimated error in
+    /// units of the tolerance (accept when ≤ 1).
+    fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure>;
+
+    /// The dense output of the last attempt, after `to` has been projected.
+    fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure>;
+
+    /// Whether the last accepted steps look stiff.
+    fn is_stiff(&self) -> bool {
+        false
+    }
+
+    /// Forgets earlier steps, because the state or the law changed.
+    fn reset(&mut self) {}
+}

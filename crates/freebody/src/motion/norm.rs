@@ -1,0 +1,75 @@
+//! How large an error is.
+
+use super::method::Point;
+use super::system::System;
+
+/// The error norm: relative accuracy of every component, down to a physical floor.
+///
+/// A component weighs rtol·max(|y₀|, |y₁|, |h·ẏ₀|, |h·ẏ₁|) + floor: the change over the step
+/// stands in for the size where the component passes through zero, so a decaying quantity keeps
+/// its relative digits. The floor, max(1e-6·rtol, 1e-15)·scale, keeps a component that is zero but
+/// for round-off from governing the step. The norm is the root mean square of the rms and
+/// the maximum of the weighted errors: the worst component always counts for at least 0.7.
+pub(super) struct Norm {
+    pub rtol: f64,
+    /// Physical size of each component.
+    pub scale: Vec<f64>,
+}
+
+impl Norm {
+    pub fn new(system: &dyn System, rtol: f64) -> Self {
+        let mut scale = vec![1.0; system.dim()];
+        system.scale(&mut scale);
+        Self { rtol, scale }
+    }
+
+    /// Tolerated error of each component for a step between two points.
+    pub fn weights(&self, from: &Point, to: &Point, out: &mut [f64]) {
+        let h = to.t - from.t;
+        let floor = (1e-6 * self.rtol).max(1e-15);
+        for (i, weight) in out.iter_mut().enumerate() {
+            let size = from.y[i].abs().max(to.y[i].abs());
+            let change = (h * from.dy[i]).abs().max((h * to.dy[i]).abs());
+            *weight = self.rtol * size.max(change) + floor * self.scale[i];
+        }
+    }
+
+    /// Tolerated error of each component at the physical size of the system.
+    fn physical(&self, at: &Point) -> Vec<f64> {
+        at.y.iter().zip(&self.scale).map(|(y, scale)| self.rtol * y.abs().max(*scale)).collect()
+    }
+}
+
+/// The norm of `values` in units of `weights`.
+pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
+    let (mut sum, mut top) = (0.0, 0.0_f64);
+    for (value, weight) in values.iter().zip(weights) {
+        let square = (value / weight).powi(2);
+        sum += square;
+        top = top.max(square);
+    }
+    (0.5 * (sum / values.len().max(1) as f64 + top)).sqrt()
+}
+
+/// Hairer's first step (HNW I, II.4, eq. 4.14), from a rate at `from` and a rate function.
+pub(super) fn first_step<E>(
+    norm: &Norm,
+    from: &Point,
+    sign: f64,
+    estimate_order: u32,
+    mut rate: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
+) -> Result<f64, E> {
+    let weights = norm.physical(from);
+    let (d0, d1) = (measure(&from.y, &weights), measure(&from.dy, &weights));
+    let h0 = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
+    let y: Vec<f64> = from.y.iter().zip(&from.dy).map(|(y, dy)| y + sign * h0 * dy).collect();
+    let mut dy = vec![0.0; y.len()];
+    rate(from.t + sign * h0, &y, &mut dy)?;
+    let bend: Vec<f64> = dy.iter().zip(&from.dy).map(|(b, a)| b - a).collect();
+    let steepest = d1.max(measure(&bend, &weights) / h0);
+    let h1 = match steepest <= 1e-15 {
+        true => (h0 * 1e-3).max(1e-6),
+        false => (0.01 / steepest).powf(1.0 / f64::from(estimate_order)),
+    };
+    Ok(sign * h1.min(100.0 * h0))
+}

@@ -1,0 +1,273 @@
+//! The run: step, project, look for events, act, go on.
+
+use super::dense::Segment;
+use super::events::{Kind, Watcher};
+use super::landing::Chatter;
+use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
+use super::norm::{first_step, Norm};
+use super::outcome::{Outcome, Run};
+use super::pace::Pace;
+use super::system::System;
+
+/// The tightest relative tolerance that is accepted.
+const TIGHTEST: f64 = 1e-14;
+
+/// What may be chosen about a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Relative tolerance of every component, at least 1e-14; not used with a fixed step.
+    pub rtol: f64,
+    /// Length of the first step, or of every step of a method with a fixed one, which needs it.
+    pub first_step: Option<f64>,
+    /// Longest step allowed; positive.
+    pub max_step: f64,
+    /// Largest number of steps, rejected ones included.
+    pub max_steps: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { rtol: 1e-9, first_step: None, max_step: f64::INFINITY, max_steps: 1_000_000 }
+    }
+}
+
+/// Integrates `system` from `y0` at `t0` to `t_end`, forward or backward.
+///
+/// `progress` is called with the time after each step; the run ends when it returns false.
+/// A zero of an event at `t0` does not count; the event happens when its function comes back.
+/// Failures are outcomes: the run then holds everything up to the last good time.
+///
+/// # Panics
+/// When `y0` does not have [`System::dim`] components.
+pub fn run(
+    system: &mut dyn System,
+    method: &Method,
+    (t0, y0): (f64, &[f64]),
+    t_end: f64,
+    options: &Options,
+    progress: &mut dyn FnMut(f64) -> bool,
+) -> Run {
+    assert_eq!(y0.len(), system.dim(), "y0 must have one value per component of the system");
+    let mut runner = Runner::new(system, method, (t0, y0), t_end, options);
+    let outcome = match runner.start(method, options) {
+        Err(outcome) => outcome,
+        Ok(()) => loop {
+            if let Err(outcome) = runner.advance(options, progress) {
+                break outcome;
+            }
+        },
+    };
+    runner.finish(outcome)
+}
+
+pub(super) struct Runner<'a> {
+    pub system: Counted<'a>,
+    pub stepper: Box<dyn Stepper>,
+    pub watcher: Watcher,
+    pub norm: Norm,
+    pub pace: Pace,
+    estimate_order: Option<u32>,
+    pub now: Point,
+    /// End of the step being made.
+    pub next: Point,
+    t_end: f64,
+    pub run: Run,
+    pub chatter: Chatter,
+}
+
+impl<'a> Runner<'a> {
+    fn new(
+        system: &'a mut dyn System,
+        method: &Method,
+        (t0, y0): (f64, &[f64]),
+        t_end: f64,
+        options: &Options,
+    ) -> Self {
+        let now = Point::new(t0, y0);
+        Self {
+            stepper: (method.stepper)(y0.len()),
+            watcher: Watcher::new(system),
+            norm: Norm::new(system, options.rtol),
+            pace: Pace::new(method.estimate_order, method.growth_threshold, options.max_step),
+            estimate_order: method.estimate_order,
+            next: now.clone(),
+            t_end,
+            run: Run::new(&now),
+            chatter: Chatter::new(t0),
+            now,
+            system: Counted { system, evaluations: 0 },
+        }
+    }
+
+    fn start(&mut self, method: &Method, options: &Options) -> Result<(), Outcome> {
+        self.refuse(method, options)?;
+        self.system.rate_of(&mut self.now).map_err(ending)?;
+        match options.first_step {
+            Some(h) => self.pace.restart(h.abs() * self.sign()),
+            None => self.restart_pace(),
+        }
+        Ok(())
+    }
+
+    /// What the method cannot do, by name.
+    fn refuse(&mut self, method: &Method, options: &Options) -> Result<(), Outcome> {
+        let refused = |reason| Err(Outcome::Unsupported { method: method.name, reason });
+        if method.symplectic && self.system.system.canonical().is_none() {
+            return refused("the system has no canonical form");
+        }
+        if self.pace.is_fixed() && options.first_step.is_none() {
+            return refused("its step is fixed and first_step is not given");
+        }
+        if self.t_end.is_nan() || options.first_step.is_some_and(|h| h == 0.0 || !h.is_finite()) {
+            return refused("the end time or the first step is not a number to step by");
+        }
+        if options.max_step.is_nan() || options.max_step <= 0.0 {
+            return refused("the longest step allowed is not positive");
+        }
+        let is_too_tight = options.rtol.is_nan() || options.rtol < TIGHTEST;
+        if !self.pace.is_fixed() && is_too_tight {
+            return Err(Outcome::ToleranceTooTight { rtol: options.rtol });
+        }
+        all_finite(&self.now.y).map_err(ending)
+    }
+
+    pub fn sign(&self) -> f64 {
+        (self.t_end - self.now.t).signum()
+    }
+
+    /// Chooses the step anew, as at the start.
+    pub fn restart_pace(&mut self) {
+        let (Some(order), sign) = (self.estimate_order, self.sign()) else { return };
+        let system = &mut self.system;
+        let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
+        // Where even the trial fails, the first steps are rejected until they fit.
+        self.pace.restart(h.unwrap_or(sign * 1e-6));
+    }
+
+    /// One accepted step, or the part of it up to an event.
+    fn advance(&mut self, options: &Options, progress: &mut dyn FnMut(f64) -> bool) -> Result<(), Outcome> {
+        if self.now.t == self.t_end {
+            return Err(Outcome::Completed);
+        }
+        let error = self.accept(options)?;
+        self.settle()?;
+        let segment = self.segment()?;
+        let marks = self.search(&segment)?;
+        self.pace.accepted(error);
+        if marks.iter().any(|mark| mark.kind == Kind::Crossing) {
+            self.go_to_event(segment, &marks)?;
+        } else {
+            self.note_touches(&segment, &marks, segment.t1);
+            self.push(segment);
+            self.watcher.pass();
+        }
+        match progress(self.now.t) {
+            true => Ok(()),
+            false => Err(Outcome::Interrupted),
+        }
+    }
+
+    /// Tries steps until one is accurate enough; returns its error.
+    fn accept(&mut self, options: &Options) -> Result<f64, Outcome> {
+        let mut cause = Outcome::StepUnderflow;
+        loop {
+            self.check_steps(options.max_steps)?;
+            self.next.t = self.target();
+            let h = self.next.t - self.now.t;
+            if h.abs() < 4.0 * f64::EPSILON * self.now.t.abs() && self.next.t != self.t_end || h == 0.0 {
+                return Err(cause);
+            }
+            match self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm) {
+                Ok(error) if error <= 1.0 => return Ok(error),
+                Ok(error) if error.is_finite() => {
+                    cause = Outcome::StepUnderflow;
+                    self.pace.rejected(h, error);
+                }
+                Ok(_) => self.pace.failed(h),
+                Err(failure) if self.pace.is_fixed() => return Err(ending(failure)),
+                Err(failure) => {
+                    cause = ending(failure);
+                    self.pace.failed(h);
+                }
+            }
+            self.run.rejected += 1;
+        }
+    }
+
+    /// End of the next step: the end of the run when it is in reach.
+    fn target(&self) -> f64 {
+        match (self.t_end - self.now.t).abs() <= (1.0 + 1e-6) * self.pace.h.abs() {
+            true => self.t_end,
+            false => self.now.t + self.pace.h,
+        }
+    }
+
+    /// Ends the run when it has, or will have, too many steps.
+    fn check_steps(&mut self, allowed: usize) -> Result<(), Outcome> {
+        let left = allowed.saturating_sub(self.run.accepted + self.run.rejected);
+        if self.stepper.is_stiff() {
+            self.run.stiff_since.get_or_insert(self.now.t);
+            if (self.t_end - self.now.t).abs() > left as f64 * self.pace.h.abs() {
+                return Err(Outcome::StiffSuspected);
+            }
+        }
+        match left {
+            0 => Err(Outcome::TooManySteps { steps: allowed }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Projects the end of the step onto the invariants.
+    pub fn settle(&mut self) -> Result<(), Outcome> {
+        let before = self.next.y.clone();
+        let system = &mut *self.system.system;
+        let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::Trouble)?;
+        self.run.largest_correction = self.run.largest_correction.max(correction);
+        if self.next.y != before {
+            self.system.rate_of(&mut self.next).map_err(ending)?;
+        }
+        Ok(())
+    }
+
+    pub fn segment(&mut self) -> Result<Segment, Outcome> {
+        self.stepper.dense(&mut self.system, &self.now, &self.next).map_err(ending)
+    }
+
+    /// Makes the end of the step the present.
+    pub fn push(&mut self, segment: Segment) {
+        self.run.trajectory.segments.push(segment);
+        self.run.accepted += 1;
+        std::mem::swap(&mut self.now, &mut self.next);
+    }
+
+    fn finish(self, outcome: Outcome) -> Run {
+        Run { outcome, t: self.now.t, y: self.now.y, evaluations: self.system.evaluations, ..self.run }
+    }
+}
+
+impl Run {
+    fn new(at: &Point) -> Self {
+        Self {
+            trajectory: Default::default(),
+            events: Vec::new(),
+            outcome: Outcome::Interrupted,
+            t: at.t,
+            y: at.y.clone(),
+            accepted: 0,
+            rejected: 0,
+            evaluations: 0,
+            kinks: 0,
+            largest_correction: 0.0,
+            stiff_since: None,
+        }
+    }
+}
+
+/// The outcome of a failure that a shorter step does not cure.
+pub(super) fn ending(failure: Failure) -> Outcome {
+    match failure {
+        Failure::Trouble(trouble) => Outcome::Trouble(trouble),
+        Failure::NotFinite => Outcome::Overflow,
+        Failure::NoConvergence => Outcome::StepUnderflow,
+    }
+}

@@ -1,0 +1,139 @@
+//! What an integrator may ask of the thing that moves.
+
+use std::fmt;
+
+/// A named failure of a system, with a sentence for the reader.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trouble {
+    /// Short fixed name, e.g. `SingularMass`.
+    pub name: &'static str,
+    /// One sentence: what happened and what to do.
+    pub sentence: String,
+}
+
+impl Trouble {
+    /// A failure called `name`, explained by `sentence`.
+    pub fn new(name: &'static str, sentence: impl Into<String>) -> Self {
+        Self { name, sentence: sentence.into() }
+    }
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        write!(out, "{}: {}", self.name, self.sentence)
+    }
+}
+
+impl std::error::Error for Trouble {}
+
+/// How a switching function is watched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Watch {
+    /// +1: only when rising through zero as time grows; −1: only when falling; 0: either.
+    pub direction: i8,
+    /// A kink of a force law: always acted on and followed by a restart, never reported.
+    pub is_kink: bool,
+    /// Physical size of the function: what is below 16 ε of it is zero. 0 when unknown; the
+    /// largest value met stands in for it.
+    pub scale: f64,
+}
+
+/// What follows an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum After {
+    /// Nothing changed; the motion goes on.
+    Continue,
+    /// The state or the law changed; the integrator starts afresh.
+    Restart,
+    /// The run ends here.
+    Stop,
+}
+
+/// A system dy/dt = f(t, y) of [`System::dim`] equations, with what is known about it beyond f.
+pub trait System {
+    /// Number of components of y.
+    fn dim(&self) -> usize;
+
+    /// Writes dy/dt at (t, y).
+    ///
+    /// # Errors
+    /// A named failure where the rate does not exist. An adaptive method then tries a shorter
+    /// step; when that does not help, the run ends with this failure.
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble>;
+
+    /// Brings `y` back onto its invariants; called after each accepted step and at events.
+    /// Returns the size of the correction, relative to [`System::scale`].
+    ///
+    /// # Errors
+    /// A named failure when there is no way back; the run ends with it.
+    fn project(&mut self, _t: f64, _y: &mut [f64]) -> Result<f64, Trouble> {
+        Ok(0.0)
+    }
+
+    /// Writes the physical size of each component (1 rad, a length, a speed …); positive.
+    fn scale(&self, out: &mut [f64]) {
+        out.fill(1.0);
+    }
+
+    /// Number of switching functions, events and kinks together.
+    fn switches(&self) -> usize {
+        0
+    }
+
+    /// Writes the values of all switching functions at (t, y).
+    ///
+    /// # Errors
+    /// A named failure; the run ends with it.
+    fn switch_values(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> Result<(), Trouble> {
+        Ok(())
+    }
+
+    /// How switching function `i` is watched.
+    fn switch(&self, _i: usize) -> Watch {
+        Watch { direction: 0, is_kink: false, scale: 0.0 }
+    }
+
+    /// Whether event `i` counts at (t, y).
+    ///
+    /// # Errors
+    /// A named failure; the run ends with it.
+    fn armed(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<bool, Trouble> {
+        Ok(true)
+    }
+
+    /// Event `i` happened at (t, y); may change `y` and the system itself, and then answers
+    /// [`After::Restart`]. An action that stops the motion at the event must also change the law
+    /// that brings it back there: an event that returns within one instant ends the run.
+    ///
+    /// # Errors
+    /// A named failure; the run ends with it.
+    fn act(&mut self, _i: usize, _t: f64, _y: &mut [f64]) -> Result<After, Trouble> {
+        Ok(After::Continue)
+    }
+
+    /// The canonical form, which symplectic methods need; `None` when there is none.
+    fn canonical(&mut self) -> Option<&mut dyn Canonical> {
+        None
+    }
+}
+
+/// The same motion in canonical variables z = (q, p), as many as components of y.
+pub trait Canonical {
+    /// Writes z at (t, y).
+    ///
+    /// # Errors
+    /// A named failure.
+    fn enter(&mut self, t: f64, y: &[f64], z: &mut [f64]) -> Result<(), Trouble>;
+
+    /// Writes y at (t, z); inverse of [`Canonical::enter`].
+    ///
+    /// # Errors
+    /// A named failure.
+    fn leave(&mut self, t: f64, z: &[f64], y: &mut [f64]) -> Result<(), Trouble>;
+
+    /// Hamilton's equations: writes dz/dt = (∂H/∂p, −∂H/∂q).
+    ///
+    /// # Errors
+    /// A named failure.
+    fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), Trouble>;
+}

@@ -1,0 +1,130 @@
+//! The numbers of a mechanism at given parameters.
+
+use crate::expr::{Env, Table};
+use crate::gauges::{Law, Leaf};
+use crate::mechanism::{Body, Mechanism, Slot, Spot};
+use crate::plane::{Turn, Vec2};
+use crate::scalar::Scalar;
+
+/// All numbers of a mechanism, evaluated at parameters `p`.
+#[derive(Clone, Debug)]
+pub struct Numbers<S = f64> {
+    /// The parameters.
+    pub p: Vec<S>,
+    /// Every number of the model, by slot.
+    pub slots: Vec<S>,
+    /// Of each site, its place from the pin of its body, in the body's axes.
+    pub arms: Vec<Vec2<S>>,
+    /// Of each body, mass in kg.
+    pub mass: Vec<S>,
+    /// Of each body, the mass centre from its pin, in the body's axes.
+    pub centre: Vec<Vec2<S>>,
+    /// Of each body, inertia about the mass centre, kg·m²; 1 for a particle, which nothing turns.
+    pub inertia: Vec<S>,
+    /// Acceleration of gravity.
+    pub gravity: Vec2<S>,
+}
+
+/// What an expression of parameters may read.
+struct OfParameters<'a, S> {
+    p: &'a [S],
+    tables: &'a [Table],
+}
+
+impl<S: Scalar> Env<S, Leaf> for OfParameters<'_, S> {
+    fn leaf(&self, leaf: &Leaf) -> S {
+        match leaf {
+            Leaf::Parameter(i) => self.p[*i],
+            other => unreachable!("{other:?} in a number of the model"),
+        }
+    }
+    fn rate(&self, _: &Law) -> S {
+        S::zero()
+    }
+    fn accel(&self, _: &Law) -> S {
+        S::zero()
+    }
+    fn table(&self, table: usize, x: S) -> S {
+        self.tables[table].eval(x)
+    }
+}
+
+impl Mechanism {
+    /// The parameters, those with an entry in `given` overruled; the others follow their expressions.
+    pub fn parameters_with(&self, given: &[(usize, f64)]) -> Vec<f64> {
+        let mut p = vec![f64::NAN; self.parameters.len()];
+        for &(i, value) in given {
+            p[i] = value;
+        }
+        for &i in &self.parameter_order {
+            if !given.iter().any(|&(j, _)| j == i) {
+                p[i] = self.parameters[i].value.eval(&OfParameters { p: &p, tables: &self.tables });
+            }
+        }
+        p
+    }
+
+    /// The parameters of `p` that do not follow from their expressions: those that were overruled.
+    pub fn overruled(&self, p: &[f64]) -> Vec<(usize, f64)> {
+        let env = OfParameters { p, tables: &self.tables };
+        let follows = |i: usize| self.parameters[i].value.eval(&env) == p[i];
+        (0..p.len()).filter(|&i| !follows(i)).map(|i| (i, p[i])).collect()
+    }
+
+    /// The numbers of the mechanism at parameters `p`.
+    pub fn bind<S: Scalar>(&self, p: &[S]) -> Numbers<S> {
+        let env = OfParameters { p, tables: &self.tables };
+        let slots: Vec<S> = self.slots.iter().map(|e| e.eval(&env)).collect();
+        let at = |xy: [Slot; 2]| Vec2 { x: slots[xy[0]], y: slots[xy[1]] };
+        let heavy: Vec<_> = self.bodies.iter().map(|body| mass_properties(body, &slots)).collect();
+        let place = |site: usize| match self.sites[site].at {
+            Spot::At(xy) => at(xy),
+            Spot::MassCentre => heavy[self.sites[site].body].1,
+        };
+        let pins: Vec<Vec2<S>> = self.bodies.iter().map(|body| place(body.pin)).collect();
+        Numbers {
+            p: p.to_vec(),
+            gravity: at(self.gravity),
+            arms: (0..self.sites.len()).map(|i| place(i) - pins[self.sites[i].body]).collect(),
+            mass: heavy.iter().map(|h| h.0).collect(),
+            centre: heavy.iter().zip(&pins).map(|(h, &pin)| h.1 - pin).collect(),
+            inertia: heavy.iter().zip(&self.bodies).map(|(h, b)| if b.particle { S::one() } else { h.2 }).collect(),
+            slots,
+        }
+    }
+}
+
+/// Mass, mass centre in the body's frame and inertia about it, of all pieces together (Steiner's theorem).
+///
+/// The centre of a body without mass is that of its first piece; ground has none.
+fn mass_properties<S: Scalar>(body: &Body, slots: &[S]) -> (S, Vec2<S>, S) {
+    let placed: Vec<(S, Vec2<S>, S)> = body
+        .pieces
+        .iter()
+        .map(|piece| {
+            let sizes: Vec<S> = piece.sizes.iter().map(|&s| slots[s]).collect();
+            let (centre, gyration2) = piece.shape.geometry(&sizes);
+            let at = Vec2 { x: slots[piece.at[0]], y: slots[piece.at[1]] };
+            let mass = slots[piece.mass];
+            let inertia = piece.inertia.map_or(mass * gyration2, |slot| slots[slot]);
+            (mass, at + Turn::by(slots[piece.angle]).apply(centre), inertia)
+        })
+        .collect();
+    let mut mass = S::zero();
+    let mut moment = Vec2::zero();
+    for (m, c, _) in &placed {
+        mass += *m;
+        moment += *c * *m;
+    }
+    let centre = match placed.first() {
+        Some((_, first, _)) if mass.value() == 0.0 => *first,
+        Some(_) => moment * (S::one() / mass),
+        None => Vec2::zero(),
+    };
+    let mut inertia = S::zero();
+    for (m, c, i) in &placed {
+        let arm = *c - centre;
+        inertia += *i + *m * arm.dot(arm);
+    }
+    (mass, centre, inertia)
+}

@@ -1,0 +1,250 @@
+//! A mechanism as a system of differential equations with events.
+
+use crate::balance::{Balance, Observer, Trouble};
+use crate::gauges::{Law, State};
+use crate::mechanism::Deed;
+use crate::mode::Mode;
+use crate::motion::{After, Canonical, System, Watch};
+
+/// A stretch of the motion under one set of parameters and switches.
+#[derive(Clone, Debug)]
+pub struct Stretch {
+    /// When it began, s.
+    pub from: f64,
+    /// Parameters.
+    pub p: Vec<f64>,
+    /// Arms of switches.
+    pub mode: Mode,
+    /// Energy that the change of parameters at its beginning put in, J.
+    pub jump: f64,
+}
+
+/// A mechanism in motion.
+pub struct Machine<'m> {
+    pub(super) balance: Balance<'m>,
+    /// Forces whose work is integrated.
+    pub(super) worked: Vec<usize>,
+    /// Prescribed motions, whose work is integrated.
+    pub(super) driven: Vec<usize>,
+    /// Parameters that events have set.
+    set: Vec<(usize, f64)>,
+    pub(super) stretches: Vec<Stretch>,
+    pub(super) worst_gap: f64,
+    scales: Vec<f64>,
+}
+
+impl<'m> Machine<'m> {
+    /// A mechanism at given parameters.
+    pub fn new(balance: Balance<'m>, p: &[f64]) -> Self {
+        let m = balance.m;
+        let worked = (0..m.forces.len()).filter(|&f| m.forces[f].potential.is_none() || m.forces[f].pulls.len() > 1);
+        let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
+        let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
+        let size = 2 * m.freedom() + worked.len() + driven.len();
+        let first = Stretch { from: f64::NEG_INFINITY, p: p.to_vec(), mode: Mode::free(m.switches), jump: 0.0 };
+        Machine {
+            balance,
+            worked,
+            driven,
+            set: m.overruled(p),
+            stretches: vec![first],
+            worst_gap: 0.0,
+            scales: vec![1.0; size],
+        }
+    }
+
+    /// The state vector at the start.
+    pub fn pack(&self, q: &[f64], u: &[f64]) -> Vec<f64> {
+        let mut y = [q, u].concat();
+        y.resize(self.scales.len(), 0.0);
+        y
+    }
+
+    fn split<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
+        let n = self.balance.m.freedom();
+        (&y[..n], &y[n..2 * n])
+    }
+
+    fn place(&mut self, t: f64, y: &[f64]) {
+        let (q, u) = self.split(y);
+        self.balance.place(t, q, u);
+    }
+
+    /// Freezes every switch at the arm it has now.
+    pub fn freeze_arms(&mut self, t: f64, y: &[f64]) {
+        self.place(t, y);
+        let m = self.balance.m;
+        for (kink, law) in &m.kinks {
+            let value = law.switch(*kink, &State(self.balance.at()));
+            self.balance.mode.freeze(*kink, value >= 0.0);
+        }
+        self.stretches[0].mode = self.balance.mode.clone();
+    }
+
+    /// Learns the physical sizes of the state's components from the starting state.
+    pub fn size_up(&mut self, t: f64, y: &[f64]) {
+        self.place(t, y);
+        let m = self.balance.m;
+        let (n, length) = (m.freedom(), self.balance.length);
+        let gravity = self.balance.n.gravity.norm();
+        let (q, u) = self.split(y);
+        let unit = |i: usize| if m.coordinate(i).dimension == "m" { length } else { 1.0 };
+        let fastest = (0..n).map(|i| u[i].abs() / unit(i)).fold((gravity / length).sqrt(), f64::max);
+        let pace = if fastest > 0.0 { fastest } else { 1.0 };
+        let mut scales: Vec<f64> = (0..n).map(|i| unit(i).max(q[i].abs())).collect();
+        scales.extend((0..n).map(|i| unit(i) * pace));
+        let mass: f64 = self.balance.n.mass.iter().sum::<f64>() + self.balance.n.inertia[1..].iter().sum::<f64>();
+        let energy = (mass.max(1e-300) * (length * pace).powi(2)).max(self.balance.kinetic_energy());
+        scales.resize(self.scales.len(), energy);
+        self.scales = scales;
+    }
+
+    /// Kinetic and potential energy at a state.
+    pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
+        self.place(t, y);
+        [self.balance.kinetic_energy(), self.balance.potential_energy()]
+    }
+
+    /// Values of laws at a state.
+    fn read(&mut self, laws: &[&Law], t: f64, y: &[f64]) -> Result<Vec<f64>, Trouble> {
+        let works = self.works(y);
+        let (q, u) = (y[..self.balance.m.freedom()].to_vec(), self.split(y).1.to_vec());
+        let mut observer = Observer::new(&mut self.balance, laws.iter().copied());
+        observer.place(t, &q, &u)?;
+        Ok(observer.read(laws, &works))
+    }
+
+    /// The works in the state vector, spread over all forces, then all drives.
+    pub(super) fn works(&self, y: &[f64]) -> Vec<f64> {
+        let m = self.balance.m;
+        let mut works = vec![0.0; m.forces.len() + m.drives.len()];
+        let tail = &y[2 * m.freedom()..];
+        for (i, &f) in self.worked.iter().enumerate() {
+            works[f] = tail[i];
+        }
+        for (i, &d) in self.driven.iter().enumerate() {
+            works[m.forces.len() + d] = tail[self.worked.len() + i];
+        }
+        works
+    }
+
+    /// Sets parameters, lets the others follow, and notes the energy that the change put in.
+    fn change(&mut self, t: f64, y: &[f64], values: &[(usize, f64)]) {
+        let before: f64 = self.energy(t, y).iter().sum();
+        for &(i, x) in values {
+            self.set.retain(|(j, _)| *j != i);
+            self.set.push((i, x));
+        }
+        let p = self.balance.m.parameters_with(&self.set);
+        self.balance.rebind(&p);
+        let jump = self.energy(t, y).iter().sum::<f64>() - before;
+        self.stretches.push(Stretch { from: t, p, mode: self.balance.mode.clone(), jump });
+    }
+}
+
+impl System for Machine<'_> {
+    fn dim(&self) -> usize {
+        self.scales.len()
+    }
+
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+        let n = self.balance.m.freedom();
+        self.place(t, y);
+        self.balance.solve()?;
+        dy[..n].copy_from_slice(&y[n..2 * n]);
+        self.balance.accelerations(&mut dy[n..2 * n]);
+        for (i, &f) in self.worked.iter().enumerate() {
+            let force = &self.balance.m.forces[f];
+            dy[2 * n + i] = crate::balance::unaccounted_power(self.balance.at(), force);
+        }
+        if !self.driven.is_empty() {
+            let powers = self.balance.drive_powers();
+            for (i, &d) in self.driven.iter().enumerate() {
+                dy[2 * n + self.worked.len() + i] = powers[d];
+            }
+        }
+        Ok(())
+    }
+
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
+        if !self.balance.is_closed() {
+            return Ok(0.0);
+        }
+        let n = self.balance.m.freedom();
+        let (q, rest) = y.split_at_mut(n);
+        let moved = self.balance.close(t, q, &rest[..n])?;
+        self.worst_gap = self.worst_gap.max(self.balance.worst_gap());
+        let turned = self.balance.align(t, q, &mut rest[..n])?;
+        let pace = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
+        Ok(moved.max(turned / pace))
+    }
+
+    fn scale(&self, out: &mut [f64]) {
+        out.copy_from_slice(&self.scales);
+    }
+
+    fn switches(&self) -> usize {
+        self.balance.m.events.len() + self.balance.m.kinks.len()
+    }
+
+    fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
+        let m = self.balance.m;
+        let laws: Vec<&Law> = m.events.iter().map(|e| &e.when).collect();
+        let values = if laws.is_empty() { vec![] } else { self.read(&laws, t, y)? };
+        out[..values.len()].copy_from_slice(&values);
+        if !m.kinks.is_empty() {
+            self.place(t, y);
+            for (i, (kink, law)) in m.kinks.iter().enumerate() {
+                out[m.events.len() + i] = law.switch(*kink, &State(self.balance.at()));
+            }
+        }
+        Ok(())
+    }
+
+    fn switch(&self, i: usize) -> Watch {
+        match self.balance.m.events.get(i) {
+            Some(event) => Watch { direction: event.direction, is_kink: false, scale: 0.0 },
+            None => Watch { direction: 0, is_kink: true, scale: 0.0 },
+        }
+    }
+
+    fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, Trouble> {
+        let m = self.balance.m;
+        let Some(condition) = m.events.get(i).and_then(|e| e.condition.as_ref()) else { return Ok(true) };
+        Ok(self.read(&[condition.as_expr()], t, y)?[0] > 0.5)
+    }
+
+    fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
+        let m = self.balance.m;
+        let Some(event) = m.events.get(i) else {
+            let kink = m.kinks[i - m.events.len()].0;
+            let arm = self.balance.mode.arm(kink).unwrap_or(true);
+            self.balance.mode.freeze(kink, !arm);
+            let p = self.balance.n.p.clone();
+            self.stretches.push(Stretch { from: t, p, mode: self.balance.mode.clone(), jump: 0.0 });
+            return Ok(After::Restart);
+        };
+        let mut values = vec![];
+        for deed in &event.then {
+            if let Deed::Set(p, law) = deed {
+                values.push((*p, self.read(&[law], t, y)?[0]));
+            }
+        }
+        if !values.is_empty() {
+            self.change(t, y, &values);
+        }
+        let stops = event.then.iter().any(|d| matches!(d, Deed::Stop));
+        Ok(match (stops, values.is_empty()) {
+            (true, _) => After::Stop,
+            (_, true) => After::Continue,
+            _ => After::Restart,
+        })
+    }
+
+    fn canonical(&mut self) -> Option<&mut dyn Canonical> {
+        if self.balance.is_closed() || !self.worked.is_empty() {
+            return None;
+        }
+        Some(self)
+    }
+}

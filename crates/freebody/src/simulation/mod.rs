@@ -1,0 +1,82 @@
+//! The motion of a mechanism: the system that an integrator carries, and what is kept of a run.
+//!
+//! State y = [q, u, works]: coordinates, their rates, and the work of every force without a potential and of
+//! every prescribed motion, so that the energy ledger has the accuracy of the motion.
+
+mod canonical;
+mod machine;
+mod trajectory;
+
+pub use canonical::mass_matrix;
+pub use machine::Machine;
+pub use trajectory::{Ledger, Trajectory};
+
+use crate::balance::{Balance, Route, Trouble};
+use crate::mechanism::Mechanism;
+use crate::motion::{method, run, Method, Options};
+
+/// What may be chosen about a simulation.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Name of the integrator.
+    pub method: String,
+    /// Tolerances and steps.
+    pub options: Options,
+    /// How each instant is solved; None for the cheapest way.
+    pub route: Option<Route>,
+}
+
+impl Settings {
+    /// The integrator chosen.
+    ///
+    /// # Errors
+    /// `unknown_method`.
+    pub fn integrator(&self) -> Result<&'static Method, Trouble> {
+        let known = crate::motion::METHODS.iter().map(|m| m.name);
+        method(&self.method).ok_or_else(|| {
+            let list = known.collect::<Vec<_>>().join(", ");
+            Trouble::new("unknown_method", format!("no integrator is called `{}`; there is {list}", self.method))
+        })
+    }
+}
+
+/// A state to start from: parameters, time, coordinates and rates.
+#[derive(Clone, Debug)]
+pub struct Start<'a> {
+    /// Parameters.
+    pub p: &'a [f64],
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: &'a [f64],
+    /// Rates.
+    pub u: &'a [f64],
+}
+
+/// Carries a mechanism from a state to the time `until`, or to an event that ends the run.
+///
+/// `progress` is told the time now and then; the run ends when it answers false.
+///
+/// # Errors
+/// What keeps the run from starting; what ends it later is its outcome.
+pub fn simulate(
+    m: &Mechanism,
+    start: &Start,
+    until: f64,
+    settings: &Settings,
+    progress: &mut dyn FnMut(f64) -> bool,
+) -> Result<Trajectory, Trouble> {
+    let integrator = settings.integrator()?;
+    let mut balance = Balance::new(m, start.p);
+    balance.prefer(settings.route);
+    balance.place(start.t, start.q, start.u);
+    balance.take_phases();
+    let mut machine = Machine::new(balance, start.p);
+    let mut y = machine.pack(start.q, start.u);
+    machine.freeze_arms(start.t, &y);
+    machine.size_up(start.t, &y);
+    crate::motion::System::project(&mut machine, start.t, &mut y)?;
+    let opening = machine.energy(start.t, &y);
+    let run = run(&mut machine, integrator, (start.t, &y), until, &settings.options, progress);
+    Ok(Trajectory::new(machine, run, opening, settings.clone()))
+}

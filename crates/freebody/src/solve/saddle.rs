@@ -1,0 +1,275 @@
+//! The dense null-space solver of one instant of a mechanism.
+
+use super::{axpy, dot, max_abs, Lu, Matrix, Orthogonal, Rank};
+use std::fmt;
+
+/// An inertia below this fraction of the largest entry of M (scaled) is zero.
+const ZERO_INERTIA: f64 = 1e-14;
+
+/// The factored equations  M a − Bᵀ λ = f,  G a = r  of one instant.
+///
+/// M (n × n) is symmetric and may be singular, as long as it is positive definite on ker G. B = G for
+/// ideal constraints; actuators that drive the motion G a = r through other directions have their
+/// own rows B. Rows of G may be redundant; r must then agree with them.
+///
+/// The null-space method (Benzi, Golub & Liesen, *Numerical solution of saddle point problems*, Acta
+/// Numerica 2005, §6): with bases Z of ker G and W of ker B, Wᵀ M Z ÿ = Wᵀ(f − M aₚ) are as many
+/// equations as there are degrees of freedom.
+///
+/// All decisions are made on scaled unknowns and rows: aⱼ = `col_scale[j]` âⱼ, and row i of G and B is
+/// multiplied by `row_scale[i]`. With lengths in the unit L of the mechanism both become pure
+/// numbers of order one.
+#[derive(Clone, Debug, Default)]
+pub struct Saddle {
+    row_scale: Vec<f64>,
+    col_scale: Vec<f64>,
+    mass: Matrix,
+    g: Matrix,
+    motion: Orthogonal,
+    actuation: Option<(Matrix, Orthogonal)>,
+    momentum: Matrix,
+    inertia: Matrix,
+    lu: Lu,
+}
+
+/// What [`Saddle::solve`] finds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Solution {
+    /// Accelerations, n.
+    pub a: Vec<f64>,
+    /// Multipliers, m; of all that satisfy the equations those of least norm in the scaled rows.
+    pub lambda: Vec<f64>,
+    /// Largest |`row_scale` (G a − r)|: round-off, unless redundant rows contradict each other.
+    pub inconsistency: f64,
+}
+
+/// Why the equations of an instant determine no motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SaddleError {
+    /// The constraints allow a motion that no mass resists.
+    ZeroInertia {
+        /// That motion as accelerations, n, the largest scaled entry being ±1.
+        direction: Vec<f64>,
+    },
+    /// A motion that G prescribes, or forbids, is out of reach of the forces Bᵀ λ.
+    NoAuthority {
+        /// A free motion, n, whose inertia force is balanced by Bᵀ λ alone.
+        direction: Vec<f64>,
+    },
+    /// There are not as many independent force directions in B as conditions in G.
+    RankMismatch {
+        /// Rank of G.
+        motion: usize,
+        /// Rank of B.
+        force: usize,
+    },
+}
+
+impl fmt::Display for SaddleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SaddleError::ZeroInertia { .. } => write!(f, "a free motion has no inertia"),
+            SaddleError::NoAuthority { .. } => {
+                write!(f, "the actuators cannot produce the prescribed motion")
+            }
+            SaddleError::RankMismatch { motion, force } => {
+                write!(f, "{motion} independent conditions on the motion, but {force} forces")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SaddleError {}
+
+impl Saddle {
+    /// Factors M (n × n), G (m × n) and B (m × n; G if none) under the given scales (m and n positive
+    /// numbers). The arithmetic grows as n³.
+    pub fn factor(
+        mass: &Matrix,
+        g: &Matrix,
+        b: Option<&Matrix>,
+        row_scale: &[f64],
+        col_scale: &[f64],
+    ) -> Result<Saddle, SaddleError> {
+        let mut s = Saddle::default();
+        s.refactor(mass, g, b, row_scale, col_scale)?;
+        Ok(s)
+    }
+
+    /// Factors other equations in the same memory. After an error [`rank`](Self::rank),
+    /// [`motions`](Self::motions) and [`self_stress`](Self::self_stress) still hold.
+    pub fn refactor(
+        &mut self,
+        mass: &Matrix,
+        g: &Matrix,
+        b: Option<&Matrix>,
+        row_scale: &[f64],
+        col_scale: &[f64],
+    ) -> Result<(), SaddleError> {
+        let (m, n) = (row_scale.len(), col_scale.len());
+        assert_eq!((mass.rows(), mass.cols()), (n, n), "M is n × n");
+        assert_eq!((g.rows(), g.cols()), (m, n), "G is m × n");
+        self.row_scale.clear();
+        self.row_scale.extend_from_slice(row_scale);
+        self.col_scale.clear();
+        self.col_scale.extend_from_slice(col_scale);
+        scale_into(&mut self.mass, mass, col_scale, col_scale);
+        scale_into(&mut self.g, g, row_scale, col_scale);
+        self.motion.refactor(&self.g);
+        self.set_actuation(b);
+        self.factor_inertia()
+    }
+
+    fn set_actuation(&mut self, b: Option<&Matrix>) {
+        let Some(b) = b else {
+            self.actuation = None;
+            return;
+        };
+        assert_eq!((b.rows(), b.cols()), (self.g.rows(), self.g.cols()), "B is m × n");
+        let (scaled, basis) = self.actuation.get_or_insert_with(Default::default);
+        scale_into(scaled, b, &self.row_scale, &self.col_scale);
+        basis.refactor(scaled);
+    }
+
+    fn factor_inertia(&mut self) -> Result<(), SaddleError> {
+        let (motion, force) = (self.rank().rank, self.force().rank().rank);
+        if motion != force {
+            return Err(SaddleError::RankMismatch { motion, force });
+        }
+        let n = self.mass.rows();
+        let dof = n - motion;
+        self.momentum.reset(dof, n);
+        self.inertia.reset(dof, dof);
+        for j in 0..dof {
+            let z = self.motion.x().row(motion + j);
+            self.mass.add_t_mul_vec(z, self.momentum.row_mut(j));
+        }
+        for i in 0..dof {
+            for j in 0..dof {
+                let w = self.force().x().row(motion + i);
+                self.inertia[(i, j)] = dot(w, self.momentum.row(j));
+            }
+        }
+        let floor = ZERO_INERTIA * max_abs(self.mass.data());
+        self.lu.refactor(&self.inertia, floor).map_err(|e| self.unresisted(e.column))
+    }
+
+    /// Names the motion whose momentum Wᵀ does not see, and whether it has any.
+    fn unresisted(&self, column: usize) -> SaddleError {
+        let y = self.lu.null_vector(column);
+        let mut z = vec![0.0; self.mass.rows()];
+        self.add_motion(&y, &mut z);
+        let size = max_abs(&z);
+        z.iter_mut().for_each(|v| *v /= size);
+        let momentum = max_abs(&self.mass.mul_vec(&z));
+        let direction = z.iter().zip(&self.col_scale).map(|(z, c)| z * c).collect();
+        // Round-off in z itself leaves a momentum far above the floor of a pivot.
+        if momentum <= 1e-9 * max_abs(self.mass.data()) {
+            SaddleError::ZeroInertia { direction }
+        } else {
+            SaddleError::NoAuthority { direction }
+        }
+    }
+
+    /// The rank of G and what it was decided on.
+    pub fn rank(&self) -> Rank {
+        self.motion.rank()
+    }
+
+    /// Degrees of freedom: n − rank G.
+    pub fn dof(&self) -> usize {
+        self.mass.rows() - self.rank().rank
+    }
+
+    /// n × dof: the accelerations (or velocities) with G z = 0; its columns are orthonormal in the
+    /// scaled unknowns.
+    pub fn motions(&self) -> Matrix {
+        let (x, r) = (self.motion.x(), self.rank().rank);
+        Matrix::from_fn(self.mass.rows(), self.dof(), |i, j| self.col_scale[i] * x[(r + j, i)])
+    }
+
+    /// m × d: the multipliers with Bᵀ λ = 0; the largest entry of each column is 1.
+    pub fn self_stress(&self) -> Matrix {
+        let (y, r) = (self.force().y(), self.force().rank().rank);
+        let m = self.row_scale.len();
+        let mut s = Matrix::from_fn(m, m - r, |i, j| self.row_scale[i] * y[(r + j, i)]);
+        for j in 0..m - r {
+            let largest = (0..m).map(|i| s[(i, j)]).fold(0.0, larger);
+            (0..m).for_each(|i| s[(i, j)] /= largest);
+        }
+        s
+    }
+
+    /// Solves for applied forces f (n) and right-hand sides r (m), refined once.
+    pub fn solve(&self, f: &[f64], r: &[f64]) -> Solution {
+        let f = product(f, &self.col_scale);
+        let r = product(r, &self.row_scale);
+        let (mut a, mut lambda) = (vec![0.0; f.len()], vec![0.0; r.len()]);
+        self.correct(f.clone(), &r, &mut a, &mut lambda);
+        let (df, dr) = self.residual(&f, &r, &a, &lambda);
+        self.correct(df, &dr, &mut a, &mut lambda);
+        let (_, dr) = self.residual(&f, &r, &a, &lambda);
+        Solution {
+            a: product(&a, &self.col_scale),
+            lambda: product(&lambda, &self.row_scale),
+            inconsistency: max_abs(&dr),
+        }
+    }
+
+    /// f − M a + Bᵀ λ and r − G a, scaled.
+    fn residual(&self, f: &[f64], r: &[f64], a: &[f64], lambda: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut df = f.to_vec();
+        let b = self.actuation.as_ref().map_or(&self.g, |(b, _)| b);
+        b.add_t_mul_vec(lambda, &mut df);
+        axpy(-1.0, &self.mass.mul_vec(a), &mut df);
+        let dr = r.iter().enumerate().map(|(i, r)| r - dot(self.g.row(i), a)).collect();
+        (df, dr)
+    }
+
+    /// Adds the scaled solution for (f, r) to (a, λ).
+    fn correct(&self, mut f: Vec<f64>, r: &[f64], a: &mut [f64], lambda: &mut [f64]) {
+        let mut step = vec![0.0; f.len()];
+        self.motion.add_solution(r, &mut step);
+        axpy(-1.0, &self.mass.mul_vec(&step), &mut f);
+        let rank = self.rank().rank;
+        let load: Vec<f64> = (rank..f.len()).map(|i| dot(self.force().x().row(i), &f)).collect();
+        let y = self.lu.solve(&load);
+        self.add_motion(&y, &mut step);
+        // What is left over, M a − f, is the constraint force.
+        f.iter_mut().for_each(|v| *v = -*v);
+        y.iter().enumerate().for_each(|(j, y)| axpy(*y, self.momentum.row(j), &mut f));
+        self.force().add_transposed_solution(&f, lambda);
+        axpy(1.0, &step, a);
+    }
+
+    /// z ← z + Z y, scaled.
+    fn add_motion(&self, y: &[f64], z: &mut [f64]) {
+        let rank = self.rank().rank;
+        y.iter().enumerate().for_each(|(j, y)| axpy(*y, self.motion.x().row(rank + j), z));
+    }
+
+    fn force(&self) -> &Orthogonal {
+        self.actuation.as_ref().map_or(&self.motion, |(_, basis)| basis)
+    }
+}
+
+/// out ← diag(rows) A diag(cols).
+fn scale_into(out: &mut Matrix, a: &Matrix, rows: &[f64], cols: &[f64]) {
+    out.clone_from(a);
+    for (i, r) in rows.iter().enumerate() {
+        out.row_mut(i).iter_mut().zip(cols).for_each(|(v, c)| *v *= r * c);
+    }
+}
+
+fn product(x: &[f64], scale: &[f64]) -> Vec<f64> {
+    assert_eq!(x.len(), scale.len(), "size of a right-hand side");
+    x.iter().zip(scale).map(|(x, s)| x * s).collect()
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if b.abs() > a.abs() {
+        b
+    } else {
+        a
+    }
+}

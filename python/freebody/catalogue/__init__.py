@@ -1,0 +1,54 @@
+"""The worked catalogue: systems as ordinary model files, with questions.
+
+A system is a folder with model files, only what a user could write, and a ``questions.py``. Nothing is typed in:
+every answer is computed by freebody when it is asked for, and stands beside a value that came another way.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from freebody.catalogue.answers import Answer, Asked, Question, ask
+from freebody.catalogue.case import Case
+from freebody.catalogue.checks import free_questions
+from freebody.catalogue.system import System
+
+__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "run", "systems", "to_json"]
+
+FOLDER = Path(__file__).parent.parent / "systems"
+
+
+def systems() -> list[System]:
+    """All systems, in the order of their names."""
+    return [System(path.parent) for path in sorted(FOLDER.glob("*/questions.py"))]
+
+
+def find(identity: str) -> System:
+    """A system by its name; capitals do not matter."""
+    known = {system.id.lower(): system for system in systems()}
+    try:
+        return known[identity.lower()]
+    except KeyError:
+        raise KeyError(f"no system is called {identity!r}; there are {', '.join(s.id for s in known.values())}") from None
+
+
+def run(system: System) -> Iterator[Asked]:
+    """Each question of the system with its answers, one after another, then the checks that every system gets."""
+    case = Case(system.folder)
+    for question in [*system.questions(), *free_questions()]:
+        yield question.put_to(case)
+
+
+def to_json(results: dict[str, list[Asked]]) -> str:
+    """What was asked and answered, by system, for scripts."""
+    rows: list[dict[str, Any]] = []
+    for identity, asked in results.items():
+        for question in asked:
+            head = {"system": identity, "question": question.label}
+            rows += [{**head, **answer.as_dict()} for answer in question.answers]
+            if question.failure:
+                rows.append({**head, "failure": question.failure})
+    return json.dumps(rows, ensure_ascii=False, indent=1)

@@ -1,0 +1,112 @@
+"""Questions, and answers beside an independent value."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from freebody.catalogue.case import Case
+
+Figure = float | Sequence[float] | np.ndarray
+MOST_DIGITS = 16.0
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A figure, or a row of figures of one kind, that freebody computed, and the same from an independent source.
+
+    ``against`` says where ``check`` comes from. ``tolerance`` is relative to the largest figure of the row, or to
+    ``scale`` where that is larger: give it where the true value may be 0.
+    """
+
+    label: str
+    value: Figure
+    unit: str = ""
+    check: Figure = math.nan
+    against: str = ""
+    tolerance: float = 1e-10
+    scale: float = 0.0
+
+    @property
+    def error(self) -> float:
+        """Largest difference, relative; NaN where a figure is missing."""
+        value, check = np.broadcast_arrays(np.asarray(self.value, float), np.asarray(self.check, float))
+        size = max(float(np.max(np.abs(check))), self.scale)
+        difference = float(np.max(np.abs(value - check)))
+        return difference if size == 0 else difference / size
+
+    @property
+    def digits(self) -> float:
+        """Digits of agreement, at most 16."""
+        error = self.error
+        return min(MOST_DIGITS, -math.log10(error)) if error > 0 else math.nan if math.isnan(error) else MOST_DIGITS
+
+    @property
+    def ok(self) -> bool:
+        """Whether the two agree within the tolerance."""
+        return self.error <= self.tolerance
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON: null stands for a figure that is missing."""
+        return {
+            "label": self.label,
+            "value": _plain(self.value),
+            "unit": self.unit,
+            "check": _plain(self.check),
+            "against": self.against,
+            "digits": _plain(round(self.digits, 1)),
+            "tolerance": self.tolerance,
+            "ok": self.ok,
+        }
+
+
+@dataclass
+class Asked:
+    """A question with the answers it got. ``failure``: why it stopped, if it did."""
+
+    label: str
+    answers: list[Answer] = field(default_factory=list)
+    failure: str = ""
+    seconds: float = 0.0
+
+    @property
+    def ok(self) -> bool:
+        """Whether it went through, with every answer within its tolerance."""
+        return not self.failure and all(answer.ok for answer in self.answers)
+
+
+@dataclass(frozen=True)
+class Question:
+    """A label and a function from a case to answers."""
+
+    label: str
+    answers: Callable[[Case], Iterable[Answer]]
+
+    def put_to(self, case: Case) -> Asked:
+        """Its answers; a failure is kept with those that came before it, and does not stop other questions."""
+        asked, start = Asked(self.label), time.perf_counter()
+        try:
+            for answer in self.answers(case):
+                asked.answers.append(answer)
+        except Exception as error:  # whatever goes wrong is shown as such
+            asked.failure = f"{type(error).__name__}: {error}"
+        asked.seconds = time.perf_counter() - start
+        return asked
+
+
+def ask(label: str) -> Callable[[Callable[[Case], Iterable[Answer]]], Question]:
+    """Make a question of a generator of answers."""
+    return lambda answers: Question(label, answers)
+
+
+def _plain(figure: Figure) -> Any:
+    numbers = np.asarray(figure, float)
+    if numbers.ndim:
+        return [_plain(x) for x in numbers]
+    return float(numbers) if np.isfinite(numbers) else None

@@ -1,0 +1,57 @@
+"""What a question may ask of freebody: mechanisms, runs and instants of one system, each computed once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from freebody.instant import Instant
+    from freebody.model import Mechanism
+    from freebody.run import Run
+
+RTOL = 1e-12  # of runs whose question or model does not ask for another
+
+
+class Case:
+    """The models of one system, and what was computed with them so far."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.runs: dict[str, Run] = {}
+        self.instants: dict[str, Instant] = {}
+        self._mechanisms: dict[str, Mechanism] = {}
+
+    def mechanism(self, file: str = "model.yaml", **parameters: Any) -> Mechanism:
+        """A model of the system, some parameters overruled."""
+        from freebody.model import Mechanism
+
+        name = _name(file, parameters)
+        if name not in self._mechanisms:
+            mechanism = Mechanism.load(self.folder / file)
+            mechanism.parameters.update(parameters)
+            self._mechanisms[name] = mechanism
+        return self._mechanisms[name]
+
+    def run(self, file: str = "model.yaml", parameters: Mapping[str, Any] | None = None, **settings: Any) -> Run:
+        """A motion; ``settings`` are those of ``Mechanism.simulate``, ``initial`` among them."""
+        name = _name(file, parameters, settings)
+        if name not in self.runs:
+            mechanism = self.mechanism(file, **(parameters or {}))
+            self.runs[name] = mechanism.simulate(**{"rtol": RTOL, **settings})
+        return self.runs[name]
+
+    def instant(self, file: str = "model.yaml", parameters: Mapping[str, Any] | None = None, **state: Any) -> Instant:
+        """One instant; ``state`` says what differs from the model's initial state, in the same words."""
+        if "rates" in state:
+            state.setdefault("at_rest", False)
+        name = _name(file, parameters, state)
+        if name not in self.instants:
+            self.instants[name] = self.mechanism(file, **(parameters or {})).solve(**state)
+        return self.instants[name]
+
+
+def _name(file: str, *overruled: Mapping[str, Any] | None) -> str:
+    pairs = [f"{name} = {value}" for part in overruled for name, value in (part or {}).items()]
+    return ", ".join([file, *pairs])

@@ -1,0 +1,85 @@
+"""The checks that every system gets for nothing, on all that its questions computed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.catalogue.answers import Answer, Question
+from freebody.catalogue.case import Case
+
+if TYPE_CHECKING:
+    from freebody.instant import Instant
+
+ROUTES = ("minimal", "newton_euler", "constraints")
+STATES_OF_A_RUN = 4
+
+
+def free_questions() -> list[Question]:
+    """Three routes, momentum balance, energy ledger."""
+    return [
+        Question("three routes to the same instant", _routes),
+        Question("energy ledger", _ledgers),
+    ]
+
+
+def _routes(case: Case) -> Iterator[Answer]:
+    """Accelerations and determinate reactions by each route, and what is left of every body's balance."""
+    from freebody.instant import Instant
+
+    if not case.runs and not case.instants:
+        case.instant()
+    for name, core, states in _states(case):
+        accelerations, reactions, residuals = [0.0], [0.0], [0.0]
+        for state in states:
+            one, *others = (Instant(core, state, route) for route in ROUTES)
+            residuals += [one.residual, *(other.residual for other in others)]
+            for other in others:
+                accelerations.append(_apart(_accelerations(one), _accelerations(other)))
+                reactions.append(_apart(*_determined(one, other)))
+        against = "the other two routes"
+        yield Answer(f"{name}: accelerations apart", max(accelerations), "", 0.0, against, 1e-10, 1.0)
+        yield Answer(f"{name}: reactions apart", max(reactions), "", 0.0, against, 1e-10, 1.0)
+        yield Answer(f"{name}: momentum left over", max(residuals), "", 0.0, "balance of every body", 1e-12, 1.0)
+
+
+def _ledgers(case: Case) -> Iterator[Answer]:
+    """Kinetic + potential − works stays what it was, relative to the largest of them that comes and goes."""
+    for name, run in case.runs.items():
+        energy = run.energy
+        stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential)]
+        size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
+        left = float(np.abs(energy.balance).max() / size) if size else 0.0
+        yield Answer(f"{name}: left over", left, "", 0.0, "conservation: energy stored − work done", 1e-9, 1.0)
+
+
+def _states(case: Case) -> Iterator[tuple[str, Any, list[Any]]]:
+    """Every instant that was asked for, and a few of every run."""
+    from freebody.instant import State
+
+    for name, instant in case.instants.items():
+        yield name, instant.core, [instant.state]
+    for name, run in case.runs.items():
+        times = np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)
+        rows = zip(times, *run.motion.sample(times), strict=True)
+        yield name, run.source.core, [State(run.start.p, float(t), q, u) for t, q, u in rows]
+
+
+def _accelerations(instant: Instant) -> np.ndarray:
+    return np.array(list(instant.accelerations.values()))
+
+
+def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
+    pairs = [(one.reactions[name], other.reactions[name]) for name in one.reactions]
+    known = [a.determined & b.determined for a, b in pairs]
+    left = [a.values[k] for (a, _), k in zip(pairs, known, strict=True)]
+    right = [b.values[k] for (_, b), k in zip(pairs, known, strict=True)]
+    return np.concatenate([*left, []]), np.concatenate([*right, []])
+
+
+def _apart(a: np.ndarray, b: np.ndarray) -> float:
+    """Largest difference relative to the largest entry."""
+    size = max(np.abs(a).max(initial=0.0), np.abs(b).max(initial=0.0))
+    return float(np.abs(a - b).max(initial=0.0) / size) if size else 0.0

@@ -1,0 +1,241 @@
+"""The command line. Every command imports what it needs itself, so that ``--help`` is quick."""
+
+from __future__ import annotations
+
+import json
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from freebody.cli.mistakes import Guarded, Mistake
+
+if TYPE_CHECKING:
+    from freebody.catalogue import Asked, System
+    from freebody.run import Run
+
+BAD_END = 3
+
+app = typer.Typer(
+    cls=Guarded,
+    help="Planar multibody dynamics, from the free-body diagram to the motion.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+class Route(str, Enum):
+    """Ways to the accelerations and reactions."""
+
+    minimal = "minimal"
+    newton_euler = "newton_euler"
+    constraints = "constraints"
+    all = "all"
+
+
+class Axes(str, Enum):
+    """Directions of reaction components."""
+
+    fixed = "fixed"
+    joint = "joint"
+
+
+Model = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")]
+Changes = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")]
+Until = Annotated[str | None, typer.Option(metavar="TIME", help="End of the run, like 5 or '200 ms'.")]
+Method = Annotated[str | None, typer.Option(help="Integrator: dop853, tsit5, radau, gauss6, rk4.")]
+Rtol = Annotated[float | None, typer.Option(help="Relative tolerance.")]
+
+
+@app.command()
+def run(
+    model: Model,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Save the run: .nc or .csv.")] = None,
+    changes: Changes = None,
+    until: Until = None,
+    method: Method = None,
+    rtol: Rtol = None,
+    report: Annotated[Path | None, typer.Option(help="Where the HTML report goes; default MODEL.html here.")] = None,
+    no_report: Annotated[bool, typer.Option("--no-report", help="Write no HTML report.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Simulate; print what happened and write a report."""
+    from freebody.cli import show
+
+    done = simulated(model, changes, until=until, method=method, rtol=rtol)
+    written = [done.save(output)] if output else []
+    if not no_report:
+        from freebody.views import report as html
+
+        written.append(html.write(done, report or Path(f"{model.stem}.html")))
+    show.run(done, written, as_json)
+    if not done.outcome.ok:
+        raise typer.Exit(BAD_END)
+
+
+@app.command()
+def solve(
+    model: Model,
+    at: Annotated[list[str] | None, typer.Option(metavar="NAME=VALUE", help="A coordinate, like 'theta=30 deg'.")] = None,
+    changes: Changes = None,
+    route: Annotated[Route, typer.Option(help="How to solve; all compares the three.")] = Route.minimal,
+    axes: Annotated[Axes, typer.Option(help="Reactions along fixed axes or along and across each joint.")] = Axes.fixed,
+    balance: Annotated[bool, typer.Option("--balance", help="What is left of each body's momentum balance.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Accelerations and all reactions at one instant, by default the start."""
+    from freebody.cli import show
+
+    mechanism, state = opened(model, changes), pairs(at)
+    routes = [each.value for each in Route if each is not Route.all] if route is Route.all else [route.value]
+    show.instants([mechanism.solve(route=name, **state) for name in routes], axes is Axes.joint, balance, as_json)
+
+
+@app.command()
+def validate(
+    model: Model,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Labelled drawing: .svg, .png or .pdf.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Say what is modelled, ignored and assumed; draw the labelled mechanism."""
+    from freebody.cli import show
+
+    mechanism = opened(model)
+    show.mechanism(json.loads(mechanism.compile().describe()), as_json)
+    if output:
+        mechanism.drawing().figure.savefig(output)
+        if not as_json:
+            show.written([output])
+
+
+@app.command()
+def animate(
+    model: Model,
+    output: Annotated[Path, typer.Option("-o", "--output", help="A .gif, an .mp4 (needs ffmpeg), or .svg for one file a frame.")],
+    changes: Changes = None,
+    until: Until = None,
+) -> None:
+    """Simulate and write the motion as a film."""
+    from freebody.cli import show
+    from freebody.views.animate import animate as film
+
+    show.written([film(simulated(model, changes, until=until), output)])
+
+
+@app.command()
+def compare(
+    a: Annotated[Path, typer.Argument(metavar="A", help="A saved run (.nc, .csv) or a model.")],
+    b: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
+    as_json: AsJson = False,
+) -> None:
+    """How far two runs lie apart, column by column."""
+    from freebody.cli import show
+    from freebody.compare import compare as compared
+
+    show.comparison(compared(obtained(a), obtained(b)), as_json)
+
+
+@app.command()
+def systems(
+    identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """The worked catalogue: list it, or run systems and print their answers."""
+    from freebody import catalogue
+    from freebody.catalogue import show
+
+    if identity is None and not everything:
+        listed = catalogue.systems()
+        if as_json:
+            typer.echo(json.dumps([{"id": system.id, "title": system.title} for system in listed], indent=1))
+        else:
+            show.show_list(listed)
+        return
+    results = {system.id: answered(system, as_json) for system in chosen(identity)}
+    if as_json:
+        typer.echo(catalogue.to_json(results))
+    elif everything:
+        show.show_summary(results)
+    if not all(asked.ok for questions in results.values() for asked in questions):
+        raise typer.Exit(BAD_END)
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON Schema of the model file."""
+    from freebody.model import schema as model_schema
+
+    typer.echo(json.dumps(model_schema(), ensure_ascii=False, indent=1))
+
+
+@app.command()
+def version() -> None:
+    """Print the version."""
+    from importlib.metadata import version as installed
+
+    typer.echo(installed("freebody"))
+
+
+def opened(path: Path, changes: list[str] | None = None) -> Any:
+    """The mechanism of a model file, with some parameters changed."""
+    from freebody.model import Mechanism
+
+    mechanism = Mechanism.load(path)
+    mechanism.parameters.update(pairs(changes))
+    return mechanism
+
+
+def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> Run:
+    """The run of a model file; settings that are None stay as the file has them."""
+    from freebody.cli.progress import watched
+
+    given = {name: value for name, value in settings.items() if value is not None}
+    with watched() as progress:
+        return opened(path, changes).simulate(progress=progress, **given)
+
+
+def obtained(path: Path) -> Run:
+    """A saved run, or the run of a model."""
+    if path.suffix not in (".nc", ".csv"):
+        return simulated(path)
+    from freebody.run import Run
+
+    return Run.load(path)
+
+
+def pairs(texts: list[str] | None) -> dict[str, str]:
+    """``["theta=30 deg"]`` → ``{"theta": "30 deg"}``."""
+    split = [text.partition("=") for text in texts or []]
+    for name, equals, value in split:
+        if not (name.strip() and equals and value.strip()):
+            raise Mistake(f"{name!r} is not NAME=VALUE", "write it like 'theta=30 deg'")
+    return {name.strip(): value.strip() for name, _, value in split}
+
+
+def chosen(identity: str | None) -> list[System]:
+    """The system of that name, or all."""
+    from freebody import catalogue
+
+    if identity is None:
+        return catalogue.systems()
+    try:
+        return [catalogue.find(identity)]
+    except KeyError as error:
+        raise Mistake(error.args[0], "freebody systems lists them") from None
+
+
+def answered(system: System, silent: bool) -> list[Asked]:
+    """The questions of a system with their answers, printed as they come unless silent."""
+    from freebody import catalogue
+    from freebody.catalogue import show
+
+    asked = []
+    for question in catalogue.run(system):
+        asked.append(question)
+        if not silent:
+            show.show_asked(question)
+    return asked

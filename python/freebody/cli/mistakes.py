@@ -1,0 +1,45 @@
+"""What the user can mend is said in a line or two, never as a traceback."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+MISTAKEN = 2
+
+
+class Mistake(Exception):
+    """Something wrong on the command line: what, and what to try."""
+
+
+class Guarded(TyperGroup):
+    """Commands whose errors, where the user can mend them, are told and end with code 2."""
+
+    def invoke(self, context: typer.Context) -> Any:
+        try:
+            return super().invoke(context)
+        except Exception as error:
+            told = explained(error)
+            if told is None:
+                raise
+            print(told, file=sys.stderr)
+            raise typer.Exit(MISTAKEN) from None
+
+
+def explained(error: Exception) -> str | None:
+    """What is wrong and what to try; None for an error that is ours."""
+    from freebody import _core
+
+    if isinstance(error, OSError) and error.filename:
+        return f"{error.filename}: {error.strerror}"
+    if isinstance(error, (Mistake, _core.ModelError, _core.ExpressionError, _core.MotionError)):
+        # The last two are always what is wrong and what to try; a place in front of them is a path in the model.
+        *_, what, hint = error.args
+        place = f"{error.args[0]}: " if isinstance(error, _core.ModelError) else ""
+        return f"{place}{what}\n  {hint}" if hint else f"{place}{what}"
+    # A bare KeyError or IndexError says nothing to a user: it is a slip of ours.
+    spoken = isinstance(error, (ValueError, LookupError, ImportError)) and not isinstance(error, (KeyError, IndexError))
+    return str(error) if spoken or type(error) is RuntimeError else None

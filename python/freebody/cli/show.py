@@ -1,0 +1,247 @@
+"""What the commands print: tables for a person, JSON for a script."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+from rich.text import Text
+
+from freebody.instant import Indeterminate
+from freebody.results import quote
+
+if TYPE_CHECKING:
+    from freebody.compare import Comparison
+    from freebody.instant import Instant, Reaction
+    from freebody.run import Run
+
+Row = Sequence[Any]
+
+
+def dumped(data: Any) -> str:
+    """JSON text; what is not a finite number is null."""
+    return json.dumps(_plain(data), ensure_ascii=False, indent=1, allow_nan=False)
+
+
+def _plain(data: Any) -> Any:
+    if isinstance(data, Mapping):
+        return {key: _plain(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_plain(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def table(title: str, heads: Sequence[str], rows: Iterable[Row]) -> Table:
+    """Words to the left, numbers to the right; names come from the model, so nothing is taken for markup."""
+    rows = list(rows)
+    made = Table(title=Text(title, "bold"), title_justify="left", box=box.SIMPLE_HEAD, show_edge=False)
+    for i, head in enumerate(heads):
+        numbers = any(isinstance(row[i], float) for row in rows)
+        made.add_column(escape(head), justify="right" if numbers else "left")
+    for row in rows:
+        made.add_row(*(Text(f"{cell:.6g}" if isinstance(cell, float) else str(cell)) for cell in row))
+    return made
+
+
+def put(*things: Any) -> None:
+    """Print tables and plain lines; an empty table is left out, another gets air below."""
+    console = Console()
+    for thing in things:
+        if not isinstance(thing, Table):
+            console.print(Text(thing) if isinstance(thing, str) else thing)
+        elif thing.row_count:
+            console.print(thing, "")
+
+
+# A run
+
+
+def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
+    """What happened, what was asked for, whether the energy adds up, the largest reactions, what was written."""
+    peaks = {name: _peak(done, name) for name in done.reactions}
+    if as_json:
+        print(dumped(_run_as_dict(done, peaks, files)))
+        return
+    put(
+        Text.assemble((done.name, "bold"), ": ", (done.outcome.sentence, "green" if done.outcome.ok else "bold red"), "\n"),
+        table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
+        table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
+        table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
+        f"The balance stays within {closure(done):.1e} of the largest entry.\n",
+        table("largest reactions", ["joint", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks.items())),
+    )
+    written(files)
+
+
+def closure(done: Run) -> float:
+    """Largest error of the energy balance relative to the largest entry of the ledger."""
+    ledger = done.energy
+    entries = max(abs(ledger[name]).max(initial=0.0) for name in ledger.names if name != "balance")
+    worst = abs(ledger.balance).max(initial=0.0)
+    return float(worst / entries) if entries else float(worst)
+
+
+def _run_as_dict(done: Run, peaks: Mapping[str, Mapping[str, Any]], files: Sequence[Path]) -> dict[str, Any]:
+    return {
+        "name": done.name,
+        "outcome": asdict(done.outcome),
+        "events": [asdict(event) for event in done.events],
+        "report": {label: asdict(reported) for label, reported in done.report.items()},
+        "energy": {"balance": float(abs(done.energy.balance).max(initial=0.0)), "relative": closure(done)},
+        "peaks": peaks,
+        "stats": done.stats,
+        "files": [str(path) for path in files],
+    }
+
+
+def _report_row(item: tuple[str, Any]) -> Row:
+    label, reported = item
+    blank = [reported.value, reported.unit, reported.t, reported.note]
+    return label, *("" if cell is None else cell for cell in blank)
+
+
+def _ledger_rows(done: Run) -> list[Row]:
+    return [(name, float(done.energy[name][0]), float(done.energy[name][-1])) for name in done.energy.names]
+
+
+def _peak(done: Run, joint: str) -> dict[str, Any]:
+    """Largest force (N) and couple (N·m) of a joint, each with its time; None where indeterminate."""
+    found: dict[str, Any] = {}
+    for what, part in (("force", "F"), ("couple", "M")):
+        try:
+            t, value = done.peak(f"{quote(joint)}.{part}")
+        except Indeterminate:
+            t = value = None
+        found[what] = {"value": value, "t": t}
+    return found
+
+
+def _peak_row(item: tuple[str, Mapping[str, Any]]) -> Row:
+    joint, peak = item
+    cells: list[Any] = [joint]
+    for what in ("force", "couple"):
+        known = peak[what]["value"] is not None
+        cells += [peak[what]["value"], peak[what]["t"]] if known else ["indeterminate", ""]
+    return cells
+
+
+# One instant
+
+
+def instants(solved: Sequence[Instant], joint_axes: bool, balance: bool, as_json: bool) -> None:
+    """The first instant whole; the others, by other routes, by how far they are from it."""
+    first, *others = solved
+    if as_json:
+        data = [_instant_as_dict(instant, joint_axes) for instant in solved]
+        print(dumped(data if others else data[0]))
+        return
+    accelerations, reactions, residuals = first.tables()
+    put(accelerations, reactions_along(first) if joint_axes else reactions)
+    put(table("prescribed motions", ["motion", "force or torque"], first.motions.items()))
+    if balance:
+        put(residuals, f"Largest relative residual: {first.residual:.1e}")
+    put(first.explanation, *first.self_stress)
+    for other in others:
+        put(f"{other.route} agrees with {first.route} to {apart(first, other):.1e}")
+
+
+def reactions_along(instant: Instant) -> Table:
+    """Reactions along and across the line of each joint's first body, on the second body."""
+    rows = [(r.name, r.second, *_parts(r, True).values()) for r in instant.reactions.values()]
+    shown = [["indeterminate" if cell is None else cell for cell in row] for row in rows]
+    return table("reactions in joint axes", ["joint", "on", "along [N]", "across [N]", "couple [N·m]"], shown)
+
+
+def apart(a: Instant, b: Instant) -> float:
+    """Largest difference of accelerations or determinate reactions, relative to the largest of its kind."""
+    kinds = [
+        [(a.accelerations[name], b.accelerations[name]) for name in a.accelerations],
+        [pair for name in a.reactions for pair in _determinate_pairs(a.reactions[name], b.reactions[name])],
+    ]
+    return max((_relative(pairs) for pairs in kinds if pairs), default=0.0)
+
+
+def _determinate_pairs(a: Reaction, b: Reaction) -> list[tuple[float, float]]:
+    parts = zip(_parts(a, False).values(), _parts(b, False).values(), strict=True)
+    return [(x, y) for x, y in parts if x is not None and y is not None]
+
+
+def _relative(pairs: Sequence[tuple[float, float]]) -> float:
+    largest = max(max(abs(x), abs(y)) for x, y in pairs)
+    return max(abs(x - y) for x, y in pairs) / largest if largest else 0.0
+
+
+def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
+    return {
+        "route": instant.route,
+        "accelerations": instant.accelerations,
+        "reactions": {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()},
+        "motions": instant.motions,
+        "residual": instant.residual,
+        "residuals": instant.residuals,
+        "freedom": instant.freedom,
+        "explanation": instant.explanation,
+        "self_stress": instant.self_stress,
+    }
+
+
+def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float | None]:
+    """Components on the second body; None where indeterminate."""
+    names = ("Fs", "Fn", "M") if joint_axes else ("Fx", "Fy", "M")
+    return {name: _part(reaction, name) for name in names}
+
+
+def _part(reaction: Reaction, name: str) -> float | None:
+    try:
+        return float(getattr(reaction, name))
+    except Indeterminate:
+        return None
+
+
+# A mechanism, a comparison, files
+
+
+def mechanism(about: Mapping[str, Any], as_json: bool) -> None:
+    """What is modelled: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
+    if as_json:
+        print(dumped(about))
+        return
+    bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in about["bodies"]]
+    joints = [
+        (j["name"], j["type"], f"{j['first']} – {j['second']}", "closes a loop" if j["cut"] else "") for j in about["joints"]
+    ]
+    put(
+        table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
+        table(
+            "coordinates",
+            ["coordinate", "unit", "what it measures"],
+            [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]],
+        ),
+        table("joints", ["joint", "type", "between", ""], joints),
+        table("forces", ["force", "type"], [(f["name"], f["type"]) for f in about["forces"]]),
+        table("prescribed motions", ["motion", "of", "level"], [(m["name"], m["of"], m["level"]) for m in about["motions"]]),
+        f"degrees of freedom: {about['freedom']['count']}",
+        *(f"• {note}" for note in about["notes"]),
+    )
+
+
+def comparison(found: Comparison, as_json: bool) -> None:
+    """How far two runs lie apart, column by column."""
+    if as_json:
+        print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only}))
+        return
+    put(found, *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []))
+
+
+def written(files: Sequence[Path]) -> None:
+    """The files that were made."""
+    for path in files:
+        print(f"wrote {path}")

@@ -1,0 +1,284 @@
+"""One instant, solved: accelerations and every reaction, each with its sign and its right to be believed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from freebody.results import PARTS, Array, quote
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from freebody import _core
+
+
+class Indeterminate(LookupError):
+    """A reaction that the balance equations do not determine was asked for as if they did."""
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """The reaction of a joint on the body ``body``, at an instant or over time.
+
+    ``values`` (…, 3): force components Fx, Fy in N in the fixed axes and the couple M in N·m, counter-clockwise,
+    about the joint's point; ``determined`` (…, 3) says which of them the balance equations determine.
+    A component that they do not determine is never given as a number; ``least`` is the way to opt in.
+    """
+
+    name: str
+    first: str
+    second: str
+    body: str
+    values: Array = field(repr=False)
+    determined: NDArray[np.bool_] = field(repr=False)
+    smallest: Callable[[], Array] = field(repr=False)
+    local: Callable[[], Array] = field(repr=False)
+
+    @property
+    def Fx(self) -> Any:
+        """Force along the fixed x axis, N."""
+        return self._part(0)
+
+    @property
+    def Fy(self) -> Any:
+        """Force along the fixed y axis, N."""
+        return self._part(1)
+
+    @property
+    def M(self) -> Any:
+        """Couple about the joint's point, N·m, counter-clockwise."""
+        return self._part(2)
+
+    @property
+    def size(self) -> Any:
+        """Size of the force, N."""
+        return np.hypot(self.Fx, self.Fy)
+
+    @property
+    def Fs(self) -> Any:
+        """Force along the first body's line of the joint, N."""
+        return self._along(0)
+
+    @property
+    def Fn(self) -> Any:
+        """Force across the first body's line of the joint (a quarter turn to its left), N."""
+        return self._along(1)
+
+    @property
+    def determinate(self) -> bool:
+        """Whether the balance equations determine every component at all times."""
+        return bool(self.determined.all())
+
+    @property
+    def least(self) -> Reaction:
+        """The reactions of least norm, one choice of infinitely many where they are indeterminate."""
+        sign = 1.0 if self.body == self.second else -1.0
+        return replace(self, values=sign * self.smallest(), determined=np.ones_like(self.determined))
+
+    def on(self, body: str) -> Reaction:
+        """The same reaction as it acts on one of the joint's two bodies."""
+        if body not in (self.first, self.second):
+            raise KeyError(f"{self.name} joins {self.first} and {self.second}; it does not act on {body}")
+        return self if body == self.body else replace(self, body=body, values=-self.values)
+
+    def _part(self, i: int) -> Any:
+        if not self.determined[..., i].all():
+            raise self._indeterminate(PARTS[i])
+        return self.values[..., i]
+
+    def _along(self, i: int) -> Any:
+        values = self.local()[..., i]
+        if np.isnan(values).any():
+            raise self._indeterminate(("Fs", "Fn")[i])
+        return values if self.body == self.second else -values
+
+    def _indeterminate(self, part: str) -> Indeterminate:
+        return Indeterminate(
+            f"{self.name}.{part} is not determined: the joints hold the mechanism in more ways than it needs, "
+            f"so its parts can be pre-stressed. .least.{part} is the member of least norm, if one is wanted."
+        )
+
+
+class Reactions(Mapping[str, Reaction]):
+    """The reactions of all joints by name."""
+
+    def __init__(self, items: Mapping[str, Reaction]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, name: str) -> Reaction:
+        try:
+            return self._items[name]
+        except KeyError:
+            raise KeyError(f"no joint is called {name!r}; there are {', '.join(self._items)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+
+@dataclass(frozen=True)
+class State:
+    """A place in the motion: parameters (np,), time in s, coordinates (n,) and rates (n,)."""
+
+    p: Array
+    t: float
+    q: Array
+    u: Array
+
+
+class Instant:
+    """Accelerations and all reactions at a state."""
+
+    def __init__(self, core: _core.Mechanism, state: State, route: str = "minimal") -> None:
+        self.state = state
+        self.route = route
+        self._core = core
+        self._about = json.loads(core.describe())
+        self._solved = core.instant(state.p, state.t, state.q, state.u, route)
+        self._rank: dict[str, Any] = json.loads(self._solved.rank)
+
+    @property
+    def accelerations(self) -> dict[str, float]:
+        """Second time derivatives of the coordinates by name, m/s² or rad/s²."""
+        names = (c["name"] for c in self._about["coordinates"])
+        return dict(zip(names, self._solved.accelerations.tolist(), strict=True))
+
+    @property
+    def bodies(self) -> dict[str, tuple[float, float, float]]:
+        """Acceleration ax, ay of the mass centre (m/s²) and angular acceleration (rad/s²) by body."""
+        names = (b["name"] for b in self._about["bodies"])
+        return {name: tuple(row) for name, row in zip(names, self._solved.body_accelerations.tolist(), strict=True)}
+
+    @property
+    def reactions(self) -> Reactions:
+        """Reaction of every joint, on its second body unless ``.on(body)`` says otherwise."""
+        return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self._about["joints"])})
+
+    @property
+    def motions(self) -> dict[str, float]:
+        """Force (N) or torque (N·m) that each prescribed motion takes."""
+        names = (m["name"] for m in self._about["motions"])
+        return dict(zip(names, self._solved.motions.tolist(), strict=True))
+
+    @property
+    def residual(self) -> float:
+        """Largest momentum-balance residual of a body, relative to its largest term."""
+        return float(self._solved.residual)
+
+    @property
+    def residuals(self) -> dict[str, tuple[float, float, float]]:
+        """What is left of each body's momentum balance: N, N, N·m."""
+        names = (b["name"] for b in self._about["bodies"])
+        return {name: tuple(row) for name, row in zip(names, self._solved.body_residuals.tolist(), strict=True)}
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom, by rank."""
+        return int(self._rank["freedom"])
+
+    @property
+    def explanation(self) -> str:
+        """How the degrees of freedom come about, and what is redundant, in words."""
+        return str(self._rank["explanation"])
+
+    @property
+    def self_stress(self) -> list[str]:
+        """In words, each way in which the parts could be pre-stressed."""
+        return list(self._rank["self_stress"])
+
+    def __getitem__(self, text: str) -> float:
+        """The value of any expression at this instant; a reaction that is not determined raises."""
+        value = float(self._core.evaluate([text], self.state.p, self.state.t, self.state.q, self.state.u)[0])
+        if np.isnan(value):
+            refuse_indeterminate(text, self.reactions)
+        return value
+
+    def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
+        s, texts = self.state, [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
+        return Reaction(
+            name=joint["name"],
+            first=joint["first"],
+            second=joint["second"],
+            body=joint["second"],
+            values=self._solved.reactions[i],
+            determined=self._solved.determinate[i],
+            smallest=lambda: self._solved.least_reactions[i],
+            local=lambda: self._core.evaluate(texts, s.p, s.t, s.q, s.u),
+        )
+
+    def tables(self) -> list[Table]:
+        """Accelerations, reactions on both bodies and residuals, for rich."""
+        return [self._table_of_accelerations(), self._table_of_reactions(), self._table_of_residuals()]
+
+    def _table_of_accelerations(self) -> Table:
+        table = _table("accelerations", "coordinate", "value", "unit")
+        for coordinate, (name, value) in zip(self._about["coordinates"], self.accelerations.items(), strict=True):
+            _add(table, name, _figure(value), f"{coordinate['dimension']}/s²")
+        return table
+
+    def _table_of_reactions(self) -> Table:
+        table = _table("reactions", "joint", "on", "Fx [N]", "Fy [N]", "M [N·m]")
+        for joint in self.reactions.values():
+            for body in (joint.second, joint.first):
+                side = joint.on(body)
+                cells = zip(side.values.tolist(), side.determined.tolist(), strict=True)
+                figures = [_figure(value) if known else "indeterminate" for value, known in cells]
+                _add(table, joint.name if body == joint.second else "", body, *figures)
+        return table
+
+    def _table_of_residuals(self) -> Table:
+        table = _table("what is left of the momentum balances", "body", "x [N]", "y [N]", "about G [N·m]")
+        for body, row in self.residuals.items():
+            _add(table, body, *(f"{value:.1e}" for value in row))
+        return table
+
+    def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
+        from rich.text import Text
+
+        yield from self.tables()
+        yield Text("\n".join([f"largest relative residual {self.residual:.1e}", self.explanation, *self.self_stress]))
+
+    def __str__(self) -> str:
+        from rich.console import Console
+
+        console = Console(width=100, no_color=True, highlight=False)
+        with console.capture() as capture:
+            console.print(self)
+        return capture.get()
+
+
+def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction]) -> None:
+    """Raise where an expression reads a reaction that is not determined."""
+    for name, reaction in reactions.items():
+        if f"{quote(name)}." in text and not reaction.determinate:
+            raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")
+
+
+def _table(title: str, *heads: str) -> Table:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, title_style="bold")
+    for head in heads:
+        words = head in ("coordinate", "unit", "joint", "on", "body")
+        table.add_column(head.replace("[", r"\["), justify="left" if words else "right")
+    return table
+
+
+def _add(table: Table, *cells: str) -> None:
+    from rich.text import Text
+
+    # Names come from the model: as Text they cannot be taken for markup.
+    table.add_row(*(Text(cell) for cell in cells))
+
+
+def _figure(value: float) -> str:
+    return f"{value + 0.0:.6g}"  # + 0.0 turns -0 into 0

@@ -1,0 +1,318 @@
+"""What comes out of a run, as records; extremes and integrals on its dense output."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
+
+PARTS = ("Fx", "Fy", "M")
+_PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
+    "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
+    "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
+}  # fmt: skip
+_CALLS_BY_UNIT = {
+    "m": "x y distance along across centre_x centre_y",
+    "m/s": "speed vx vy",
+    "m/s^2": "ax ay",
+    "rad": "angle direction",
+    "rad/s": "omega",
+    "rad/s^2": "alpha",
+    "J": "kinetic potential energy",
+    "N*s": "momentum_x momentum_y",
+    "N*m*s": "angular_momentum",
+}
+_UNIT_OF_CALL = {call: unit for unit, calls in _CALLS_BY_UNIT.items() for call in calls.split()}
+_UNIT_OF_PART = {"Fx": "N", "Fy": "N", "F": "N", "Fs": "N", "Fn": "N", "tension": "N", "M": "N*m", "power": "W", "work": "J"}
+
+
+def quote(name: str) -> str:
+    """The name as expressions read it: words that are not plain stand in quotes, ``'crank drive'.pin``."""
+    return ".".join(part if _PLAIN_WORD.fullmatch(part) else re.sub(r"^[^\[]+", r"'\g<0>'", part) for part in name.split("."))
+
+
+def plain(name: str) -> str:
+    """The name with Greek letters as such: ``phi1`` → ``φ1``, ``arm.theta`` → ``arm.θ``."""
+    return re.sub(r"[^\W\d_]+", lambda word: _GREEK.get(word[0], word[0]), name)
+
+
+def symbol(name: str, dot: str = "") -> str:
+    r"""LaTeX of a name, without dollars: ``phi1`` → ``\phi_{1}``, ``arm.x`` → ``x_{\mathrm{arm}}``; ``dot``: ``dot`` or ``ddot``."""
+    owner, _, last = name.rpartition(".")
+    found = re.fullmatch(r"([^\W\d_]+)_?(\d*)", last)
+    stem, digits = (found[1], found[2]) if found else (last, "")
+    letter = f"\\{stem}" if stem in _GREEK else stem if len(stem) == 1 else roman(stem)
+    letter = rf"\{dot}{{{letter}}}" if dot else letter
+    below = ",".join(part for part in (digits, roman(owner)) if part)
+    return f"{letter}_{{{below}}}" if below else letter
+
+
+def roman(text: str) -> str:
+    """Upright LaTeX of any text; signs that mathtext would take for commands are left out or escaped."""
+    kept = re.sub(r"[\\^~{}$]", " ", text).strip()
+    escaped = re.sub(r"([_%#& ])", r"\\\1", kept)
+    return rf"\mathrm{{{escaped}}}" if kept else ""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a run.
+
+    ``name`` is an expression of the model language that gives the same values; ``unit`` is SI;
+    ``kind`` is coordinate, rate, acceleration, reaction, energy or pose.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened: time in s, ``crossing`` or ``touch``, ±1 rising or falling, the state then."""
+
+    name: str
+    t: float
+    kind: str
+    direction: int
+    q: Mapping[str, float]
+    u: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended: one of a closed list of names, whether that is what was asked for, when, and why."""
+
+    name: str
+    ok: bool
+    t: float
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The ledger in J over the times ``t`` (nt,): what is stored, what was put in, and what does not add up."""
+
+    t: Array
+    names: tuple[str, ...]
+    values: Array
+
+    def __getitem__(self, name: str) -> Array:
+        return self.values[:, self.names.index(name)]
+
+    @property
+    def kinetic(self) -> Array:
+        """Kinetic energy (nt,)."""
+        return self["kinetic"]
+
+    @property
+    def potential(self) -> Array:
+        """Potential energy (nt,) of gravity, springs and laws that have one."""
+        return self["potential"]
+
+    @property
+    def balance(self) -> Array:
+        """Kinetic + potential − works − their start value (nt,); 0 when the books close."""
+        return self["balance"]
+
+    @property
+    def works(self) -> dict[str, Array]:
+        """Work (nt,) since the start of every force and motion that has no potential."""
+        return {name: self[name] for name in self.names if name not in ("kinetic", "potential", "balance")}
+
+
+@dataclass(frozen=True)
+class ReportItem:
+    """A quantity that the model asks for.
+
+    ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an
+    event's name or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI.
+    """
+
+    label: str
+    value: str
+    how: str = "at"
+    at: str | float = "end"
+    over: tuple[float, float] | None = None
+    unit: str = ""
+
+
+@dataclass(frozen=True)
+class Reported:
+    """A reported quantity: its figure in ``unit``, the time in s where that is one, and a note.
+
+    ``value`` is None where there is no figure; then the note says why.
+    """
+
+    value: float | None
+    unit: str
+    t: float | None = None
+    note: str = ""
+
+    def __str__(self) -> str:
+        figure = self.note if self.value is None else f"{self.value:.10g} {self.unit}".rstrip()
+        return f"{figure} (t = {self.t:.6g} s)" if self.t is not None else figure
+
+
+@dataclass(frozen=True)
+class Window:
+    """A stretch of a run: the times where the motion may have kinks (edges of steps), first and last included."""
+
+    edges: Array = field(repr=False)
+
+    @classmethod
+    def within(cls, edges: Array, over: tuple[float, float] | None) -> Window:
+        """The edges between two times, which become the ends; all of them without a window."""
+        if over is None:
+            return cls(edges)
+        start, end = over
+        slack = 1e-9 * (edges[-1] - edges[0])
+        if not edges[0] - slack <= start <= end <= edges[-1] + slack:
+            raise ValueError(f"the window {start:g} s .. {end:g} s reaches outside the run, {edges[0]:g} s .. {edges[-1]:g} s")
+        start, end = max(start, edges[0]), min(end, edges[-1])
+        inside = edges[(edges > start) & (edges < end)]
+        return cls(np.concatenate([[start], inside, [end]]))
+
+    @property
+    def length(self) -> float:
+        """Duration in s."""
+        return float(self.edges[-1] - self.edges[0])
+
+    def samples(self, per_step: int = 8) -> Array:
+        """Times evenly spread over every step."""
+        fractions = np.arange(per_step) / per_step
+        inner = self.edges[:-1, None] + np.diff(self.edges)[:, None] * fractions
+        return np.append(inner.ravel(), self.edges[-1])
+
+
+def maximum(signal: Signal, window: Window, candidates: int = 6) -> tuple[float, float]:
+    """Time and value of the largest value in the window: the best samples, each refined."""
+    t = window.samples()
+    return refined(signal, t, signal(t), candidates)
+
+
+def refined(signal: Signal, t: Array, y: Array, candidates: int = 6) -> tuple[float, float]:
+    """Time and value of the largest value, from samples y (nt,) at times t (nt,): the best of them, each refined."""
+    padded = np.concatenate([[-np.inf], y, [-np.inf]])
+    peaks = np.flatnonzero((y >= padded[:-2]) & (y >= padded[2:]))
+    best = peaks[np.argsort(y[peaks])[-candidates:]]
+    found = [_zoom(signal, t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)]) for i in best]
+    return max(found, key=lambda pair: pair[1])
+
+
+def minimum(signal: Signal, window: Window) -> tuple[float, float]:
+    """Time and value of the smallest value in the window."""
+    when, negative = maximum(lambda t: -signal(t), window)
+    return when, -negative
+
+
+def _zoom(signal: Signal, start: float, end: float) -> tuple[float, float]:
+    """The largest value between two times, by narrowing a small grid about its best place; kinks do no harm."""
+    while True:
+        t = np.linspace(start, end, 17)
+        y = signal(t)
+        i = int(np.argmax(y))
+        # A smooth peak is flat to round-off within the square root of the machine's epsilon.
+        if end - start <= 1e-9 * max(abs(start), abs(end)) or np.ptp(y) <= 1e-15 * np.abs(y).max():
+            return float(t[i]), float(y[i])
+        start, end = t[max(i - 1, 0)], t[min(i + 1, 16)]
+
+
+# Gauss–Kronrod 7/15 on [−1, 1] (Kronrod 1965; digits from QUADPACK's qk15, Piessens et al. 1983).
+_KRONROD = np.array([0.991455371120813, 0.949107912342759, 0.864864423359769, 0.741531185599394, 0.586087235467691, 0.405845151377397, 0.207784955007898, 0.0])  # fmt: skip
+_KRONROD_WEIGHTS = np.array([0.022935322010529, 0.063092092629979, 0.104790010322250, 0.140653259715525, 0.169004726639267, 0.190350578064785, 0.204432940075298, 0.209482141084728])  # fmt: skip
+_GAUSS_WEIGHTS = np.array([0.0, 0.129484966168870, 0.0, 0.279705391489277, 0.0, 0.381830050505119, 0.0, 0.417959183673469])  # fmt: skip
+_NODES = np.concatenate([-_KRONROD, _KRONROD[-2::-1]])
+_FINE = np.concatenate([_KRONROD_WEIGHTS, _KRONROD_WEIGHTS[-2::-1]])
+_COARSE = np.concatenate([_GAUSS_WEIGHTS, _GAUSS_WEIGHTS[-2::-1]])
+
+
+def integral(signal: Signal, window: Window, rtol: float = 1e-11, rounds: int = 20) -> float:
+    """The time integral over the window: Gauss–Kronrod on every step, halving those that are not yet exact."""
+    start, end = window.edges[:-1], window.edges[1:]
+    total = 0.0
+    for _ in range(rounds):
+        half = (end - start) / 2
+        t = ((start + end) / 2)[:, None] + half[:, None] * _NODES
+        y = signal(t.ravel()).reshape(t.shape)
+        fine = half * (y @ _FINE)
+        scale = abs(total) + np.sum(half * (np.abs(y) @ _FINE))
+        rough = np.abs(fine - half * (y @ _COARSE)) > rtol * scale * half / window.length * 2
+        total += fine[~rough].sum()
+        if not rough.any():
+            break
+        middle = (start + end)[rough] / 2
+        start, end = np.concatenate([start[rough], middle]), np.concatenate([middle, end[rough]])
+    else:
+        total += fine[rough].sum()
+    return float(total)
+
+
+def reduce(how: str, signal: Signal, window: Window) -> tuple[float | None, float]:
+    """Time (None where it is not one) and value of an extreme, mean, rms or integral over a window."""
+    if how == "max":
+        return maximum(signal, window)
+    if how == "min":
+        return minimum(signal, window)
+    if how == "integral":
+        return None, integral(signal, window)
+    if how == "mean":
+        return None, integral(signal, window) / window.length
+    if how == "rms":
+        return None, float(np.sqrt(integral(lambda t: signal(t) ** 2, window) / window.length))
+    raise ValueError(f"no such reduction: {how!r}; there are max, min, mean, rms, integral")
+
+
+def columns_of(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
+    """The columns of one kind, in the order of the core's arrays."""
+    coordinates = [(c["name"], c["dimension"]) for c in about["coordinates"]]
+    if kind == "coordinate":
+        return [Column(quote(name), symbol(name), unit, kind) for name, unit in coordinates]
+    if kind == "rate":
+        return [Column(f"rate({quote(name)})", symbol(name, "dot"), f"{unit}/s", kind) for name, unit in coordinates]
+    if kind == "acceleration":
+        return [Column(f"accel({quote(name)})", symbol(name, "ddot"), f"{unit}/s^2", kind) for name, unit in coordinates]
+    if kind == "reaction":
+        return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
+    if kind == "energy":
+        return [_energy_column(name) for name in ledger]
+    axes = (("x({0}.origin)", "x", "m"), ("y({0}.origin)", "y", "m"), ("angle({0})", r"\varphi", "rad"))
+    bodies = [b["name"] for b in about["bodies"]]
+    return [Column(text.format(quote(b)), f"{sign}_{{{roman(b)}}}", unit, kind) for b in bodies for text, sign, unit in axes]
+
+
+def _reaction_column(joint: str, part: str) -> Column:
+    below = "" if part == "M" else f"_{part[1]}"
+    return Column(f"{quote(joint)}.{part}", f"{part[0]}{below}^{{{roman(joint)}}}", "N*m" if part == "M" else "N", "reaction")
+
+
+def _energy_column(name: str) -> Column:
+    signs = {"kinetic": ("kinetic()", "T"), "potential": ("potential()", "V"), "balance": ("balance", roman("balance"))}
+    owner = name.removesuffix(".work")
+    text, sign = signs.get(name, (f"{quote(owner)}.work", f"W_{{{roman(owner)}}}"))
+    return Column(text, sign, "J", "energy")
+
+
+def unit_of(text: str, columns: Sequence[Column] = ()) -> str:
+    """The SI unit of a simple expression (a column, one call, one reaction); empty where it takes more to tell."""
+    text = text.strip()
+    for column in columns:
+        if column.name == text:
+            return column.unit
+    if text == "t":
+        return "s"
+    if call := re.fullmatch(r"(\w+)\([^()]*\)", text):
+        return _UNIT_OF_CALL.get(call[1], "")
+    if part := re.fullmatch(r"(?:'[^']*'|[\w.\[\]]+)\.(\w+)", text):
+        return _UNIT_OF_PART.get(part[1], "")
+    return ""

@@ -1,0 +1,388 @@
+"""A simulation and what can be asked of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from freebody.instant import Reaction, Reactions, State, refuse_indeterminate
+from freebody.results import (
+    Array,
+    Column,
+    Energy,
+    Event,
+    Outcome,
+    Reported,
+    ReportItem,
+    Window,
+    columns_of,
+    quote,
+    reduce,
+    unit_of,
+)
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from freebody import _core
+
+Progress = Callable[[float], bool]
+Times = Sequence[float] | Array
+KINDS = ("coordinate", "rate", "acceleration", "reaction", "energy", "pose")
+
+
+class Motion(Protocol):
+    """What a run reads: the core's ``Trajectory``, or what a file holds of one."""
+
+    @property
+    def steps(self) -> Array: ...
+    @property
+    def events(self) -> str: ...
+    @property
+    def outcome(self) -> str: ...
+    @property
+    def stats(self) -> str: ...
+    def sample(self, times: Array) -> tuple[Array, Array]: ...
+    def evaluate(self, texts: Sequence[str], times: Array) -> Array: ...
+    def poses(self, times: Array) -> Array: ...
+    def instants(self, times: Array) -> tuple[Array, Any]: ...
+    def ledger(self, times: Array) -> tuple[list[str], Array]: ...
+    def final(self) -> tuple[float, Array, Array, Array, str]: ...
+
+
+@dataclass(frozen=True)
+class Source:
+    """What is simulated: the compiled mechanism, the JSON it was compiled from, the model as JSON, what to report."""
+
+    core: _core.Mechanism
+    spec: str
+    model: str
+    report: tuple[ReportItem, ...] = ()
+
+    @cached_property
+    def about(self) -> dict[str, Any]:
+        """What the core says of the mechanism: bodies, coordinates, joints and so on."""
+        return dict(json.loads(self.core.describe()))
+
+    @cached_property
+    def name(self) -> str:
+        """Title for reports."""
+        return json.loads(self.spec).get("name") or "mechanism"
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a run is made; times in s. ``every`` is the spacing of the output grid."""
+
+    until: float
+    method: str = "dop853"
+    rtol: float = 1e-9
+    step: float | None = None
+    max_step: float | None = None
+    route: str = "auto"
+    every: float | None = None
+
+
+def simulate(
+    source: Source, start: State, settings: Settings, t_eval: Times | None = None, progress: Progress | None = None
+) -> Run:
+    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
+    options = {key: value for key, value in asdict(settings).items() if key != "every"}
+    trajectory = source.core.simulate(start.p, start.t, start.q, start.u, progress=progress, **options)
+    return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
+
+
+def output_times(motion: Motion, every: float | None = None, t_eval: Times | None = None) -> Array:
+    """The output grid (nt,) in s: what was asked for, or 60 a second and at least 400, with the events and,
+    while they are no more than that, the steps."""
+    start, end = motion.steps[0], motion.steps[-1]
+    if t_eval is not None:
+        asked: Array = np.unique(np.asarray(t_eval, float))
+        return asked[(asked >= start) & (asked <= end)]
+    if every is not None:
+        # The end belongs to the grid even where the spacing does not meet it.
+        return _merged(np.array([start, end]), start + every * np.arange(1, np.floor((end - start) / every * (1 + 1e-12)) + 1))
+    uniform = np.linspace(start, end, int(np.clip(60 * (end - start), 400, 6000)) + 1)
+    marks = np.array([start, end] + [event["t"] for event in json.loads(motion.events)])
+    return _merged(np.union1d(marks, motion.steps) if len(motion.steps) <= len(uniform) else np.unique(marks), uniform)
+
+
+def _merged(marks: Array, grid: Array) -> Array:
+    """All marks, and those times of the grid that are not one of them to round-off."""
+    slack = 1e-10 * (marks[-1] - marks[0])
+    near = np.clip(np.searchsorted(marks, grid), 1, max(len(marks) - 1, 1))
+    gap = np.minimum(np.abs(grid - marks[near - 1]), np.abs(grid - marks[near % len(marks)]))
+    return np.union1d(marks, grid[gap > slack])
+
+
+class Run:
+    """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it."""
+
+    def __init__(
+        self,
+        source: Source,
+        start: State,
+        settings: Settings,
+        motion: Motion,
+        t: Array,
+        report: Mapping[str, Reported] | None = None,
+    ) -> None:
+        self.source = source
+        self.start = start
+        self.settings = settings
+        self.motion = motion
+        self.t = t
+        self.about = source.about
+        self.name = source.name
+        if report is not None:
+            self.report = dict(report)
+
+    # What happened
+
+    @cached_property
+    def outcome(self) -> Outcome:
+        """How the run ended."""
+        told = json.loads(self.motion.outcome)
+        return Outcome(told["name"], told["ok"], told["t"], told["sentence"])
+
+    @cached_property
+    def events(self) -> list[Event]:
+        """What happened, in order of time."""
+        return [
+            Event(e["name"], e["t"], e["kind"], e["direction"], self._named(e["q"]), self._named(e["u"]))
+            for e in json.loads(self.motion.events)
+        ]
+
+    @cached_property
+    def stats(self) -> dict[str, Any]:
+        """What it took: accepted and rejected steps, evaluations, the worst gap of a loop."""
+        return dict(json.loads(self.motion.stats))
+
+    # The motion
+
+    @property
+    def q(self) -> Array:
+        """Coordinates (nt, n), m or rad."""
+        return self._sampled[0]
+
+    @property
+    def u(self) -> Array:
+        """Rates (nt, n), m/s or rad/s."""
+        return self._sampled[1]
+
+    @cached_property
+    def accelerations(self) -> Array:
+        """Second time derivatives of the coordinates (nt, n), solved again at each time."""
+        texts = [f"accel({quote(name)})" for name in self.coordinates]
+        return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
+
+    @cached_property
+    def poses(self) -> Array:
+        """Frame origin x, y (m) and angle (rad) of every body (nt, nb, 3)."""
+        return self.motion.poses(self.t)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates, in the order of ``q``."""
+        return [c["name"] for c in self.about["coordinates"]]
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies, in the order of ``poses``."""
+        return [b["name"] for b in self.about["bodies"]]
+
+    @cached_property
+    def points(self) -> dict[str, tuple[str, float, float]]:
+        """Named points: body, x and y in its frame (m)."""
+        listed = json.loads(self.source.core.points(self.start.p))
+        return {name: tuple(at) for name, at in listed.items() if isinstance(at, list) and len(at) == 3}
+
+    def point(self, name: str) -> Array:
+        """Path of a named point (nt, 2) in the fixed axes, m."""
+        body, x, y = self.points[name]
+        if body == "ground":
+            return np.tile([x, y], (len(self.t), 1))
+        px, py, angle = self.poses[:, self.bodies.index(body)].T
+        return np.column_stack([px + x * np.cos(angle) - y * np.sin(angle), py + x * np.sin(angle) + y * np.cos(angle)])
+
+    # Forces and energy
+
+    @cached_property
+    def reactions(self) -> Reactions:
+        """Reaction of every joint over ``t``, on its second body unless ``.on(body)`` says otherwise."""
+        return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self.about["joints"])})
+
+    @cached_property
+    def energy(self) -> Energy:
+        """The energy ledger over ``t``."""
+        names, values = self.motion.ledger(self.t)
+        return Energy(self.t, tuple(names), values)
+
+    # Anything by name
+
+    def __getitem__(self, name: str) -> Array:
+        """Values over ``t`` of a column, a point's path (nt, 2), or any expression."""
+        if name == "t":
+            return self.t
+        return self.point(name) if name in self.points else np.asarray(self.evaluate(name))
+
+    def evaluate(self, text: str, t: float | Times | None = None) -> Any:
+        """Values of an expression at times within the run (default ``t``); a single time gives a single number.
+
+        An expression that reads a reaction that is not determined raises ``Indeterminate``.
+        """
+        times = np.atleast_1d(np.asarray(self.t if t is None else t, float))
+        values = self.motion.evaluate([text], times)[:, 0]
+        if np.isnan(values).any():
+            refuse_indeterminate(text, self.reactions)
+        return float(values[0]) if np.isscalar(t) else values
+
+    @cached_property
+    def report(self) -> dict[str, Reported]:
+        """The quantities that the model asks for, by label."""
+        return {item.label: self.reported(item) for item in self.source.report}
+
+    def reported(self, item: ReportItem) -> Reported:
+        """One such quantity."""
+        si = unit_of(item.value, self.columns)
+        if item.how != "at":
+            when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
+            return _reported(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
+        moments = self._moments(item.at)
+        if not moments:
+            return Reported(None, "", note=f"{item.at} did not happen")
+        note = f"the first of {len(moments)}" if len(moments) > 1 else ""
+        return _reported(item, self.evaluate(item.value, moments[0]), moments[0], si, note)
+
+    def _moments(self, at: str | float) -> list[float]:
+        if at in ("start", "end"):
+            return [float(self.edges[0 if at == "start" else -1])]
+        if isinstance(at, str):
+            return [event.t for event in self.events if event.name == at]
+        return [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
+
+    @cached_property
+    def edges(self) -> Array:
+        """Times (…,) at which steps and events end: between them the motion is smooth."""
+        return np.union1d(self.motion.steps, [event.t for event in self.events])
+
+    # As a table
+
+    @cached_property
+    def columns(self) -> list[Column]:
+        """Everything that is kept over ``t``, in the order of ``blocks``."""
+        return [column for kind in KINDS for column in columns_of(kind, self.about, self.energy.names)]
+
+    @property
+    def blocks(self) -> dict[str, Array]:
+        """Values of the columns by kind, each (nt, k); an indeterminate reaction is NaN."""
+        nt = len(self.t)
+        arrays = (self.q, self.u, self.accelerations, self._reactions, self.energy.values, self.poses)
+        return {kind: array.reshape(nt, -1) for kind, array in zip(KINDS, arrays, strict=True)}
+
+    def to_xarray(self) -> xarray.Dataset:
+        """An xarray Dataset with time, coordinate, joint, ledger and body as dimensions."""
+        from freebody.storage import to_xarray
+
+        return to_xarray(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A pandas table, one row a time and one column each of ``columns``; indeterminate reactions are NaN."""
+        from freebody.storage import to_pandas
+
+        return to_pandas(self)
+
+    def save(self, path: str | Path) -> Path:
+        """Write ``.nc`` (netCDF) or ``.csv``, with the model, the settings and the versions inside."""
+        from freebody.storage import save
+
+        return save(self, Path(path))
+
+    @staticmethod
+    def load(path: str | Path) -> Run:
+        """A run from a file. It knows its saved times; ``again()`` knows all."""
+        from freebody.storage import load
+
+        return load(Path(path))
+
+    # On from here
+
+    @property
+    def recorded(self) -> bool:
+        """Whether the run comes from a file and is known at its saved times only."""
+        return hasattr(self.motion, "saved_times")
+
+    @property
+    def end(self) -> State:
+        """The state at the end, enough to continue from."""
+        t, q, u, p, _ = self.motion.final()
+        return State(p, t, q, u)
+
+    def continue_(self, until: float, progress: Progress | None = None) -> Run:
+        """The motion from the end of this run on. Works and the ledger start anew."""
+        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress)
+
+    def at(self, times: Times) -> Run:
+        """The same run on other output times."""
+        return Run(self.source, self.start, self.settings, self.motion, np.asarray(times, float))
+
+    def again(self) -> Run:
+        """The same simulation once more, with the same output times."""
+        return simulate(self.source, self.start, self.settings, t_eval=self.t)
+
+    def __str__(self) -> str:
+        lines = [f"{self.name}: {self.outcome.sentence}"]
+        lines += [f"  {event.name} at t = {event.t:.6g} s" for event in self.events]
+        lines += [f"  {label}: {value}" for label, value in self.report.items()]
+        return "\n".join(lines)
+
+    # Inside
+
+    @cached_property
+    def _sampled(self) -> tuple[Array, Array]:
+        return self.motion.sample(self.t)
+
+    @cached_property
+    def _reactions(self) -> Array:
+        values, determinate = self.motion.instants(self.t)
+        known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
+        return np.where(known, values, np.nan)
+
+    def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
+        texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
+        values = self._reactions[:, i]
+        return Reaction(
+            name=joint["name"],
+            first=joint["first"],
+            second=joint["second"],
+            body=joint["second"],
+            values=values,
+            determined=~np.isnan(values),
+            smallest=lambda: self._least(i),
+            local=lambda: self.motion.evaluate(texts, self.t),
+        )
+
+    def _least(self, i: int) -> Array:
+        p = self.end.p
+        if not np.array_equal(p, self.start.p):
+            raise ValueError("an event changed parameters during this run: ask for the least reactions instant by instant")
+        rows = zip(self.t, self.q, self.u, strict=True)
+        return np.array([self.source.core.instant(p, float(t), q, u).least_reactions[i] for t, q, u in rows])
+
+    def _named(self, values: Sequence[float]) -> dict[str, float]:
+        return dict(zip(self.coordinates, values, strict=True))
+
+
+def _reported(item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:
+    if not item.unit:
+        return Reported(value, si, t, note)
+    from pint import UnitRegistry
+
+    return Reported(value / UnitRegistry()(item.unit).to_base_units().magnitude, item.unit, t, note)

@@ -1,0 +1,94 @@
+"""19.3.10: bead and turning rod.
+
+I about O, start R = a, θ̇ = ω₀, Ṙ = 0. No moment acts about O and no force works:
+    h = (I + mR²)θ̇ = (I + ma²)ω₀,   2E₀ = mṘ² + h²/(I + mR²).
+The force of the rod on the bead along e_θ is m(Rθ̈ + 2Ṙθ̇), with θ̈ = −2mRṘθ̇/(I + mR²) from the first line: 2mṘθ̇ I/(I + mR²).
+As R → ∞ all energy is the bead's, moving out: speed √(2E₀/m), θ̇ → 0, R without bound.
+With R = a cosh u, dθ/du = √((I + ma²)/(I + mR²)), whose integral to ∞ is the complete elliptic integral K(k²)
+with k² = I/(I + ma²) (put sinh u = tan φ): π/2 for I = 0, a straight line, and more for a heavier rod.
+"""
+
+from math import acosh, atan, cosh, sqrt
+
+from freebody.catalogue import Answer, ask
+from scipy.integrate import quad
+from scipy.special import ellipk
+
+M, A, W = 1.0, 1.0, 1.0
+INERTIAS = (2.0, 0.0, 1.0)
+
+
+@ask("State and force between rod and bead at R = 2")
+def at_two(case):
+    for inertia in INERTIAS:
+        run = case.run(parameters={"I_O": inertia})
+        event = next(e for e in run.events if e.name == "far")
+
+        def ratio(u, inertia=inertia):
+            return (inertia + M * (A * cosh(u)) ** 2) / (inertia + M * A**2)
+
+        end, k = acosh(2.0), ratio(acosh(2.0))
+        omega, Rdot = W / k, W * sqrt((4 - 1) * A**2 / k)
+        push = 2 * M * Rdot * omega * inertia / (inertia + 4 * M * A**2)
+        of = f"I_O = {inertia:g}"
+        time = quad(lambda u: sqrt(ratio(u)) / W, 0, end, epsabs=0, epsrel=1e-13)[0]
+        angle = quad(lambda u: 1 / sqrt(ratio(u)), 0, end, epsabs=0, epsrel=1e-13)[0]
+        yield Answer(f"time, {of}", event.t, "s", time, "quadrature", 1e-10)
+        yield Answer(f"angle, {of}", event.q["theta"], "rad", angle, "quadrature", 1e-10)
+        yield Answer(f"θ̇, {of}", event.u["theta"], "rad/s", omega, "conservation", 1e-10)
+        yield Answer(f"Ṙ, {of}", event.u["R"], "m/s", Rdot, "conservation", 1e-10)
+        force = run.evaluate("track.Fn", event.t)
+        yield Answer(f"force of the rod on the bead along e_θ, {of}", force, "N", push, "closed form", 1e-10, M * A * W**2)
+
+
+@ask("(c, e) Angular momentum and energy, at the start and at 1, 10, 1000 s")
+def conserved(case):
+    times = [0.0, 1.0, 10.0, 1000.0]
+    for inertia in INERTIAS:
+        run, whole = case.run(parameters={"I_O": inertia}), inertia + M * A**2
+        momentum, energy = run.evaluate("angular_momentum(ground.O)", times), run.evaluate("energy()", times)
+        yield Answer(f"h, I_O = {inertia:g}", momentum, "N·m·s", [whole * W] * 4, "conservation", 1e-9)
+        yield Answer(f"E₀, I_O = {inertia:g}", energy, "J", [whole * W**2 / 2] * 4, "conservation", 1e-9)
+
+
+@ask("(d) One equation in R: R̈ at the start and at 1, 10 s")
+def one_equation(case):
+    """R̈ = Rθ̇² = Rh²/(I + mR²)², with R taken from the run."""
+    times = [0.0, 1.0, 10.0]
+    for inertia in INERTIAS:
+        run = case.run(parameters={"I_O": inertia})
+        h = (inertia + M * A**2) * W
+        check = [R * h**2 / (inertia + M * R**2) ** 2 for R in run.evaluate("R", times)]
+        yield Answer(f"R̈, I_O = {inertia:g}", run.evaluate("accel(R)", times), "m/s²", check, "closed form: Rh²/(I + mR²)²", 1e-9)
+
+
+@ask("(f) As t → ∞, from the run to 1000 s and a bound on what is left")
+def limits(case):
+    """From time t on, θ̇ = h/(I + mR²) and Ṙ(t) ≤ Ṙ < v∞ bracket the angle that remains:
+    h J/v∞ < θ∞ − θ(t) ≤ h J/Ṙ(t) with J = ∫_R^∞ dR/(I + mR²). The middle is given, and half the width as its error.
+    """
+    for inertia in INERTIAS:
+        run, t = case.run(parameters={"I_O": inertia}), 1000.0
+        R, Rdot, h, energy = (run.evaluate(text, t) for text in ("R", "rate(R)", "angular_momentum(ground.O)", "energy()"))
+        fastest = sqrt(2 * energy / M)
+        rest = h * (atan(sqrt(inertia / M) / R) / sqrt(inertia * M) if inertia else 1 / (M * R))
+        low, high = rest / fastest, rest / Rdot
+        total, error = run.evaluate("theta", t) + (low + high) / 2, (high - low) / 2
+        of, whole = f"I_O = {inertia:g}", inertia + M * A**2
+        yield Answer(f"total angle, {of}", total, "rad", ellipk(inertia / whole), "closed form: K(I/(I + ma²))", 1e-9)
+        # Ṙ/v∞ = √((R² − a²)/(R² + I/m)) and R ≈ v∞t, so that these two are known to first order.
+        lack = (A**2 + inertia / M) / (2 * (fastest * t) ** 2)
+        leading = whole * W / (M * fastest**2 * t) * lack / 2
+        yield Answer(f"bound on its error, {of}", error, "rad", leading, "closed form: first order in 1/t³", 1e-2)
+        yield Answer(f"last speed, {of}", fastest, "m/s", W * sqrt(whole / M), "conservation", 1e-9)
+        yield Answer(
+            f"what the speed lacks at 1000 s, {of}",
+            fastest - Rdot,
+            "m/s",
+            fastest * lack,
+            "closed form: first order in 1/t²",
+            1e-2,
+        )
+        yield Answer(
+            f"θ̇ R² at 1000 s, {of}", run.evaluate("rate(theta)*R^2", t), "m²/s", whole * W / M, "closed form: → h/m", 1e-5
+        )

@@ -1,0 +1,74 @@
+"""19.3.12: bead and rod: a long simulation.
+
+The system of 19.3.10 with I = 2, m = 1, a = 1, ω₀ = 1. With R = a cosh u,
+    t = ∫₀ᵘ √((I + mR²)/(I + ma²)) du/ω₀,   θ = ∫₀ᵘ √((I + ma²)/(I + mR²)) du,
+and θ̇ = ω₀(I + ma²)/(I + mR²), Ṙ = ω₀√((I + ma²)(R² − a²)/(I + mR²)). The angle from u to ∞ is the same integral there;
+from 0 it is the complete elliptic integral K(I/(I + ma²)).
+"""
+
+from itertools import pairwise
+from math import acosh, atan, cosh, exp, sinh, sqrt
+
+import numpy as np
+from freebody.catalogue import Answer, ask
+from scipy.integrate import quad
+from scipy.optimize import brentq
+from scipy.special import ellipk
+
+I, M, A, W = 2.0, 1.0, 1.0, 1.0
+WHOLE = I + M * A**2
+TIMES = [1.0, 2.0, 5.0, 10.0, 100.0, 1000.0]
+
+
+def growth(u):
+    return sqrt((I + M * (A * cosh(u)) ** 2) / WHOLE)
+
+
+def integral(f, start, end):
+    """By pieces of length 1, each exact to round-off."""
+    edges = [*np.arange(start, end), end]
+    return sum(quad(f, a, b, epsabs=0, epsrel=2e-14)[0] for a, b in pairwise(edges))
+
+
+def at(t):
+    """R, θ, Ṙ, θ̇ at a time, and u."""
+    u = brentq(lambda u: integral(growth, 0.0, u) / W - t, 1e-9, acosh(2 + 4 * W * t), xtol=1e-15, rtol=1e-15)
+    k = growth(u)
+    return A * cosh(u), integral(lambda u: 1 / growth(u), 0.0, u), W * A * sinh(u) / k, W / k**2, u
+
+
+def rest(u):
+    """Angle from u to the end of time; with w = exp(−u) the range is finite."""
+    return quad(lambda w: 1 / growth(-np.log(w)) / w if w > 0 else 2 * sqrt(WHOLE / M) / A, 0, exp(-u), epsabs=0, epsrel=1e-13)[0]
+
+
+@ask("R, θ, Ṙ, θ̇ at 1, 2, 5, 10, 100, 1000 s")
+def states(case):
+    run = case.run()
+    for t in TIMES:
+        *check, _ = at(t)
+        for text, unit, expected in zip(
+            ("R", "theta", "rate(R)", "rate(theta)"), ("m", "rad", "m/s", "rad/s"), check, strict=True
+        ):
+            yield Answer(f"{text} at {t:g} s", run.evaluate(text, t), unit, expected, "quadrature", 1e-9)
+
+
+@ask("The net angle is finite")
+def net_angle(case):
+    """From 1000 s on, θ̇ = h/(I + mR²) and Ṙ(t) ≤ Ṙ < v∞ bracket the angle that remains between hJ/v∞ and hJ/Ṙ(t),
+    J = ∫_R^∞ dR/(I + mR²) = atan(√(I/m)/R)/√(Im); all of it taken from the run.
+    """
+    run, t = case.run(), 1000.0
+    R, Rdot, h, energy = (run.evaluate(text, t) for text in ("R", "rate(R)", "angular_momentum(ground.O)", "energy()"))
+    J = atan(sqrt(I / M) / R) / sqrt(I * M)
+    v = sqrt(2 * energy / M)
+    low, high = h * J / v, h * J / Rdot
+    yield Answer("angle that remains at 1000 s", (low + high) / 2, "rad", rest(at(t)[-1]), "quadrature", 1e-6)
+    # Ṙ/v∞ = √((R² − a²)/(R² + I/m)), so that half the width is known to first order.
+    leading = WHOLE * W / (M * v * R) * (A**2 + I / M) / (4 * R**2)
+    yield Answer("bound on its error", (high - low) / 2, "rad", leading, "closed form: first order in 1/R³", 1e-2)
+    total = run.evaluate("theta", t) + (low + high) / 2
+    yield Answer("total angle", total, "rad", ellipk(I / WHOLE), "closed form: K(I/(I + ma²))", 1e-10)
+    yield Answer(
+        "total angle, by quadrature", total, "rad", integral(lambda u: 1 / growth(u), 0.0, 12.0) + rest(12.0), "quadrature", 1e-10
+    )

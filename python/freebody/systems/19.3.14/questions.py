@@ -1,0 +1,84 @@
+"""19.3.14: mass on a driven cart on a ramp, while it touches.
+
+The cart does not turn, so every point of it has the acceleration a₀ e, e along the ramp at β = 30°. The mass has
+a₀ e + s̈ τ with τ = (cos γ, sin γ) along the top. Balance along τ and along the normal n = (−sin γ, cos γ):
+    s̈ = −g sin γ − a₀ cos(γ − β),   N = m (g cos γ − a₀ sin(γ − β)),
+whatever d₀, v₀ and t. The force on the mass is N n. Its acceleration is vertical exactly when N sin γ = 0: for any a₀ on
+a level top, else only where N = 0, a₀ = g cos γ/sin(γ − β): the mass then falls freely, barely touching. For γ = β no a₀ will do.
+"""
+
+from math import cos, pi, sin
+
+from freebody.catalogue import Answer, ask
+
+M, D0, V0, A0, G, BETA = 2.0, 0.5, 1.0, 3.0, 9.81, pi / 6
+TOPS = (60, -30, 30, 0)
+AGAINST = "closed form: balance along and across the top"
+
+
+def slide(gamma, a0=A0):
+    return -G * sin(gamma) - a0 * cos(gamma - BETA)
+
+
+def normal(gamma, a0=A0):
+    return M * (G * cos(gamma) - a0 * sin(gamma - BETA))
+
+
+@ask("(a) Force of the cart on the mass, and how the mass slides")
+def force(case):
+    for degrees in TOPS:
+        gamma, of = degrees * pi / 180, f"γ = {degrees}°"
+        run = case.run(parameters={"gamma": gamma})
+        N = normal(gamma)
+        for t in (0.0, 0.3):
+            components = [run.evaluate(f"top.{part}", t) for part in ("Fx", "Fy")]
+            yield Answer(f"Fx, Fy at {t:g} s, {of}", components, "N", [-N * sin(gamma), N * cos(gamma)], AGAINST, 1e-12)
+        yield Answer(f"normal force, {of}", run.evaluate("top.Fn", 0.0), "N", N, AGAINST, 1e-12)
+        yield Answer(
+            f"sliding acceleration along the top, {of}", run.evaluate("accel(s)", 0.0), "m/s²", slide(gamma), AGAINST, 1e-12
+        )
+
+
+@ask("(a) What the force depends on")
+def depends(case):
+    gamma = pi / 3
+    for parameters in ({"d0": 2.0}, {"v0": -4.0}, {"d0": 0.1, "v0": 3.0}):
+        value = case.instant(parameters=parameters)["top.Fn"]
+        of = ", ".join(f"{name} = {given:g}" for name, given in parameters.items())
+        yield Answer(f"normal force with {of}", value, "N", normal(gamma), "closed form: no d₀, v₀, t in it", 1e-12)
+    for a0 in (0.0, 6.0, 9.0):
+        value = case.instant(parameters={"a0": a0})["top.Fn"]
+        yield Answer(f"normal force with a0 = {a0:g}", value, "N", normal(gamma, a0), AGAINST, 1e-12)
+
+
+@ask("(b) When the mass accelerates exactly vertically")
+def vertical(case):
+    """The horizontal acceleration is a straight line in a₀: two instants give its zero, a third one shows it."""
+    for degrees in (60, -30):
+        gamma, of = degrees * pi / 180, f"γ = {degrees}°"
+        at0, at1 = (case.instant(parameters={"gamma": gamma, "a0": a})["ax(mass.centre)"] for a in (0.0, 1.0))
+        a0 = at0 / (at0 - at1)
+        yield Answer(f"a₀, {of}", a0, "m/s²", G * cos(gamma) / sin(gamma - BETA), "closed form: N = 0", 1e-12)
+        now = case.instant(parameters={"gamma": gamma, "a0": a0})
+        acceleration = [now["ax(mass.centre)"], now["ay(mass.centre)"]]
+        yield Answer(f"acceleration of the mass then, {of}", acceleration, "m/s²", [0.0, -G], "closed form: free fall", 1e-12)
+    across = [case.instant(parameters={"gamma": 0.0, "a0": a})["ax(mass.centre)"] for a in (0.0, 3.0, 6.0)]
+    yield Answer(
+        "horizontal acceleration on a level top, a₀ = 0, 3, 6", across, "m/s²", [0.0] * 3, "closed form: N is vertical", 1e-12, G
+    )
+    across = [case.instant(parameters={"gamma": BETA, "a0": a})["ax(mass.centre)"] for a in (0.0, 3.0, 6.0)]
+    check = [-G * cos(BETA) * sin(BETA)] * 3
+    yield Answer("the same for γ = 30°: never", across, "m/s²", check, "closed form: N = mg cos γ for every a₀", 1e-12)
+
+
+@ask("Position at 0.3 s")
+def position(case):
+    t = 0.3
+    d = D0 + V0 * t + A0 * t**2 / 2
+    for degrees in TOPS:
+        gamma = degrees * pi / 180
+        s = slide(gamma) * t**2 / 2
+        run = case.run(parameters={"gamma": gamma})
+        place = [run.evaluate(f"{axis}(mass.centre)", t) for axis in "xy"]
+        check = [d * cos(BETA) + s * cos(gamma), d * sin(BETA) + s * sin(gamma)]
+        yield Answer(f"x, y, γ = {degrees}°", place, "m", check, "closed form: constant accelerations", 1e-11)

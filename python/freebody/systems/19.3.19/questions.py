@@ -1,0 +1,151 @@
+"""19.3.19: pumping a whirling string.
+
+Only the tension acts on the bob. Across the string: ℓθ̈ = ẍ_s sin θ; along it: T = m(ℓθ̇² − ẍ_s cos θ).
+The hand, itself without mass, pushes with −T cos θ along x; its work is the bob's gain of energy.
+
+With x_s = p sin θ + q cos θ, ẍ_s = (p cos θ − q sin θ)θ̈ − (p sin θ + q cos θ)θ̇², so d(ln θ̇)/dθ = f(θ) with
+    f = −sin θ (p sin θ + q cos θ)/(ℓ − p sin θ cos θ + q sin²θ).
+Spin and time after any angle are quadratures. Over one turn the sine gives ln θ̇ a gain of about −πp/ℓ, every turn;
+p = −b speeds the mass up, p = +b slows it down. The cosine gives none: there θ̇ √(ℓ + q sin²θ) is constant.
+
+A hand that sweeps, x_s = b cos ψ with ψ̈ = α, is followed where the mean of −(b/ℓ)ψ̇² cos ψ sin θ can reach α. With
+θ = ψ + δ that mean is −(b/2ℓ)ψ̇² sin δ: the mass swings about a lag with sin δ = −2αℓ/bψ̇².
+"""
+
+from functools import cache
+from math import cos, exp, pi, sin
+
+import numpy as np
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
+
+L, M, W, B = 1.0, 1.0, 2 * pi, 0.1
+LAWS = {"−b sin θ": (-B, 0.0), "+b sin θ": (B, 0.0), "+b cos θ": (0.0, B), "−b cos θ": (0.0, -B)}
+EQUATIONS = "other route: balances by hand, SciPy"
+
+
+class Pumped:
+    """The motion with x_s = p sin θ + q cos θ, by quadrature over the angle."""
+
+    def __init__(self, p, q):
+        self.p, self.q = p, q
+        self.gain = self._log(2 * pi)
+        self._log = cache(self._log)
+
+    def growth(self, a):
+        return -sin(a) * (self.p * sin(a) + self.q * cos(a)) / (L - self.p * sin(a) * cos(a) + self.q * sin(a) ** 2)
+
+    def _log(self, a):
+        return quad(self.growth, 0, a, epsabs=1e-14, epsrel=1e-13)[0]
+
+    def spin(self, a):
+        turns, rest = divmod(a, 2 * pi)
+        return W * exp(turns * self.gain + self._log(rest))
+
+    def time(self, turns):
+        one = quad(lambda a: 1 / self.spin(a), 0, 2 * pi, epsabs=0, epsrel=1e-13)[0]
+        return sum(one * exp(-n * self.gain) for n in range(turns))
+
+    def energy(self, turns):
+        """Where θ = 2πn the bob has θ̇(p, ℓ)."""
+        return M / 2 * self.spin(2 * pi * turns) ** 2 * (self.p**2 + L**2)
+
+    def tension(self, a):
+        f = self.growth(a)
+        push = (self.p * cos(a) - self.q * sin(a)) * f - (self.p * sin(a) + self.q * cos(a))
+        return M * self.spin(a) ** 2 * (L - push * cos(a))
+
+    def least_tension(self, turns):
+        """It scales with θ̇² from turn to turn: it is in the first or the last turn."""
+        first = 0.0 if self.gain >= 0 else 2 * pi * (turns - 1)
+        angles = first + np.linspace(0, 2 * pi, 400)
+        values = [self.tension(min(a, 2 * pi * turns)) for a in angles]
+        i = int(np.argmin(values))
+        near = (angles[max(i - 1, 0)], angles[min(i + 1, 399)])
+        return min(min(values), minimize_scalar(self.tension, bounds=near, method="bounded", options={"xatol": 1e-9}).fun)
+
+
+@ask("One instant")
+def instant(case):
+    length, mass, theta, omega, push = 1.2, 0.5, 0.9, 2.5, 7.0
+    now, T = case.instant("push.yaml"), mass * (length * omega**2 - push * cos(theta))
+    against = "closed form: balance along and across the string"
+    yield Answer("θ̈", now.accelerations["theta"], "rad/s²", push * sin(theta) / length, against, 1e-13)
+    yield Answer("tension", now["string.tension"], "N", T, against, 1e-12)
+    yield Answer("force of the hand along x", now["pump.force"], "N", -T * cos(theta), against, 1e-12)
+
+
+@ask("Can the hand speed the mass up? The hand follows the angle")
+def follows(case):
+    for of, (p, q) in LAWS.items():
+        run, exact = case.run(parameters={"bs": p, "bc": q}), Pumped(p, q)
+        numbers, times = range(1, 6), [event.t for event in run.events]
+        spins = [exact.spin(2 * pi * n) for n in numbers]
+        yield Answer(
+            f"spin after each turn, x_s = {of}", [event.u["theta"] for event in run.events], "rad/s", spins, "quadrature", 1e-9
+        )
+        yield Answer(f"times of these turns, x_s = {of}", times, "s", [exact.time(n) for n in numbers], "quadrature", 1e-9)
+        energies = [exact.energy(n) for n in numbers]
+        yield Answer(f"energy, x_s = {of}", run.evaluate("kinetic()", times), "J", energies, "quadrature", 1e-9)
+        works = [energy - exact.energy(0) for energy in energies]
+        yield Answer(
+            f"work of the hand, x_s = {of}", run.evaluate("pump.work", times), "J", works, "quadrature", 1e-8, exact.energy(0)
+        )
+        least = run.report["least tension"].value
+        yield Answer(f"least tension, x_s = {of}", least, "N", exact.least_tension(5), "quadrature", 1e-8)
+
+
+def swept(length, alpha, b=0.2):
+    def rates(t, s):
+        phase, speed = W * t + alpha * t**2 / 2, W + alpha * t
+        return s[1], -b * (alpha * sin(phase) + speed**2 * cos(phase)) * sin(s[0]) / length
+
+    return rates
+
+
+@ask("Does the mass follow a hand that sweeps its frequency?")
+def sweeps(case):
+    """It does where θ stays within half a turn of ψ.
+
+    Where it falls behind, the string would have to push before long: from then on the run is that of a rod.
+    """
+    times = [1.25, 2.5, 3.75, 5.0]
+    for alpha, start in [(1.0, -0.2560930469), *((a, 0.0) for a in (2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 40.0, 60.0))]:
+        run = case.run("chirp.yaml", parameters={"alpha": alpha, "theta0": start})
+        phase = np.array([W * t + alpha * t**2 / 2 for t in times])
+        lag = np.array(run.evaluate("theta", times)) - phase
+        check = motion(swept(L, alpha), [start, W], times)[:, 0] - phase
+        of = f"α = {alpha:g}"
+        yield Answer(f"θ − ψ at 1.25, 2.5, 3.75, 5 s, {of}", lag, "rad", check, EQUATIONS, 1e-7, 1.0)
+        follows = [float(np.abs(values).max() < pi) for values in (lag, check)]
+        yield Answer(f"follows (1) or not (0), {of}", follows[0], "", follows[1], EQUATIONS)
+        taut = float(run.report["least tension"].value > 0)
+        yield Answer(
+            f"string taut all the time (1) or not (0), {of}",
+            taut,
+            "",
+            follows[1],
+            "closed form: T ≈ mψ̇²(ℓ + b cos²ψ) while it follows",
+        )
+
+
+@ask("Constant frequency, from a spin 5 % too low")
+def constant(case):
+    times = [1.25, 2.5, 3.75, 5.0]
+    run = case.run("chirp.yaml", parameters={"alpha": 0.0, "omega0": 0.95 * W})
+    check = motion(swept(L, 0.0), [0.0, 0.95 * W], times)
+    phase = np.array([W * t for t in times])
+    yield Answer(
+        "θ − 2πt at 1.25, 2.5, 3.75, 5 s",
+        np.array(run.evaluate("theta", times)) - phase,
+        "rad",
+        check[:, 0] - phase,
+        EQUATIONS,
+        1e-8,
+        1.0,
+    )
+    yield Answer("θ̇ then", run.evaluate("rate(theta)", times), "rad/s", check[:, 1], EQUATIONS, 1e-9)
+    tension = [M * (L * s[1] ** 2 + 0.2 * W**2 * cos(W * t) * cos(s[0])) for t, s in zip(times, check, strict=True)]
+    yield Answer("tension then", run.evaluate("string.tension", times), "N", tension, EQUATIONS, 1e-8)

@@ -1,0 +1,93 @@
+"""19.3.20: the θ–y system: a mass on a vertical guide, on a spring (A) or free (B), with a pendulum.
+
+y down from the unstretched spring, θ from the downward vertical. The bob has (ℓ cos θ θ̈ − ℓ sin θ θ̇²) along x and
+ÿ − ℓ sin θ θ̈ − ℓ cos θ θ̇² down. Whole system down, bob across the rod, bob along the rod:
+    (M + m)ÿ − mℓ(sin θ θ̈ + cos θ θ̇²) = (M + m)g − ky,   ℓθ̈ = (ÿ − g) sin θ,   T = m(ℓθ̇² − (ÿ − g) cos θ).
+Eliminating θ̈: (ÿ − g)(M + m cos²θ) = mℓ cos θ θ̇² − ky. The guide pushes M with −T sin θ.
+With y = (M + m)g/k + η the constant terms go: ky − (M + m)g = kη.
+
+Without spring (B) the mass centre falls freely, and seen from a frame that falls with it no force works: with
+w = y − ½gt², both P = (M + m)ẇ − mℓ sin θ θ̇ and ½mℓ²(1 − m sin²θ/(M + m))θ̇² are constant. So θ(t) is a quadrature.
+"""
+
+from math import cos, pi, sin, sqrt
+
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+from scipy.integrate import quad
+
+M, m, L, K, G = 2.0, 1.0, 0.5, 100.0, 9.81
+START = [0.1, 0.8, -0.3, 1.7]  # y, θ, ẏ, θ̇
+COLUMNS = [("y", "m"), ("theta", "rad"), ("rate(y)", "m/s"), ("rate(theta)", "rad/s")]
+EQUATIONS = "other route: balances by hand"
+
+
+def relative(y, theta, omega, k):
+    """ÿ − g."""
+    return (m * L * cos(theta) * omega**2 - k * y) / (M + m * cos(theta) ** 2)
+
+
+def rates(k):
+    def f(_t, s):
+        y, theta, v, omega = s
+        down = relative(y, theta, omega, k)
+        return v, omega, G + down, down * sin(theta) / L
+
+    return f
+
+
+def tension(y, theta, omega, k):
+    return m * (L * omega**2 - relative(y, theta, omega, k) * cos(theta))
+
+
+@ask("One instant, with the forces of guide and rod")
+def instant(case):
+    y, theta, _, omega = START
+    for file, k in [("model.yaml", K), ("equilibrium.yaml", K), ("free_fall.yaml", 0.0)]:
+        now, down, T = case.instant(file), relative(y, theta, omega, k), tension(y, theta, omega, k)
+        yield Answer(f"ÿ, {file}", now.accelerations["y"], "m/s²", G + down, EQUATIONS, 1e-12)
+        yield Answer(f"θ̈, {file}", now.accelerations["theta"], "rad/s²", down * sin(theta) / L, EQUATIONS, 1e-12)
+        yield Answer(f"tension of the rod, {file}", now["rod.tension"], "N", T, EQUATIONS, 1e-12)
+        yield Answer(f"force of the guide along x, {file}", now["guide.Fx"], "N", -T * sin(theta), EQUATIONS, 1e-12)
+
+
+@ask("Motion for 5 s")
+def run(case):
+    times = [1.0, 2.0, 3.0, 4.0, 5.0]
+    for file, k in [("model.yaml", K), ("free_fall.yaml", 0.0)]:
+        run, check = case.run(file), motion(rates(k), START, times)
+        for i, (text, unit) in enumerate(COLUMNS):
+            yield Answer(f"{text} at 1…5 s, {file}", run.evaluate(text, times), unit, check[:, i], f"{EQUATIONS}, SciPy", 1e-8)
+    check = motion(rates(K), START, times)[:, 0] - (M + m) * G / K
+    value = case.run("equilibrium.yaml").evaluate("y", times)
+    yield Answer("y from static equilibrium", value, "m", check, f"{EQUATIONS}, SciPy, shifted by (M + m)g/k", 1e-8)
+
+
+@ask("What is conserved besides energy, without spring")
+def conserved(case):
+    """The weight is the only vertical force from outside: the momentum downward is P + (M + m)gt. And the swing, seen
+    from a frame that falls freely, has an energy of its own.
+    """
+    times = [0.0, 1.0, 2.0, 5.0]
+    run = case.run("free_fall.yaml")
+    _, theta, v, omega = START
+    P = (M + m) * v - m * L * sin(theta) * omega
+    yield Answer(
+        "downward momentum − (M + m)gt", -run.evaluate("momentum_y() + (M + m)*g*t", times), "N·s", [P] * 4, "conservation", 1e-9
+    )
+    inner = m / 2 * L**2 * (1 - m * sin(theta) ** 2 / (M + m)) * omega**2
+    text = "m/2*l^2*(1 - m*sin(theta)^2/(M + m))*rate(theta)^2"
+    yield Answer("energy of the swing, seen falling", run.evaluate(text, times), "J", [inner] * 4, "conservation", 1e-9)
+
+
+@ask("How long the bob takes for one turn, without spring")
+def turn(case):
+    """θ̇ never changes sign: t = ∫ √(1 − m sin²θ/(M + m))/√(2E/mℓ²) dθ; the angle after that time is one turn on."""
+    _, theta, _, omega = START
+
+    def slow(angle):
+        return sqrt(1 - m * sin(angle) ** 2 / (M + m))
+
+    period = quad(slow, theta, theta + 2 * pi, epsabs=0, epsrel=1e-13)[0] / (slow(theta) * omega)
+    run = case.run("free_fall.yaml")
+    yield Answer("θ after that time, less 2π", run.evaluate("theta - 2*pi", period), "rad", theta, "quadrature", 1e-9)

@@ -1,0 +1,100 @@
+"""19.3.26: balancing a broom sideways: laws of the hand.
+
+θ clockwise from the upward vertical, c from the hand to the mass centre, I about it; G = (s + c sin θ, c cos θ).
+Moment about the hand:
+    (I + mc²)θ̈ = mc(g sin θ − a cos θ),   (I + mc²)/mc = 2ℓ/3 for the uniform rod, ℓ for a particle at the end.
+Force of the hand along x: m a_Gx = m(a + c(cos θ θ̈ − sin θ θ̇²)); its power is that times ṡ.
+Near the upright, with κ = mc/(I + mc²) and a = K_x s + K_v ṡ + K_p θ + K_d θ̇, hand and broom have the polynomial
+    λ⁴ + (κK_d − K_v)λ³ + (κK_p − κg − K_x)λ² + κg K_v λ + κg K_x,
+from which the gains for given poles follow, one after another from the last coefficient.
+"""
+
+from math import cos, exp, sin, sqrt
+
+import numpy as np
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+
+L, M, G = 1.5, 1.0, 9.81
+C, REDUCED = L / 2, 2 * L / 3
+EQUATIONS = "other route: balances by hand, SciPy"
+
+
+def swing(theta, a, reduced=REDUCED):
+    return (G * sin(theta) - a * cos(theta)) / reduced
+
+
+def push(theta, omega, a):
+    return M * (a + C * (cos(theta) * swing(theta, a) - sin(theta) * omega**2))
+
+
+def rates(law):
+    """Of (s, θ, ṡ, θ̇)."""
+
+    def f(_t, y):
+        a = law(*y)
+        return y[2], y[3], a, swing(y[1], a)
+
+    return f
+
+
+@ask("(a) θ̈ from a, θ, θ̇")
+def instant(case):
+    """θ̇ does not enter."""
+    theta, omega, a = 0.2, 0.5, 3.0
+    given = {"theta0": theta, "omega0": omega, "a0": a, "Kp": 0.0, "Kd": 0.0}
+    for file, reduced in [("model.yaml", REDUCED), ("particle.yaml", L)]:
+        now = case.instant(file, parameters=given)
+        check = swing(theta, a, reduced)
+        yield Answer(f"θ̈, {file}", now.accelerations["theta"], "rad/s²", check, "closed form: moment about the hand", 1e-12)
+    value = case.instant(parameters=given)["hold.force"]
+    yield Answer("force of the hand", value, "N", push(theta, omega, a), "closed form: m a_G along x", 1e-12)
+
+
+def compared(run, law, start, times):
+    check = motion(rates(law), start, times)
+    for i, (text, unit) in enumerate([("s", "m"), ("theta", "rad"), ("rate(s)", "m/s"), ("rate(theta)", "rad/s")]):
+        size = float(np.abs(check[:, i]).max())
+        yield Answer(
+            f"{text} at {', '.join(f'{t:g}' for t in times)} s",
+            run.evaluate(text, times),
+            unit,
+            check[:, i],
+            EQUATIONS,
+            1e-8,
+            max(size, 1e-3),
+        )
+    forces = [push(y[1], y[3], law(*y)) for y in check]
+    powers = [f * y[2] for f, y in zip(forces, check, strict=True)]
+    yield Answer("force of the hand then", run.evaluate("hold.force", times), "N", forces, EQUATIONS, 1e-8, 1e-2)
+    yield Answer("its power then", run.evaluate("hold.power", times), "W", powers, EQUATIONS, 1e-8, 1e-2)
+
+
+@ask("(b) a = 20 θ + 6 θ̇ from θ = 0.3: the broom comes upright, the hand runs away")
+def feedback(case):
+    yield from compared(case.run(), lambda s, th, v, w: 20 * th + 6 * w, [0.0, 0.3, 0.0, 0.0], [0.5, 1.0, 2.0, 5.0])
+
+
+@ask("A law that makes θ̈ = −9θ − 5θ̇")
+def exact(case):
+    """λ = (−5 ± √(25 − 36))/2, so θ = 0.3 e^(−5t/2) (cos νt + (5/2ν) sin νt), ν = √11/2, large angles or small."""
+    nu, times = sqrt(11) / 2, [0.25, 0.5, 1.0, 2.0]
+    check = [0.3 * exp(-2.5 * t) * (cos(nu * t) + 2.5 / nu * sin(nu * t)) for t in times]
+    value = case.run("exact.yaml").evaluate("theta", times)
+    yield Answer("θ at 0.25, 0.5, 1, 2 s", value, "rad", check, "closed form: damped oscillator", 1e-9)
+
+
+def gains(poles):
+    """K_x, K_v, K_p, K_d by comparison of coefficients."""
+    _, c3, c2, c1, c0 = np.poly(poles)
+    kappa = 1 / REDUCED
+    Kx, Kv = c0 / (kappa * G), c1 / (kappa * G)
+    return Kx, Kv, (c2 + kappa * G + Kx) / kappa, (c3 + Kv) / kappa
+
+
+@ask("Feedback of the hand's position too, poles −1, −2, −2.5, −3: 10 s")
+def position(case):
+    Kx, Kv, Kp, Kd = gains([-1, -2, -2.5, -3])
+    start = {"hand0": 0.1, "theta0": 0.15}
+    run = case.run(parameters={"Kx": Kx, "Kv": Kv, "Kp": Kp, "Kd": Kd, **start})
+    yield from compared(run, lambda s, th, v, w: Kx * s + Kv * v + Kp * th + Kd * w, [0.1, 0.15, 0.0, 0.0], [1.0, 2.0, 5.0, 10.0])

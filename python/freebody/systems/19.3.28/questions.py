@@ -1,0 +1,81 @@
+"""19.3.28: double pendulum at release.
+
+Absolute angles from the downward vertical, h = ℓ/2, F the force of bar 1 on bar 2 at the elbow E. Balances:
+    m a_G2 = F − mg j,   (mℓ²/12)φ̈₂ = (r_E − r_G2) × F,
+    (mℓ²/3)φ̈₁ = −mgh sin φ₁ − r_E × F,   and the force at the ceiling F₀ = F + mg j + m a_G1.
+At φ₁ = 0, φ₂ = π/2, at rest, a_E = ℓφ̈₁ i and bar 2 lies along x: F_x = mℓφ̈₁ and (mℓ²/3)φ̈₁ = −mℓ²φ̈₁, so φ̈₁ = 0.
+Bar 2 then falls as if hinged at a fixed point, φ̈₂ = −3g/2ℓ; the forces are mg/4 at the elbow, 5mg/4 at the ceiling, both up.
+"""
+
+from math import cos, pi, sin
+
+import numpy as np
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+
+M, L, G = 1.0, 1.0, 9.81
+LETTERS = "closed form: −3g/2ℓ, mg/4, 5mg/4"
+
+
+def solve(one, two, spin1, spin2):
+    """φ̈₁, φ̈₂ and the force on bar 2 at the elbow."""
+    h, c1, s1, c2, s2 = L / 2, cos(one), sin(one), cos(two), sin(two)
+    matrix = [
+        [M * L * c1, M * h * c2, -1.0, 0.0],
+        [M * L * s1, M * h * s2, 0.0, -1.0],
+        [0.0, M * L**2 / 12, h * c2, h * s2],
+        [M * L**2 / 3, 0.0, L * c1, L * s1],
+    ]
+    right = [
+        M * (L * s1 * spin1**2 + h * s2 * spin2**2),
+        -M * (L * c1 * spin1**2 + h * c2 * spin2**2) - M * G,
+        0.0,
+        -M * G * h * s1,
+    ]
+    return np.linalg.solve(matrix, right)
+
+
+@ask("Just after release")
+def release(case):
+    for file in ("model.yaml", "horizontal.yaml"):
+        now = case.instant(file)
+        value = [now.accelerations["phi1"], now.accelerations["phi2"]]
+        yield Answer(f"φ̈₁, φ̈₂, {file}", value, "rad/s²", [0.0, -3 * G / (2 * L)], LETTERS, 1e-13)
+        yield Answer(f"elbow on bar 2, {file}", [now["elbow.Fx"], now["elbow.Fy"]], "N", [0.0, M * G / 4], LETTERS, 1e-13)
+        yield Answer(
+            f"ceiling on bar 1, {file}", [now["ceiling.Fx"], now["ceiling.Fy"]], "N", [0.0, 5 * M * G / 4], LETTERS, 1e-13
+        )
+
+
+@ask("The answer in letters: other m, ℓ, g")
+def letters(case):
+    m, length, g = 2.7, 0.4, 3.71
+    now = case.instant(parameters={"m": m, "l": length, "g": g})
+    value = [now.accelerations["phi1"], now.accelerations["phi2"]]
+    yield Answer("φ̈₁, φ̈₂", value, "rad/s²", [0.0, -3 * g / (2 * length)], LETTERS, 1e-13)
+    yield Answer("Fy at elbow and ceiling", [now["elbow.Fy"], now["ceiling.Fy"]], "N", [m * g / 4, 5 * m * g / 4], LETTERS, 1e-13)
+
+
+@ask("Motion for 3 s, with the forces at both hinges")
+def run(case):
+    times = [0.5, 1.0, 2.0, 3.0]
+    check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), [0.0, pi / 2, 0.0, 0.0], times)
+    run, against = case.run(), "other route: balances by hand, SciPy"
+    for i, (text, unit) in enumerate([("phi1", "rad"), ("phi2", "rad"), ("rate(phi1)", "rad/s"), ("rate(phi2)", "rad/s")]):
+        yield Answer(f"{text} at 0.5…3 s", run.evaluate(text, times), unit, check[:, i], against, 1e-8)
+    turned = np.array(case.run("horizontal.yaml").evaluate("phi2", times)) + pi / 2
+    yield Answer("φ₂ measured from the horizontal, + π/2", turned, "rad", check[:, 1], against, 1e-8)
+    for i, part in [(2, "Fx"), (3, "Fy")]:
+        elbow = [solve(*s)[i] for s in check]
+        yield Answer(f"elbow.{part} on bar 2", run.evaluate(f"elbow.{part}", times), "N", elbow, against, 1e-7)
+    ceiling = np.array([ceiling_force(*s) for s in check])
+    for i, part in enumerate(("Fx", "Fy")):
+        yield Answer(f"ceiling.{part} on bar 1", run.evaluate(f"ceiling.{part}", times), "N", ceiling[:, i], against, 1e-7)
+
+
+def ceiling_force(one, two, spin1, spin2):
+    alpha, _, Fx, Fy = solve(one, two, spin1, spin2)
+    h = L / 2
+    ax = h * (cos(one) * alpha - sin(one) * spin1**2)
+    ay = h * (sin(one) * alpha + cos(one) * spin1**2)
+    return Fx + M * ax, Fy + M * (ay + G)

@@ -1,0 +1,141 @@
+"""19.3.3: particle on two long springs.
+
+Springs so long that each pulls along its own axis only: m a = −k r, for each component and for the vector. So the
+motion is r(t) = r₀ cos ωt + (v₀/ω) sin ωt with ω = √(k/m): an ellipse about the origin, once around in 2π/ω.
+Its half axes are the singular values of the matrix with columns r₀ and v₀/ω. It is a segment where r₀ ∥ v₀,
+a circle where r₀ ⟂ v₀ and |v₀| = ω|r₀|.
+"""
+
+from math import atan2, cos, hypot, pi, sin, sqrt
+
+import numpy as np
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+
+M, K = 1.0, 4.0
+R0, V0 = np.array([0.1, 0.05]), np.array([-0.1, 0.25])
+W = sqrt(K / M)
+TIMES = [1.0, 2.0, 5.0, 10.0]
+
+
+def place(t):
+    return R0 * cos(W * t) + V0 / W * sin(W * t)
+
+
+def speeds(t):
+    return V0 * cos(W * t) - W * R0 * sin(W * t)
+
+
+@ask("(a, b) Accelerations at the start, Cartesian and polar")
+def accelerations(case):
+    """Polar: r̈ − rφ̇² = −kr/m and rφ̈ + 2ṙφ̇ = 0, with r, ṙ, φ̇ from the start."""
+    flat, polar = case.instant(), case.instant("polar.yaml")
+    r = hypot(*R0)
+    rdot, phidot = R0 @ V0 / r, (R0[0] * V0[1] - R0[1] * V0[0]) / r**2
+    against = "closed form: m a = −k r"
+    yield Answer("ẍ, ÿ", [flat.accelerations["x"], flat.accelerations["y"]], "m/s²", -K / M * R0, against, 1e-13)
+    yield Answer("r̈", polar.accelerations["r"], "m/s²", r * phidot**2 - K / M * r, against, 1e-12)
+    yield Answer("φ̈", polar.accelerations["phi"], "rad/s²", -2 * rdot * phidot / r, against, 1e-12)
+
+
+@ask("(c–e) Angular momentum about the origin at 1, 2, 5, 10 s")
+def angular_momentum(case):
+    """The force points at the origin: m(xẏ − yẋ) = mr²φ̇ keeps its first value."""
+    start = M * (R0[0] * V0[1] - R0[1] * V0[0])
+    for file, text in [("model.yaml", "m*(x*rate(y) - y*rate(x))"), ("polar.yaml", "m*r^2*rate(phi)")]:
+        run = case.run(file)
+        for what in (text, "angular_momentum(ground.O)"):
+            values = run.evaluate(what, TIMES)
+            yield Answer(f"{what}, {file}", values, "N·m·s", [start] * len(TIMES), "conservation", 1e-10)
+
+
+@ask("(f–h) Energy at 1, 2, 5, 10 s")
+def energy(case):
+    """½m v² + ½k r² keeps its first value."""
+    start = M / 2 * V0 @ V0 + K / 2 * R0 @ R0
+    for file in ("model.yaml", "polar.yaml"):
+        yield Answer(file, case.run(file).evaluate("energy()", TIMES), "J", [start] * len(TIMES), "conservation", 1e-10)
+
+
+@ask("(i) The motion, and all paths: ellipses, circles, segments")
+def paths(case):
+    against = "closed form: r₀ cos ωt + (v₀/ω) sin ωt"
+    for file in ("model.yaml", "polar.yaml"):
+        run = case.run(file)
+        for text, i in [("x(P.centre)", 0), ("y(P.centre)", 1)]:
+            yield Answer(f"{text}, {file}", run.evaluate(text, TIMES), "m", [place(t)[i] for t in TIMES], against, 1e-9)
+
+    longer, shorter = np.linalg.svd(np.column_stack([R0, V0 / W]), compute_uv=False)
+    run = case.run()
+    against = "closed form: singular values of [r₀, v₀/ω]"
+    yield Answer("long half axis", run.report["greatest distance"].value, "m", longer, against, 1e-9)
+    yield Answer("short half axis", run.report["least distance"].value, "m", shorter, against, 1e-9)
+    once = [run.evaluate(text, 2 * pi / W) for text in ("x", "y", "rate(x)", "rate(y)")]
+    yield Answer("x, y, ẋ, ẏ after 2π/ω", once, "m, m/s", [*R0, *V0], "closed form: every path closes after 2π/ω", 1e-9)
+
+    circle = case.run(parameters={"vx0": -W * R0[1], "vy0": W * R0[0]})
+    extremes = [circle.report[f"{which} distance"].value for which in ("least", "greatest")]
+    yield Answer("circle: least and greatest distance", extremes, "m", [hypot(*R0)] * 2, "closed form: |v₀| = ω|r₀|", 1e-9)
+
+
+@ask("(j) Back and forth on an oblique line")
+def oblique(case):
+    """With v₀ = λ r₀ the motion is r₀ (cos ωt + (λ/ω) sin ωt): both components keep their ratio."""
+    lam = 0.7
+    run = case.run(parameters={"vx0": lam * R0[0], "vy0": lam * R0[1]})
+    along = [cos(W * t) + lam / W * sin(W * t) for t in TIMES]
+    size, across = hypot(*R0), atan2(R0[1], R0[0])
+    u, v = f"x*{cos(across)!r} + y*{sin(across)!r}", f"y*{cos(across)!r} - x*{sin(across)!r}"
+    yield Answer("along the line", run.evaluate(u, TIMES), "m", [size * a for a in along], "closed form", 1e-9)
+    yield Answer("off the line", run.evaluate(v, TIMES), "m", [0.0] * len(TIMES), "closed form", 1e-12, size)
+
+
+def finite(D):
+    """Rates of (x, y, ẋ, ẏ) with springs of rest length D from (−D, 0) and (0, −D)."""
+
+    def rates(_t, s):
+        x, y, vx, vy = s
+        ax, ay = 0.0, 0.0
+        for dx, dy in [(x + D, y), (x, y + D)]:
+            size = hypot(dx, dy)
+            pull = K / M * (size - D) / size
+            ax, ay = ax - pull * dx, ay - pull * dy
+        return vx, vy, ax, ay
+
+    return rates
+
+
+def first_order():
+    """Limit of D (r_D − r) at 2 s as D → ∞, by quadrature.
+
+    A spring from (−D, 0) is longer by x + y²/2D and tilted by y/D, up to 1/D²: its pull is −k(x + y²/2D) along x
+    and −kxy/D along y; the other one likewise. The deviation D(r_D − r) = δ obeys δ̈ + ω²δ = −ω²(y²/2 + xy, x²/2 + xy)
+    on the ideal motion, from rest at 0, so δ(T) = ∫₀ᵀ sin ω(T − t)/ω · (right side) dt.
+    """
+    from scipy.integrate import quad
+
+    def part(i):
+        def integrand(t):
+            own, other = place(t)[i], place(t)[1 - i]
+            return -W * sin(W * (2 - t)) * (other**2 / 2 + own * other)
+
+        return quad(integrand, 0, 2, epsabs=0, epsrel=1e-10)[0]
+
+    return np.array([part(0), part(1)])
+
+
+@ask("State at 2 s with springs of finite length, and the order of convergence")
+def long_springs(case):
+    texts = ("x", "y", "rate(x)", "rate(y)")
+    ideal = np.array([case.run().evaluate(text, 2.0) for text in texts])
+    yield Answer("x, y, ẋ, ẏ, ideal", ideal, "m, m/s", [*place(2), *speeds(2)], "closed form", 1e-10)
+    gaps = {}
+    for D in (50.0, 5000.0):
+        run = case.run("finite.yaml", parameters={"D": D})
+        state = np.array([run.evaluate(text, 2.0) for text in texts])
+        gaps[D] = state[:2] - ideal[:2]
+        check = motion(finite(D), [*R0, *V0], [2.0])[0]
+        yield Answer(f"x, y, ẋ, ẏ, D = {D:g}", state, "m, m/s", check, "other route: balances by hand, SciPy", 1e-9)
+    order = np.log(np.linalg.norm(gaps[50.0]) / np.linalg.norm(gaps[5000.0])) / np.log(100)
+    yield Answer("order in 1/D", order, "", 1.0, "closed form: first order", 1e-2)
+    yield Answer("deviation × D as D → ∞", 5000 * gaps[5000.0], "m²", first_order(), "quadrature", 1e-3)

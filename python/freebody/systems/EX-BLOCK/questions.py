@@ -1,0 +1,91 @@
+"""Block on a tipped block.
+
+Without friction the slope pushes along its normal n = (−sin θ, cos θ) only, so two balances hold no unknown force:
+both blocks along x, and the upper one down the slope, d = (−cos θ, −sin θ):
+
+    (m1 + m2) ẍ − m2 cos θ ÿ = 0,        m2 (ÿ − cos θ ẍ) = m2 g sin θ.
+
+The forces follow one after another. N = F_C + F_D from the upper block along n; its share at C and D from moments
+about G2, 0.15 F_C = 0.10 F_D; F_A + F_B from the lower block along y; its share from moments about G1, where N acts
+at the foot of the normal through G2, Q + y d.
+"""
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask
+
+M1, M2, G, TIP = 10.0, 4.0, 9.81, np.radians(30)
+N, D = np.array([-np.sin(TIP), np.cos(TIP)]), np.array([-np.cos(TIP), -np.sin(TIP)])
+A_AND_B, C_AND_D = ("wheels.Fn - wheels.M/1.2", "wheels.M/1.2"), ("rollers.Fn - rollers.M/0.25", "rollers.M/0.25")
+PLACES = (0.0, 0.1, 0.3)
+
+
+def accelerations():
+    """ẍ and ÿ from the two balances without reactions."""
+    matrix = [[M1 + M2, -M2 * np.cos(TIP)], [-M2 * np.cos(TIP), M2]]
+    return np.linalg.solve(matrix, [0, M2 * G * np.sin(TIP)])
+
+
+def forces(y, shares):
+    """F_A, F_B, F_C, F_D; ``shares``: the parts of N at C and D."""
+    x2, y2 = accelerations()
+    normal = M2 * ((np.array([x2, 0]) + y2 * D) @ N + G * np.cos(TIP))
+    total = M1 * G + normal * np.cos(TIP)
+    foot = np.array([0.3, 0.35]) + y * D
+    turning = -normal * (foot[0] * N[1] - foot[1] * N[0])
+    difference = -turning / 0.6
+    return (total - difference) / 2, (total + difference) / 2, shares[0] * normal, shares[1] * normal
+
+
+@ask("accelerations and roller forces at y = 0, 0.1, 0.3 m")
+def instants(case):
+    for y in PLACES:
+        now = case.instant(y=y)
+        yield Answer(
+            f"ẍ, ÿ at y = {y}",
+            [now["accel(x)"], now["accel(y)"]],
+            "m/s²",
+            accelerations(),
+            "closed form: two balances without reactions",
+            1e-13,
+        )
+        values = [now[text] for text in (*A_AND_B, *C_AND_D)]
+        yield Answer(
+            f"F_A, F_B, F_C, F_D at y = {y}", values, "N", forces(y, (0.4, 0.6)), "closed form: one balance after another", 1e-12
+        )
+
+
+@ask("motion from rest for 0.4 s")
+def motion(case):
+    run = case.run()
+    times = np.array([0.1, 0.2, 0.3, 0.4])
+    for name, acceleration in zip("xy", accelerations(), strict=True):
+        yield Answer(
+            f"{name} at 0.1, 0.2, 0.3, 0.4 s",
+            run.evaluate(name, times),
+            "m",
+            acceleration * times**2 / 2,
+            "closed form: constant acceleration",
+            1e-12,
+        )
+    whole = run.evaluate("momentum_x()", times)
+    yield Answer("momentum of both along x", whole, "N·s", 0 * times, "conservation: no force along x", 1e-12, scale=M1)
+
+
+@ask("variant: small rollers fixed to the lower block")
+def rollers_below(case):
+    """Then C and D stay where they are and G2 moves over them: (0.15 − y) F_C = (0.10 + y) F_D."""
+    for y in PLACES:
+        now = case.instant("rollers_on_lower.yaml", y=y)
+        yield Answer(
+            f"ẍ, ÿ at y = {y}",
+            [now["accel(x)"], now["accel(y)"]],
+            "m/s²",
+            accelerations(),
+            "closed form: two balances without reactions",
+            1e-13,
+        )
+        # The reaction is on the second body, here the lower block; across the bottom of the upper one it points down.
+        values = [now[text] for text in (*A_AND_B, "-rollers.Fn + rollers.M/0.25", "-rollers.M/0.25")]
+        check = forces(y, ((0.1 + y) / 0.25, (0.15 - y) / 0.25))
+        yield Answer(f"F_A, F_B, F_C, F_D at y = {y}", values, "N", check, "closed form: one balance after another", 1e-12)

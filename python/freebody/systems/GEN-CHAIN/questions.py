@@ -1,0 +1,140 @@
+"""Open chains up to 100 links.
+
+With absolute angles the centre of link i is at Σ_{j<i} l e_j + l/2 e_i, and Lagrange's equations of the chain are
+
+    Σ_j M_ij [cos(φi − φj) φ̈j + sin(φi − φj) φ̇j²] = −m g l (N − i + 1/2) cos φi,
+    M_ij = m l² (N − max(i, j) + 1/2) for i ≠ j,    M_ii = m l² (N − i + 1/3).
+
+At release all angles are 0, and each hinge carries what the links beyond it need. The row of N = 100 is solved in
+40 digits.
+"""
+
+import mpmath as mp
+import numpy as np
+
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import many_digits, motion
+
+G = 9.81
+SCIPY = "other route: Lagrange's equations, integrated by SciPy"
+
+
+def masses(n, l=1.0):
+    i = np.arange(1, n + 1)
+    matrix = l * l * (n - np.maximum.outer(i, i) + 0.5)
+    np.fill_diagonal(matrix, l * l * (n - i + 1 / 3))
+    return matrix, G * l * (n - i + 0.5)
+
+
+def rates(n, l=1.0):
+    matrix, weights = masses(n, l)
+
+    def right(t, y):
+        q, u = y[:n], y[n:]
+        apart = np.subtract.outer(q, q)
+        pull = -(matrix * np.sin(apart)) @ u**2 - weights * np.cos(q)
+        return np.concatenate([u, np.linalg.solve(matrix * np.cos(apart), pull)])
+
+    return right
+
+
+def released(n):
+    """Angular accelerations, vertical forces at the hinges, acceleration of the tip; m = l = 1."""
+    with mp.workdps(40):
+        g = mp.mpf("9.81")
+        matrix = mp.matrix(n, n)
+        for i in range(n):
+            for j in range(n):
+                matrix[i, j] = n - max(i, j) - mp.mpf(1) / 2 if i != j else n - i - mp.mpf(2) / 3
+        turn = list(mp.lu_solve(matrix, mp.matrix([-g * (n - i - mp.mpf(1) / 2) for i in range(n)])))
+        centres = [sum(turn[:i]) + turn[i] / 2 for i in range(n)]
+        forces = [sum(a + g for a in centres[i:]) for i in range(n)]
+        return [float(a) for a in turn], [float(f) for f in forces], float(sum(turn))
+
+
+@ask("at release: angular accelerations, hinge forces, tip")
+def release(case):
+    for n in (1, 2, 3, 10, 100):
+        now, links = case.instant(parameters={"N": n}), range(1, n + 1)
+        turn, forces, tip = released(n)
+        against = "closed form: Lagrange's equations at rest, in 40 digits"
+        yield Answer(f"φ̈ of each link, N = {n}", [now[f"accel(phi[{i}])"] for i in links], "rad/s²", turn, against, 1e-11)
+        yield Answer(f"vertical force at each hinge, N = {n}", [now[f"pin[{i}].Fy"] for i in links], "N", forces, against, 1e-11)
+        yield Answer(f"acceleration of the tip, N = {n}", now[f"ay(link[{n}].end)"], "m/s²", tip, against, 1e-11)
+
+
+@ask("fall of 2 s (N = 3) and 1 s (N = 10), links of 1 m and chains of 1 m")
+def fall(case):
+    for n, until in ((3, 2.0), (10, 1.0)):
+        for l in (1.0, 1 / n):
+            run, times = case.run(parameters={"N": n, "l": l}, until=until), np.array([until / 2, until])
+            check = motion(rates(n, l), np.zeros(2 * n), times)
+            values = [run.evaluate(f"phi[{i}]", until) for i in range(1, n + 1)]
+            yield Answer(f"angles after {until:g} s, N = {n}, l = {l:.3g}", values, "rad", check[-1, :n], SCIPY, 1e-9)
+            tip = l * np.sin(check[:, :n]).sum(axis=1)
+            yield Answer(
+                f"height of the tip after {until / 2:g} and {until:g} s, N = {n}, l = {l:.3g}",
+                run.evaluate(f"y(link[{n}].end)", times),
+                "m",
+                tip,
+                SCIPY,
+                1e-9,
+            )
+
+
+@ask("N = 100 for 10 s")
+def hundred(case):
+    run, times = case.run(parameters={"N": 100}, until=10, rtol=1e-9), np.array([2.0, 4.0, 6.0, 8.0, 10.0])
+    size = run.evaluate("kinetic()", times).max()
+    yield Answer(
+        "energy at 2 … 10 s",
+        run.evaluate("energy()", times),
+        "J",
+        0 * times,
+        "conservation: all at the height of the pivot at the start",
+        1e-9,
+        scale=size,
+    )
+
+
+def two_bars():
+    """φ̈ of unequal bars from the downward vertical, for mpmath's numbers."""
+    g, m2, l2 = mp.mpf("9.81"), mp.mpf(1) / 2, mp.mpf(3) / 5  # and m1 = l1 = 1
+    one, two, mixed = mp.mpf(1) / 3 + m2, m2 * l2**2 / 3, m2 * l2 / 2
+    upper, lower = (mp.mpf(1) / 2 + m2) * g, m2 * g * l2 / 2
+
+    def rates(t, y):
+        a, b, u, v = y
+        (ca, sa), (cb, sb) = mp.cos_sin(a), mp.cos_sin(b)
+        c, s = mixed * (ca * cb + sa * sb), mixed * (sa * cb - ca * sb)
+        f, h, size = -s * v * v - upper * sa, s * u * u - lower * sb, one * two - c * c
+        return [u, v, (two * f - c * h) / size, (one * h - c * f) / size]
+
+    return rates
+
+
+@ask("two unequal bars for 10 s, and how long the digits can be believed")
+def unequal(case):
+    """The error of a run, estimated from a tighter one, against that found with 20 digits."""
+    times = np.arange(1.0, 10.5)
+    with mp.workdps(25):
+        exact = np.array(many_digits(two_bars(), [2, "2.5", "0.5", -1], times, digits=20, step=0.025, order=16), float)[:, :2]
+
+    def angles(rtol):
+        run = case.run("two_bars.yaml", rtol=rtol)
+        return np.column_stack([run.evaluate(name, times) for name in ("phi1", "phi2")])
+
+    usual, tight = angles(1e-9), angles(1e-13)
+    for i in (0, 1):
+        yield Answer(
+            f"φ{i + 1} at 1 … 10 s", tight[:, i], "rad", exact[:, i], "other route: Lagrange's equations in 20 digits", 1e-6
+        )
+    own, true = (-np.log10(np.abs(usual - other).max(axis=1) + 1e-17) for other in (tight, exact))
+    yield Answer(
+        "decimals that hold at 1 … 10 s at rtol 1e-9, by a tighter run",
+        own,
+        "",
+        true,
+        "other route: Lagrange's equations in 20 digits",
+        0.05,
+    )

@@ -1,0 +1,78 @@
+"""Slider-crank, a closed chain.
+
+r sin θ + l sin β = 0 gives the rod's angle, its rate and acceleration; the slider along x, the rod about B and so
+on backwards give every force, one unknown at a time. See ``_linkages.py``.
+"""
+
+import math
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+from freebody.systems._linkages import CrankSlider
+
+BY_HAND = CrankSlider(0.1, 0.3, (1.0, 2.0, 1.5))
+ANGLES = [math.radians(30 * k) for k in range(12)]
+HAND = "closed form: one balance after another"
+
+
+@ask("crank at 20 rad/s: torque and every reaction at 0°, 30°, … 330°")
+def steady(case):
+    states = [case.instant("driven.yaml", {"theta0": theta}) for theta in ANGLES]
+    hand = [BY_HAND.motion(theta, 20.0, 0.0) for theta in ANGLES]
+    forces = [BY_HAND.forces(m) for m in hand]
+    yield Answer(
+        "x of the slider", [now["x"] for now in states], "m", [m.centre[2].real for m in hand], "closed form: loop", 1e-13
+    )
+    yield Answer(
+        "its acceleration",
+        [now["accel(x)"] for now in states],
+        "m/s²",
+        [m.acceleration[2].real for m in hand],
+        "closed form: loop differentiated twice",
+        1e-12,
+    )
+    yield Answer("torque on the crank", [now["drive.force"] for now in states], "N·m", [f[0] for f in forces], HAND, 1e-12)
+    for i, (pin, on) in enumerate((("O", "crank"), ("B", "rod"), ("C", "slider")), start=1):
+        for axis, part in (("x", "real"), ("y", "imag")):
+            yield Answer(
+                f"{pin} on the {on}, {axis}",
+                [now[f"{pin}.F{axis}"] for now in states],
+                "N",
+                [getattr(f[i], part) for f in forces],
+                HAND,
+                1e-12,
+            )
+    yield Answer("guide on the slider", [now["guide.Fn"] for now in states], "N", [f[4] for f in forces], HAND, 1e-12)
+    yield Answer(
+        "couple of the guide",
+        [now["guide.M"] for now in states],
+        "N·m",
+        0.0,
+        "closed form: all forces on the slider meet in C",
+        1e-12,
+        scale=1,
+    )
+
+
+@ask("from rest at 60°, no torque, 2 s")
+def falling(case):
+    run, times = case.run(), np.linspace(0.2, 2, 10)
+    check = motion(lambda t, y: [y[1], BY_HAND.free(*y)], [math.pi / 3, 0], times)
+    yield Answer(
+        "θ at 0.2 … 2 s",
+        run.evaluate("theta", times),
+        "rad",
+        check[:, 0],
+        "other route: power balance, integrated by SciPy",
+        1e-10,
+    )
+    places = [BY_HAND.motion(theta, 0, 0).centre[2].real for theta in check[:, 0]]
+    yield Answer(
+        "x at 0.2 … 2 s", run.evaluate("x", times), "m", places, "other route: power balance, integrated by SciPy", 1e-10
+    )
+    start = 9.81 * 3 * 0.05 * math.sin(math.pi / 3)
+    yield Answer(
+        "energy", run.evaluate("energy()", times), "J", start + 0 * times, "conservation: no work but of the weights", 1e-10
+    )

@@ -1,0 +1,129 @@
+"""New gun, its numbers.
+
+The motion of S19.16 from rest, until R = l. Independent values: the two equations integrated by SciPy. Started from
+rest, a torque c times as large gives the same motion at √c times the speed; so the angle at exit and Ṙ/θ̇ there are
+the same for every torque. The power T θ̇ makes the energy T θ.
+"""
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask, reference
+
+M1, M2, L = 1 / 3, 1.0, 1.0
+I1 = M1 * L**2 / 3
+SCIPY = "other route: two balances, integrated by SciPy"
+
+
+def rates(torque):
+    """First-order form for (θ, R, θ̇, Ṙ)."""
+    return lambda t, y: [y[2], y[3], (torque - 2 * M2 * y[1] * y[3] * y[2]) / (I1 + M2 * y[1] ** 2), y[1] * y[2] ** 2]
+
+
+def exit_of(torque, r=0.1, spin=0.0):
+    return reference.event(rates(torque), [0, r, spin, 0], lambda t, y: y[1] - L, before=60 / max(torque, spin))
+
+
+def shot(case, torque=1.0, r=0.1, spin=0.0):
+    """The run and its exit."""
+    run = case.run(parameters={"T": torque}, initial={"theta": 0, "R": r, "rates": {"theta": spin, "R": 0}})
+    return run, next(event.t for event in run.events if event.name == "leaves")
+
+
+@ask("R(t) and θ(t) for 0–1 s, and the polar path R(θ)")
+def path(case):
+    run, _ = shot(case)
+    times = np.linspace(0.1, 1, 10)
+    check = reference.motion(rates(1.0), [0, 0.1, 0, 0], times)
+    yield Answer("R at 0.1 … 1 s", run.evaluate("R", times), "m", check[:, 1], SCIPY, 1e-11)
+    yield Answer("θ at 0.1 … 1 s", run.evaluate("theta", times), "rad", check[:, 0], SCIPY, 1e-11)
+    place = [run.evaluate(f"{axis}(collar.centre)", times) for axis in "xy"]
+    polar = [check[:, 1] * np.cos(check[:, 0]), check[:, 1] * np.sin(check[:, 0])]
+    for name, value, other in zip("xy", place, polar, strict=True):
+        yield Answer(f"{name} of the collar at 0.1 … 1 s", value, "m", other, SCIPY, 1e-11)
+
+
+@ask("when the collar leaves the rod")
+def leaving(case):
+    run, t = shot(case)
+    when, (theta, _, spin, speed) = exit_of(1.0)
+    yield Answer("t", t, "s", when, SCIPY, 1e-12)
+    yield Answer("R", run.evaluate("R", t), "m", L, "closed form: the event itself", 1e-14)
+    yield Answer("θ", run.evaluate("theta", t), "rad", theta, SCIPY, 1e-11)
+    yield Answer("Ṙ", run.evaluate("rate(R)", t), "m/s", speed, SCIPY, 1e-11)
+    yield Answer("θ̇", run.evaluate("rate(theta)", t), "rad/s", spin, SCIPY, 1e-11)
+    yield Answer("speed", run.evaluate("speed(collar.centre)", t), "m/s", np.hypot(speed, L * spin), SCIPY, 1e-11)
+
+
+@ask("energy, and work of the torque, over time")
+def energy(case):
+    run, end = shot(case)
+    times = np.append(np.linspace(0.2, 1, 5), end)
+    work = 1.0 * run.evaluate("theta", times)
+    yield Answer(
+        "kinetic energy at 0.2 … 1 s and at exit", run.evaluate("kinetic()", times), "J", work, "conservation: T θ", 1e-11
+    )
+    yield Answer("work of the motor in the ledger", run.evaluate("motor.work", times), "J", work, "closed form: T θ", 1e-11)
+
+
+@ask("angle at exit for seven torques, from rest")
+def torques(case):
+    _, (theta, _, spin, speed) = exit_of(1.0)
+    for torque in (0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0):
+        run, t = shot(case, torque)
+        yield Answer(
+            f"θ at exit, T = {torque}",
+            run.evaluate("theta", t),
+            "rad",
+            theta,
+            "closed form: that of T = 1, by scaling time",
+            1e-11,
+        )
+        ratio = run.evaluate("rate(R)", t) / run.evaluate("rate(theta)", t)
+        yield Answer(f"Ṙ/θ̇ at exit, T = {torque}", ratio, "m", speed / spin, "closed form: that of T = 1, by scaling time", 1e-11)
+
+
+@ask("angle at exit when the start is not at rest")
+def spinning(case):
+    for spin in (0.5, 1.0):
+        for torque in (0.5, 1.0, 3.0):
+            run, t = shot(case, torque, spin=spin)
+            check = exit_of(torque, spin=spin)[1][0]
+            yield Answer(f"θ at exit, θ̇0 = {spin}, T = {torque}", run.evaluate("theta", t), "rad", check, SCIPY, 1e-11)
+
+
+@ask("angle at exit for other places of the start")
+def starts(case):
+    for r in (0.05, 0.2, 0.5):
+        run, t = shot(case, r=r)
+        yield Answer(f"θ at exit, R0 = {r}", run.evaluate("theta", t), "rad", exit_of(1.0, r=r)[1][0], SCIPY, 1e-11)
+
+
+@ask("after the exit: the collar flies straight on, the rod goes on turning")
+def flight(case):
+    run, t = shot(case)
+    theta, spin = float(run.evaluate("theta", t)), float(run.evaluate("rate(theta)", t))
+    place = {name: float(run.evaluate(f"{name}(collar.centre)", t)) for name in ("x", "y", "vx", "vy")}
+    start = {
+        "theta": theta, "collar.x": place["x"], "collar.y": place["y"],
+        "rates": {"theta": spin, "collar.x": place["vx"], "collar.y": place["vy"]},
+    }  # fmt: skip
+    later = case.run("flight.yaml", initial=start)
+    _, (theta, _, spin, speed) = exit_of(1.0)
+    along, across = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
+    check = L * along + 0.5 * (speed * along + L * spin * across)
+    yield Answer(
+        "place of the collar 0.5 s after",
+        [later.evaluate(f"{name}(collar.centre)", 0.5) for name in "xy"],
+        "m",
+        check,
+        "closed form: straight on from SciPy's exit",
+        1e-11,
+    )
+    yield Answer(
+        "angle of the rod 0.5 s after",
+        later.evaluate("theta", 0.5),
+        "rad",
+        theta + spin * 0.5 + 0.5**2 / 2 / I1,
+        "closed form: constant torque on the rod alone",
+        1e-11,
+    )

@@ -1,0 +1,118 @@
+"""Pendulum hung from a cart on an incline.
+
+λ points down the slope, n out of it; the bob is at s λ + l (sin θ λ − cos θ n). Two balances without reactions,
+both bodies along λ and the bob about the hinge:
+
+    (M + m) s̈ + m l (θ̈ cos θ − θ̇² sin θ) = (M + m) g sin α,        l θ̈ + s̈ cos θ = −g sin(θ − α).
+
+Elimination of s̈ leaves θ̈ (M + m sin²θ) l = −(M + m) g cos α sin θ − m l θ̇² sin θ cos θ. Then the slope's force
+from both along n, the rod's tension from the bob along the rod.
+"""
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+
+G = 9.81
+MAIN = {"M": 2.0, "m": 1.0, "l": 0.5, "slope": np.radians(20)}
+SCIPY = "other route: two balances, integrated by SciPy"
+
+
+def accelerations(theta, spin, M, m, l, slope):
+    """s̈, θ̈."""
+    c, s = np.cos(theta), np.sin(theta)
+    turn = -(((M + m) * G * np.cos(slope) + m * l * spin**2 * c) * s) / ((M + m * s * s) * l)
+    return G * np.sin(slope) - m * l * (turn * c - spin**2 * s) / (M + m), turn
+
+
+def coupled(theta, spin, M, m, l, slope):
+    """The same from the pair of equations as a matrix."""
+    c, s = np.cos(theta), np.sin(theta)
+    matrix = [[M + m, m * l * c], [c, l]]
+    return np.linalg.solve(matrix, [(M + m) * G * np.sin(slope) + m * l * spin**2 * s, -G * np.sin(theta - slope)])
+
+
+def forces(theta, spin, M, m, l, slope):
+    """Force of the slope on the cart along n; tension of the rod."""
+    along, turn = accelerations(theta, spin, M, m, l, slope)
+    normal = (M + m) * G * np.cos(slope) + m * l * (turn * np.sin(theta) + spin**2 * np.cos(theta))
+    return normal, m * (G * np.cos(theta - slope) - along * np.sin(theta) + l * spin**2)
+
+
+@ask("accelerations and forces at θ = 0.6")
+def instants(case):
+    for spin in (0, 3):
+        now = case.instant(theta=0.6, rates={"theta": spin, "s": 0})
+        values = [now["accel(s)"], now["accel(theta)"]]
+        yield Answer(
+            f"s̈, θ̈ at θ̇ = {spin}",
+            values,
+            "m/s², rad/s²",
+            accelerations(0.6, spin, **MAIN),
+            "closed form: equation for θ̈ alone",
+            1e-12,
+        )
+        yield Answer(
+            f"s̈, θ̈ at θ̇ = {spin}", values, "m/s², rad/s²", coupled(0.6, spin, **MAIN), "closed form: coupled pair", 1e-12
+        )
+        yield Answer(
+            f"slope on cart, tension, at θ̇ = {spin}",
+            [now["wheels.Fn"], now["rod.tension"]],
+            "N",
+            forces(0.6, spin, **MAIN),
+            "closed form: balances along n and along the rod",
+            1e-12,
+        )
+
+
+@ask("motion for 5 s, three sets of figures")
+def motions(case):
+    times = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    sets = [(2, 1, 0.5, 20, 0.6, 0), (1, 1, 1, 30, np.radians(30), 0), (1, 3, 0.8, 15, 1.2, 2.5)]
+    for M, m, l, slope, theta, spin in sets:
+        figures = {"M": M, "m": m, "l": l, "slope": np.radians(slope)}
+        run = case.run(parameters=figures, initial={"s": 0, "theta": theta, "rates": {"s": 0, "theta": spin}})
+        check = motion(lambda t, y, f=figures: [y[2], y[3], *accelerations(y[1], y[3], **f)], [0, theta, 0, spin], times)
+        name = f"M {M}, m {m}, l {l}, α {slope}°"
+        yield Answer(f"s at 1 … 5 s, {name}", run.evaluate("s", times), "m", check[:, 0], SCIPY, 1e-10)
+        yield Answer(f"θ at 1 … 5 s, {name}", run.evaluate("theta", times), "rad", check[:, 1], SCIPY, 1e-10)
+        slide = run.evaluate("momentum_x()*cos(slope) - momentum_y()*sin(slope)", times)
+        start = m * l * spin * np.cos(theta)
+        yield Answer(
+            f"momentum along the slope, {name}",
+            slide,
+            "N·s",
+            start + (M + m) * G * np.sin(np.radians(slope)) * times,
+            "conservation: only weight acts along the slope",
+            1e-11,
+        )
+
+
+@ask("limit: level ground, cart of a billion tonnes")
+def limit(case):
+    now = case.instant(parameters={"slope": 0, "M": 1e12}, theta=0.6, rates={"theta": 3, "s": 0})
+    yield Answer("θ̈", now["accel(theta)"], "rad/s²", -G / 0.5 * np.sin(0.6), "closed form: pendulum with a fixed pivot", 1e-11)
+
+
+@ask("rod as a massless body instead of a link")
+def as_body(case):
+    now = case.instant("rod_as_body.yaml", theta=0.6, rates={"theta": 3, "s": 0})
+    yield Answer(
+        "s̈, θ̈",
+        [now["accel(s)"], now["accel(theta)"]],
+        "m/s², rad/s²",
+        accelerations(0.6, 3, **MAIN),
+        "closed form: equation for θ̈ alone",
+        1e-12,
+    )
+    yield Answer("force in the rod", now["end.F"], "N", forces(0.6, 3, **MAIN)[1], "closed form: balance along the rod", 1e-12)
+    run, times = case.run("rod_as_body.yaml"), np.array([1.0, 3.0, 5.0])
+    yield Answer(
+        "θ at 1, 3, 5 s",
+        run.evaluate("theta", times),
+        "rad",
+        case.run().evaluate("theta", times),
+        "other route: rod as a link",
+        1e-10,
+    )

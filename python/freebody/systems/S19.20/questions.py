@@ -1,0 +1,82 @@
+"""Mass on a wheel on a turning rod.
+
+P = l (cos θ, sin θ) + r (cos ψ, sin ψ) with θ = θ0 + ω1 t and ψ = −θ0 + (ω1 − ω2) t; both rates are constant, so
+each term's second derivative is −(its rate)² times itself. Seen from the rod, P circles A clockwise at ω2. The
+rod's point Q under P, the motion relative to the rod and Coriolis' term must add up to the same.
+"""
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask
+
+L, R, MASS, W1, W2, START = 2.0, 0.5, 0.5, 3.0, 5.0, np.radians(30)
+OA, AP = L * np.array([np.cos(START), np.sin(START)]), R * np.array([np.cos(START), -np.sin(START)])
+P = OA + AP
+
+
+def left(v):
+    """A quarter turn counter-clockwise: k × v."""
+    return np.array([-v[1], v[0]])
+
+
+VELOCITY = W1 * left(OA) + (W1 - W2) * left(AP)
+ACCELERATION = -(W1**2) * OA - (W1 - W2) ** 2 * AP
+
+
+def pair(now, text):
+    return np.array([now[text.format("x")], now[text.format("y")]])
+
+
+@ask("linear momentum of P, through the frame of the rod")
+def momentum(case):
+    now = case.instant()
+    carried, whole = pair(now, "v{}(rod.Q)"), pair(now, "v{}(wheel.P)")
+    yield Answer("velocity of the rod's point under P", carried, "m/s", W1 * left(P), "closed form: ω1 k × r_P", 1e-13)
+    yield Answer("velocity relative to the rod", whole - carried, "m/s", -W2 * left(AP), "closed form: −ω2 k × r_P/A", 1e-13)
+    yield Answer("velocity of P", whole, "m/s", VELOCITY, "closed form: place differentiated", 1e-13)
+    yield Answer("momentum of P", pair(now, "momentum_{}()"), "N·s", MASS * VELOCITY, "closed form: place differentiated", 1e-13)
+
+
+@ask("net force on P, through the frame of the rod")
+def force(case):
+    now = case.instant()
+    carried, whole = pair(now, "a{}(rod.Q)"), pair(now, "a{}(particle.centre)")
+    relative_velocity = pair(now, "v{}(wheel.P)") - pair(now, "v{}(rod.Q)")
+    coriolis = 2 * now["omega(rod)"] * left(relative_velocity)
+    yield Answer("acceleration of the rod's point under P", carried, "m/s²", -(W1**2) * P, "closed form: −ω1² r_P", 1e-13)
+    yield Answer("Coriolis acceleration", coriolis, "m/s²", 2 * W1 * W2 * AP, "closed form: 2 ω1 k × v_rel", 1e-13)
+    yield Answer(
+        "acceleration relative to the rod", whole - carried - coriolis, "m/s²", -(W2**2) * AP, "closed form: −ω2² r_P/A", 1e-12
+    )
+    yield Answer("acceleration of P", whole, "m/s²", ACCELERATION, "closed form: place differentiated twice", 1e-13)
+    yield Answer(
+        "net force on P", pair(now, "rim.F{}"), "N", MASS * ACCELERATION, "closed form: place differentiated twice", 1e-13
+    )
+
+
+@ask("what the two drives give")
+def drives(case):
+    """Moments of the net force on P about O and, against the wheel's clockwise angle, about A."""
+    now, f = case.instant(), MASS * ACCELERATION
+    check = [P[0] * f[1] - P[1] * f[0], -(AP[0] * f[1] - AP[1] * f[0])]
+    yield Answer(
+        "torque of rod drive, wheel drive",
+        [now["'rod drive'.force"], now["'wheel drive'.force"]],
+        "N·m",
+        check,
+        "closed form: moments of m a",
+        1e-12,
+        scale=1,
+    )
+
+
+@ask("the path for 2 s")
+def path(case):
+    run, times = case.run(), np.array([0.5, 1.0, 1.5, 2.0])
+    theta, psi = START + W1 * times, -START + (W1 - W2) * times
+    yield Answer(
+        "x of P", run.evaluate("x(wheel.P)", times), "m", L * np.cos(theta) + R * np.cos(psi), "closed form", 1e-13, scale=L
+    )
+    yield Answer(
+        "y of P", run.evaluate("y(wheel.P)", times), "m", L * np.sin(theta) + R * np.sin(psi), "closed form", 1e-13, scale=L
+    )

@@ -1,0 +1,250 @@
+"""A labelled drawing of a mechanism at an instant: bodies, joints, points, coordinates, forces, gravity, axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.instant import State
+from freebody.results import Array, plain
+from freebody.views import shapes
+from freebody.views.labels import Label, place_labels
+from freebody.views.paint import frame_axes, paint
+from freebody.views.scene import GROUND, Scene, Sketch, drawn, named_points, sketch_of_state
+from freebody.views.style import GROUND as GREY
+from freebody.views.style import INK, axes, colour, quiet
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from freebody.run import Source
+
+LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
+_MEASURE, _LOAD = "#7a1fa2", "#b3261e"
+_UNTOLD = ("origin", "G", "centre", "start", "end")
+
+
+class _Drawing:
+    """The drawing in the making: axes, labels waiting for a place, and where there is ink already."""
+
+    def __init__(self, sketch: Sketch, scene: Scene, ax: Axes) -> None:
+        self.sketch, self.scene, self.ax = sketch, scene, ax
+        self.labels: list[Label] = []
+        self.ink: list[Array] = []
+
+    def line(self, points: Array, tone: str, arrow: bool = False, **look: Any) -> None:
+        """A polyline, with an arrow head at its end."""
+        self.ink.append(points)
+        self.ax.plot(*points.T, color=tone, **{"lw": 1.3, "zorder": 4, **look})
+        if arrow:
+            head = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 11}
+            self.ax.annotate("", points[-1], points[-2], arrowprops=head, zorder=4)
+
+    def say(self, text: str, anchor: Array, tone: str = INK, **look: Any) -> None:
+        """A label, to be placed when everything is drawn."""
+        self.labels.append(Label(text.replace("$", r"\$"), np.asarray(anchor, float), tone, **look))
+
+
+def drawing(source: Source, state: State, ax: Axes | None = None, layers: Sequence[str] = LAYERS) -> Axes:
+    """Draw the mechanism at a state. ``layers`` chooses what is labelled."""
+    with quiet():
+        ax = axes(ax, (8.0, 6.0))
+        sketch = sketch_of_state(source, state)
+        scene = drawn(sketch)
+        sheet = _Drawing(sketch, scene, ax)
+        ax.set_axis_off()
+        frame_axes(scene, ax, margin=6.0)
+        paint(scene, ax)
+        for layer in layers:
+            _LAYERS[layer](sheet)
+        _draw_axes_and_gravity(sheet)
+        ax.set_title(scene.name.replace("$", r"\$"))
+        place_labels(ax, sheet.labels, np.vstack([_ink_of(scene), *map(_dense, sheet.ink)]))
+    return ax
+
+
+def _ink_of(scene: Scene) -> Array:
+    """Places all along the drawn lines."""
+    lines = [np.vstack([s.points, s.points[:1]]) if s.closed else s.points for f in scene.figures for s in f.strokes]
+    owners = [i for i, f in enumerate(scene.figures) for _ in f.strokes]
+    placed = [scene.place(i, line) for i, line in zip(owners, lines, strict=True)]
+    placed += [line for pair in scene.pairs for line in scene.pair_lines(pair)]
+    return np.vstack([_dense(line) for line in placed] or [np.zeros((1, 2))])
+
+
+def _dense(line: Array) -> Array:
+    """A polyline with points enough to be felt everywhere."""
+    return np.vstack([np.linspace(a, b, 16) for a, b in pairwise(line)])
+
+
+def _draw_bodies(sheet: _Drawing) -> None:
+    for i, body in enumerate(sheet.sketch.spec["bodies"], start=1):
+        strokes = [stroke.points for stroke in sheet.scene.figures[i].strokes] or [np.zeros((1, 2))]
+        largest = max(strokes, key=lambda points: float(np.prod(np.ptp(points, axis=0)) + np.ptp(points)))
+        sheet.say(body["name"], sheet.scene.place(i, largest.mean(axis=0)[None])[0], colour(i - 1), size=10.5, bold=True)
+
+
+def _draw_joints(sheet: _Drawing) -> None:
+    for joint in sheet.sketch.spec["joints"]:
+        where = _where(sheet.sketch, joint)
+        if where is not None:
+            sheet.say(joint["name"], where, INK, size=9.0)
+
+
+def _where(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
+    """Where a joint is: at the point of its second body."""
+    fields = joint["with"]
+    for key in ("point", "points", "circle", "follower", "line", "of"):
+        names = [name for name in named_points(fields.get(key, [])) if name in sketch.at]
+        if names:
+            return sketch.place(names[-1] if key == "of" else names[0])
+    return None
+
+
+def _draw_points(sheet: _Drawing) -> None:
+    """Points with names of their own, each place once; those of joints go by the joint's name."""
+    used = [_where(sheet.sketch, joint) for joint in sheet.sketch.spec["joints"]]
+    seen = [place for place in used if place is not None]
+    for name in sheet.sketch.at:
+        place = sheet.sketch.place(name)
+        told = name.rpartition(".")[2] not in _UNTOLD
+        if told and not any(np.allclose(place, other, atol=0.2 * sheet.scene.size) for other in seen):
+            seen.append(place)
+            sheet.line(np.array([place, place]), INK, marker="o", ms=3)
+            sheet.say(name, place, GREY, size=8.5)
+
+
+def _draw_coordinates(sheet: _Drawing) -> None:
+    """Every coordinate from its zero to its value; an arrow of fixed size shows the sense of one that is 0."""
+    joints = {joint["name"]: joint for joint in sheet.sketch.spec["joints"]}
+    for i, coordinate in enumerate(sheet.sketch.about["coordinates"]):
+        joint = joints.get(coordinate["joint"])
+        if joint is None:
+            continue
+        value = float(sheet.sketch.q[0, i])
+        given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == coordinate["name"]), {})
+        measure = _draw_angle if coordinate["dimension"] == "rad" else _draw_length
+        measure(sheet, joint, coordinate["name"], value, given.get("sense", 1))
+
+
+def _draw_angle(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: float, sense: int) -> None:
+    at, end = _where(sheet.sketch, joint), _direction(sheet.sketch, joint)
+    if at is None or end is None:
+        return
+    angle = np.fmod(value, 2 * np.pi) if abs(value) > 0.1 else 0.35
+    start, radius = end - sense * np.fmod(value, 2 * np.pi), 3.4 * sheet.scene.size
+    sheet.line(np.array([at, at + 1.25 * radius * np.array([np.cos(start), np.sin(start)])]), _MEASURE, lw=0.9, ls=(0, (4, 3)))
+    bow = shapes.arc(at, radius, start, start + sense * angle)
+    sheet.line(bow, _MEASURE, arrow=True)
+    sheet.say(f"{plain(name)} = {_figure(np.degrees(value))}°", bow[len(bow) // 2], _MEASURE)
+
+
+def _figure(value: float) -> str:
+    return f"{value + 0.0:.4g}".replace("-", "−")
+
+
+def _direction(sketch: Sketch, joint: Mapping[str, Any]) -> float | None:
+    """Where the joint's angle points to: along the second body's x axis, or from point to point."""
+    if joint["type"] in ("link", "rolling_circles", "polar"):
+        first, second = (sketch.place(name) for name in _two_points(joint))
+        return float(np.arctan2(*(second - first)[::-1]))
+    about = next(j for j in sketch.about["joints"] if j["name"] == joint["name"])
+    return None if about["second"] == GROUND else float(sketch.poses[0, sketch.names.index(about["second"]), 2])
+
+
+def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
+    fields = joint["with"]
+    return tuple(fields["of"]) if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
+
+
+def _draw_length(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: float, sense: int) -> None:
+    at, line = _where(sheet.sketch, joint), joint["with"].get("along") or joint["with"].get("on")
+    if at is None or not isinstance(line, Mapping) or "point" not in line:
+        return
+    body, _, along = sheet.sketch.line(line)
+    way = shapes.turn(along[None], float(sheet.sketch.poses[0, sheet.sketch.names.index(body), 2]))[0] * sense
+    aside = 2.6 * sheet.scene.size * np.array([way[1], -way[0]]) * sense
+    shown = value if abs(value) > sheet.scene.size else 3 * sheet.scene.size
+    start = at - value * way
+    arrow = np.array([start, start + shown * way]) - aside
+    sheet.line(arrow, _MEASURE, arrow=True)
+    sheet.line(np.array([start, arrow[0] - 0.2 * aside]), _MEASURE, lw=0.7)
+    sheet.say(f"{plain(name)} = {_figure(value)} m", arrow.mean(axis=0), _MEASURE)
+
+
+def _draw_forces(sheet: _Drawing) -> None:
+    for force in sheet.sketch.spec.get("forces", []):
+        fields = force["with"]
+        if force["type"] == "torque" and fields["on"] != GROUND:
+            _draw_torque(sheet, force["name"], fields)
+        elif force["type"] == "force":
+            _draw_force(sheet, force["name"], fields)
+
+
+def _draw_torque(sheet: _Drawing, name: str, fields: Mapping[str, Any]) -> None:
+    x, y, _ = sheet.sketch.poses[0, sheet.sketch.names.index(fields["on"])]
+    sense = np.sign(sheet.sketch.number(fields["value"])) or 1.0
+    bow = shapes.arc((x, y), 2.2 * sheet.scene.size, -sense * 0.7, sense * 3.4)
+    sheet.line(bow, _LOAD, arrow=True, lw=1.6)
+    sheet.say(name, bow[-1], _LOAD)
+
+
+def _draw_force(sheet: _Drawing, name: str, fields: Mapping[str, Any]) -> None:
+    number, at = sheet.sketch.number, sheet.sketch.place(fields["at"])
+    if fields.get("x") is not None or fields.get("y") is not None:
+        vector = np.array([number(fields.get("x") or 0.0), number(fields.get("y") or 0.0)])
+    else:
+        size, angle = number(fields["value"]), number(fields.get("direction") or 0.0)
+        vector = size * np.array([np.cos(angle), np.sin(angle)])
+    if fields.get("frame") == "body":
+        body = sheet.sketch.at[fields["at"]][0]
+        vector = shapes.turn(vector[None], float(sheet.sketch.poses[0, sheet.sketch.names.index(body), 2]))[0]
+    length = np.hypot(*vector)
+    if length > 0:
+        tail = at - vector / length * 6 * sheet.scene.size
+        sheet.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
+        sheet.say(name, tail, _LOAD)
+
+
+def _draw_springs(sheet: _Drawing) -> None:
+    for name, pair in {pair.name: pair for pair in sheet.scene.pairs if pair.kind in ("spring", "damper")}.items():
+        ends = [sheet.scene.place(i, np.array([[x, y]]))[0] for i, x, y in pair.ends]
+        sheet.say(name, np.mean(ends, axis=0), GREY)
+
+
+_LAYERS: dict[str, Callable[[_Drawing], None]] = {
+    "bodies": _draw_bodies,
+    "joints": _draw_joints,
+    "points": _draw_points,
+    "coordinates": _draw_coordinates,
+    "forces": _draw_forces,
+    "springs": _draw_springs,
+}
+
+
+def _draw_axes_and_gravity(sheet: _Drawing) -> None:
+    """The fixed axes in the lower left corner, the direction of gravity in the lower right one."""
+    ax, gravity = sheet.ax, sheet.sketch.spec.get("gravity")
+    g = np.array([sheet.sketch.number(x) for x in gravity]) if gravity else np.zeros(2)
+    arrows = [((18, 18), (34, 0), "x", GREY), ((18, 18), (0, 34), "y", GREY)]
+    if np.hypot(*g) > 0:
+        way = 34 * g / np.hypot(*g)
+        arrows.append((tuple(np.array([-24.0, 36.0]) - way / 2), tuple(way), "g", _LOAD))
+    for start, way, text, tone in arrows:
+        corner = (1, 0) if start[0] < 0 else (0, 0)
+        look = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
+        end = (start[0] + way[0], start[1] + way[1])
+        transform = _offset(ax, corner)
+        ax.annotate("", end, start, xycoords=transform, textcoords=transform, arrowprops=look, annotation_clip=False)
+        beyond = np.array(end) + 8 * np.array(way) / np.hypot(*way)
+        ax.annotate(text, tuple(beyond), xycoords=transform, color=tone, ha="center", va="center", fontsize=9.5, style="italic")
+
+
+def _offset(ax: Axes, corner: tuple[float, float]) -> Any:
+    """Points (1/72 inch) from a corner of the axes."""
+    from matplotlib.transforms import Affine2D, ScaledTranslation
+
+    return Affine2D().scale(ax.figure.dpi / 72) + ScaledTranslation(*corner, ax.transAxes)

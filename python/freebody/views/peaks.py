@@ -1,0 +1,57 @@
+"""The largest reaction of every joint, and when."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.results import Array, Signal, Window, refined
+
+if TYPE_CHECKING:
+    from freebody.run import Run
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest force of a joint on ``body``: its size and components (N) at time ``t`` (s), and the largest
+    couple (N·m) at ``t_couple``. An indeterminate reaction has no figures: they are None."""
+
+    joint: str
+    body: str
+    determinate: bool
+    t: float | None = None
+    size: float | None = None
+    Fx: float | None = None
+    Fy: float | None = None
+    couple: float | None = None
+    t_couple: float | None = None
+
+
+def peak_reactions(run: Run) -> list[Peak]:
+    """Peaks of all joints, refined between the steps where the motion is known there."""
+    sampled = run if run.recorded else run.at(Window(run.edges).samples())
+    return [_peak(run, sampled, i, name) for i, name in enumerate(run.reactions)]
+
+
+def _peak(run: Run, sampled: Run, i: int, name: str) -> Peak:
+    reaction = sampled.reactions[name]
+    if not reaction.determinate:
+        return Peak(name, reaction.second, False)
+    t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*_solved(run, i, t)[:, :2].T))
+    t_couple, couple = _largest(run, sampled.t, np.abs(reaction.M), lambda t: np.abs(_solved(run, i, t)[:, 2]))
+    force_x, force_y, _ = _solved(run, i, np.array([t]))[0].tolist()
+    return Peak(name, reaction.second, True, t, size, force_x, force_y, couple, t_couple)
+
+
+def _solved(run: Run, i: int, t: Array) -> Array:
+    """The reaction (nt, 3) of the i-th joint at times within the run."""
+    return run.motion.instants(t)[0][:, i]
+
+
+def _largest(run: Run, t: Array, sampled: Array, signal: Signal) -> tuple[float, float]:
+    if run.recorded or not sampled.any():
+        i = int(sampled.argmax())
+        return float(t[i]), float(sampled[i])
+    return refined(signal, t, sampled, candidates=2)

@@ -1,0 +1,118 @@
+"""The curves of the report: which there are, and their values as short lists."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.results import Array, Column, plain, quote, unit_of
+from freebody.views.plots import pretty_unit
+
+if TYPE_CHECKING:
+    from freebody.run import Run
+
+Curve = tuple[str, Array]
+_CURVES, _POINTS = 8, 900
+
+
+def frames(run: Run) -> Array:
+    """Times of the animation: 60 a second, yet enough for a short run and not too many for a browser."""
+    if run.recorded:
+        return _thinned(run.t, 1500)
+    most = int(np.clip(60_000 // max(len(run.bodies), 1), 120, 1500))
+    start, end = run.edges[0], run.edges[-1]
+    return np.linspace(start, end, int(np.clip(60 * (end - start), min(300, most), most)) + 1)
+
+
+def plots(run: Run) -> list[dict[str, Any]]:
+    """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
+    shown = run.at(_thinned(run.t, _POINTS))
+    made = []
+    for kind, title in (("coordinate", "Coordinates"), ("rate", "Rates"), ("acceleration", "Accelerations")):
+        made += _by_unit(shown, title, [column for column in run.columns if column.kind == kind])
+    made += _reactions(shown)
+    made += _energy(shown)
+    return made if run.recorded else made + _asked(shown)
+
+
+def _thinned(t: Array, most: int) -> Array:
+    """Every so-manieth time, the last one always."""
+    return t if len(t) <= most else t[np.unique(np.linspace(0, len(t) - 1, most).astype(int))]
+
+
+def _plot(title: str, unit: str, t: Array, curves: Sequence[Curve], note: str = "") -> dict[str, Any]:
+    """One plot; at most eight curves, and a note that says so."""
+    if len(curves) > _CURVES:
+        note = f"the first {_CURVES} of {len(curves)} curves. {note}".strip()
+    return {
+        "title": title,
+        "unit": pretty_unit(unit),
+        "t": _short(t, 8),
+        "curves": [{"name": name, "y": _short(y, 6)} for name, y in curves[:_CURVES]],
+        "note": note,
+    }
+
+
+def _short(values: Array, digits: int) -> list[float | None]:
+    """Numbers with as many digits as a plot shows; None where there is none."""
+    return [float(f"{x:.{digits}g}") if np.isfinite(x) else None for x in values]
+
+
+def _by_unit(run: Run, title: str, columns: Sequence[Column]) -> list[dict[str, Any]]:
+    """One plot for each unit among the columns of a kind."""
+    units = list(dict.fromkeys(column.unit for column in columns))
+    values = run.blocks[columns[0].kind].T if columns else []
+    curves = list(zip(columns, values, strict=True))
+    return [_plot(title, unit, run.t, [(_dotted(column), y) for column, y in curves if column.unit == unit]) for unit in units]
+
+
+def _dotted(column: Column) -> str:
+    """The name of a coordinate with Newton's dots."""
+    name = plain(column.name)
+    for call, dot in (("rate(", "\u0307"), ("accel(", "\u0308")):
+        if name.startswith(call):
+            inner = name[len(call) : -1]
+            return inner[0] + dot + inner[1:] if inner[0].isalpha() else f"{inner}{dot}"
+    return name
+
+
+def _reactions(run: Run) -> list[dict[str, Any]]:
+    known = [(name, reaction) for name, reaction in run.reactions.items() if reaction.determinate]
+    silent = [name for name, reaction in run.reactions.items() if not reaction.determinate]
+    note = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
+    couples = [(name, reaction.M) for name, reaction in known if reaction.M.any()]
+    made = (
+        [_plot("Reactions, size of the force", "N", run.t, [(name, r.size) for name, r in known], note)]
+        if known or silent
+        else []
+    )
+    return made + ([_plot("Reactions, couple", "N*m", run.t, couples)] if couples else [])
+
+
+def _energy(run: Run) -> list[dict[str, Any]]:
+    ledger = run.energy
+    curves = [
+        ("kinetic", ledger.kinetic),
+        ("potential", ledger.potential),
+        ("kinetic + potential", ledger.kinetic + ledger.potential),
+    ]
+    curves += [(f"work of {name.removesuffix('.work')}", work) for name, work in ledger.works.items()]
+    return [
+        _plot("Energy", "J", run.t, curves),
+        _plot("Energy that does not add up", "J", run.t, [("balance", ledger.balance)]),
+    ]
+
+
+def _asked(run: Run) -> list[dict[str, Any]]:
+    """The reported quantities that are not plotted yet, over the whole run; one that reads an indeterminate reaction is left out."""
+    plotted = {"t", *(column.name for column in run.columns), *(f"{quote(joint)}.F" for joint in run.reactions)}
+    texts = [text for text in dict.fromkeys(item.value for item in run.source.report) if text not in plotted]
+    units = {text: unit_of(text, run.columns) for text in texts}
+    values = dict(zip(texts, run.motion.evaluate(texts, run.t).T, strict=True)) if texts else {}
+    made = []
+    for unit in dict.fromkeys(units.values()):
+        curves = [(plain(text), y) for text, y in values.items() if units[text] == unit and not np.isnan(y).all()]
+        made += [_plot("Reported quantities", unit, run.t, curves)] if curves else []
+    return made

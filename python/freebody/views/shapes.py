@@ -1,0 +1,102 @@
+"""Plane outlines as polylines: pure geometry, in the axes of whoever asks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from freebody.results import Array
+
+_ARC_STEP = np.pi / 18
+
+
+def turn(points: Array, angle: float, at: ArrayLike = (0.0, 0.0)) -> Array:
+    """Points (k, 2) turned counter-clockwise by an angle (rad) about the origin, then moved by ``at``."""
+    c, s = np.cos(angle), np.sin(angle)
+    turned: Array = np.asarray(points, float) @ np.array([[c, s], [-s, c]]) + np.asarray(at, float)
+    return turned
+
+
+def arc(centre: ArrayLike, radius: float, start: float, end: float) -> Array:
+    """An arc from one angle to another (rad)."""
+    angles = np.linspace(start, end, max(2, int(np.ceil(abs(end - start) / _ARC_STEP)) + 1))
+    return np.asarray(centre, float) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def circle(centre: ArrayLike, radius: float) -> Array:
+    """A full circle, its last point short of its first."""
+    return arc(centre, radius, 0.0, 2 * np.pi)[:-1]
+
+
+def box(width: float, height: float) -> Array:
+    """Corners of a rectangle about the origin."""
+    return np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * (width / 2, height / 2)
+
+
+def convex_hull(points: Array) -> Array:
+    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    ordered = np.unique(np.round(np.asarray(points, float), 12), axis=0)
+    if len(ordered) < 3:
+        return ordered
+    lower, upper = _chain(ordered), _chain(ordered[::-1])
+    return np.array(lower[:-1] + upper[:-1])
+
+
+def _chain(ordered: Array) -> list[Array]:
+    chain: list[Array] = []
+    for point in ordered:
+        while len(chain) > 1 and _left(chain[-2], chain[-1], point) <= 1e-12:
+            chain.pop()
+        chain.append(point)
+    return chain
+
+
+def _left(a: Array, b: Array, c: Array) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def rounded_hull(points: Array, radius: float) -> Array:
+    """All places within a radius of the convex hull: a disk for one point, a capsule for two."""
+    hull = convex_hull(points)
+    if len(hull) == 1:
+        return circle(hull[0], radius)
+    edges = np.roll(hull, -1, axis=0) - hull
+    normals = np.arctan2(edges[:, 1], edges[:, 0]) - np.pi / 2
+    before = np.roll(normals, 1)
+    return np.vstack([arc(p, radius, a, a + (b - a) % (2 * np.pi)) for p, a, b in zip(hull, before, normals, strict=True)])
+
+
+def piece_outlines(shape: str, sizes: Mapping[str, float], corners: Array, thickness: float) -> list[tuple[Array, str]]:
+    """Outlines with their style of a piece of a body in its own axes; ``thickness`` is that of slender parts."""
+    if shape == "rod":
+        half = sizes["length"] / 2
+        return [(rounded_hull(np.array([[-half, 0.0], [half, 0.0]]), thickness), "body")]
+    if shape == "disk":
+        radius = sizes["radius"]
+        return [(circle((0, 0), radius), "body"), (np.array([[0.0, 0.0], [radius, 0.0]]), "mark")]
+    if shape == "ring":
+        radius = sizes["radius"]
+        return [(circle((0, 0), radius), "band"), (np.array([[radius - thickness, 0.0], [radius + thickness, 0.0]]), "mark")]
+    if shape == "rectangle":
+        return [(box(sizes["width"], sizes["height"]), "body")]
+    if shape == "polygon":
+        return [(corners, "body")]
+    if shape == "point":
+        return [(circle((0, 0), 1.4 * thickness), "mass")]
+    return []
+
+
+def zigzag(width: float, teeth: int = 8) -> Array:
+    """A spring from 0 to 1 along, ± width across."""
+    along = np.linspace(0.16, 0.84, 2 * teeth + 1)
+    across = np.where(np.arange(2 * teeth + 1) % 2, width, -width) * (np.arange(2 * teeth + 1) % (2 * teeth) != 0)
+    return np.vstack([[0, 0], np.column_stack([along, across]), [1, 0]])
+
+
+def dashpot(width: float) -> list[Array]:
+    """A damper from 0 to 1 along, ± width across: a cup, a piston and their rods."""
+    cup = [[0.66, width], [0.36, width], [0.36, -width], [0.66, -width]]
+    piston = [[0.52, -0.75 * width], [0.52, 0.75 * width]]
+    return [np.array(line, float) for line in ([[0, 0], [0.36, 0]], cup, piston, [[0.52, 0], [1, 0]])]

@@ -1,0 +1,66 @@
+"""Every system of the catalogue: each question goes through, each answer agrees with its independent value."""
+
+import json
+import math
+
+import pytest
+
+from freebody import catalogue
+from freebody.catalogue import Answer, Asked, Question, ask
+
+
+@pytest.mark.parametrize("identity", [system.id for system in catalogue.systems()])
+def test_every_answer_agrees(identity):
+    asked = list(catalogue.run(catalogue.find(identity)))
+    wrong = [f"{q.label}: {q.failure}" for q in asked if q.failure]
+    wrong += [
+        f"{q.label}: {a.label}: {a.value} {a.unit} against {a.check}, {a.digits:.1f} digits"
+        for q in asked
+        for a in q.answers
+        if not a.ok
+    ]
+    assert not wrong, "\n".join(wrong)
+    assert all(q.answers for q in asked if q.label != "energy ledger"), "a question without an answer"
+
+
+def test_every_system_has_a_main_model():
+    for system in catalogue.systems():
+        assert system.models[0].name == "model.yaml"
+        assert system.title
+
+
+def test_digits():
+    assert Answer("", 1.0, check=1.0).digits == 16
+    assert Answer("", 1.001, check=1.0, tolerance=1e-2).ok
+    assert not Answer("", math.nan, check=1.0, tolerance=1).ok
+    assert Answer("", [0.0, 1e-3], check=0.0, tolerance=1e-3, scale=1.0).ok
+    assert not Answer("", 1.0).ok, "an answer needs its check"
+
+
+def test_a_failure_does_not_hide_what_came_before_it():
+    @ask("half a question")
+    def half(case):
+        yield Answer("first", 1.0, check=1.0)
+        raise ValueError("broken")
+
+    assert isinstance(half, Question)
+    asked = half.put_to(None)
+    assert [a.label for a in asked.answers] == ["first"]
+    assert asked.failure == "ValueError: broken"
+    assert not asked.ok
+
+
+def test_json_has_what_a_script_needs():
+    rows = json.loads(
+        catalogue.to_json({"X": [Asked("q", [Answer("a", [1.0, 2.0], "m", [1.0, 2.0], "closed form")], "stopped")]})
+    )
+    assert rows[0] == {
+        "system": "X", "question": "q", "label": "a", "value": [1.0, 2.0], "unit": "m", "check": [1.0, 2.0],
+        "against": "closed form", "digits": 16.0, "tolerance": 1e-10, "ok": True,
+    }  # fmt: skip
+    assert rows[1] == {"system": "X", "question": "q", "failure": "stopped"}
+
+
+def test_an_unknown_system_is_met_with_the_known_ones():
+    with pytest.raises(KeyError, match=r"S19\.17"):
+        catalogue.find("S19.99")

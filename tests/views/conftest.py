@@ -1,0 +1,20 @@
+"""Runs shared by the views' tests; made once."""
+
+import pytest
+
+from .models import run_double_pendulum, run_four_bar
+
+
+@pytest.fixture(scope="session")
+def pendulum():
+    return run_double_pendulum()
+
+
+@pytest.fixture(scope="session")
+def four_bar():
+    return run_four_bar()
+
+
+@pytest.fixture(scope="session")
+def indeterminate():
+    return run_double_pendulum(until=0.5, indeterminate=["knee"])

@@ -1,0 +1,134 @@
+"""Plots, scenes, drawings and animations: structure, and that nothing is shown or left open."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+
+from freebody.views import animate as animation
+from freebody.views import plots, shapes
+from freebody.views.animate import animate
+from freebody.views.draw import drawing
+from freebody.views.labels import Label, place_labels
+from freebody.views.scene import of_run, of_state
+from freebody.views.style import axes
+
+from .models import run_double_pendulum
+from .zoo import zoo
+
+
+@pytest.mark.parametrize(
+    "plot",
+    [
+        lambda run, ax: plots.series(run, ax=ax),
+        lambda run, ax: plots.series(run, "theta", "rate(theta)", ax=ax),
+        lambda run, ax: plots.phase(run, "theta", ax=ax),
+        lambda run, ax: plots.against(run, "theta", "'main bearing'.F", ax=ax),
+        lambda run, ax: plots.paths(run, ax=ax),
+        lambda run, ax: plots.energy(run, ax=ax),
+        lambda run, ax: plots.reactions(run, ax=ax),
+    ],
+)
+def test_plots_draw_on_the_given_axes(plot, four_bar):
+    from matplotlib.figure import Figure
+
+    ax = Figure().add_subplot()
+    assert plot(four_bar, ax) is ax and ax.lines and ax.get_xlabel() and ax.get_ylabel()
+    fresh = plot(four_bar, None)
+    fresh.figure.canvas.draw()
+
+
+def test_polar_makes_its_own_axes(four_bar):
+    assert plots.polar(four_bar, "theta", "'main bearing'.F").name == "polar"
+
+
+def test_plots_leave_no_figure_open(four_bar):
+    import matplotlib.pyplot as plt
+
+    plots.series(four_bar)
+    drawing(four_bar.source, four_bar.start)
+    assert not plt.get_fignums()
+
+
+def test_three_units_are_refused(four_bar):
+    with pytest.raises(ValueError, match="3 units"):
+        plots.series(four_bar, "theta", "rate(theta)", "'main bearing'.Fx")
+
+
+def test_an_indeterminate_reaction_is_named_not_drawn(indeterminate):
+    ax = plots.reactions(indeterminate)
+    assert "knee" in ax.get_title(loc="left") and [line.get_label() for line in ax.lines][:1] == ["pivot"]
+
+
+def test_units_are_written_as_people_do():
+    assert plots.pretty_unit("N*m/s^2") == "N·m/s²" and plots.with_unit("x", "m") == "x  [m]"
+
+
+def test_names_that_look_like_mathematics_are_drawn():
+    run = run_double_pendulum(until=0.1, upper="50% $a_b^c\\d")
+    plots.series(run).figure.canvas.draw()
+    drawing(run.source, run.start).figure.canvas.draw()
+
+
+def test_rounded_hull_keeps_its_distance():
+    hull = shapes.rounded_hull(np.array([[0, 0], [2, 0], [1, 1], [1, 0.3]]), 0.1)
+    assert (np.hypot(*(hull - [2, 0]).T) >= 0.1 - 1e-12).all()
+    assert hull[:, 1].min() == pytest.approx(-0.1, abs=1e-3) and hull[:, 0].max() == pytest.approx(2.1, abs=1e-3)
+    assert len(shapes.rounded_hull(np.array([[1.0, 2.0]]), 0.5)) == 36
+    assert np.ptp(shapes.rounded_hull(np.array([[0, 0], [1, 0]]), 0.2), axis=0) == pytest.approx([1.4, 0.4], abs=1e-2)
+
+
+def test_a_scene_is_data(four_bar):
+    scene = of_run(four_bar, four_bar.t[::20])
+    told = json.loads(json.dumps(scene.to_json(), allow_nan=False))
+    assert [figure["name"] for figure in told["figures"]] == ["ground", "crank", "coupler", "rocker"]
+    assert len(told["poses"]) == len(told["t"]) and len(told["poses"][0]) == 12
+    assert told["pairs"][0]["kind"] == "spring" and [trace["name"] for trace in told["traces"]] == ["coupler.P"]
+    assert scene.pair_lines(scene.pairs[0])[0][-1] == pytest.approx([1.25, 0.75])
+
+
+def test_a_scene_of_a_state_is_that_of_the_run(four_bar):
+    one, many = of_state(four_bar.source, four_bar.start), of_run(four_bar)
+    assert one.poses[0] == pytest.approx(many.poses[0]) and len(one.figures) == len(many.figures)
+
+
+def test_every_joint_symbol_can_be_drawn():
+    source, state = zoo()
+    scene = of_state(source, state)
+    styles = {stroke.style for figure in scene.figures for stroke in figure.strokes}
+    assert {"body", "band", "mass", "mark", "slot", "pin", "weld", "rail", "hatch", "dash", "block"} <= styles
+    assert {pair.kind for pair in scene.pairs} == {"spring", "damper", "link", "belt"}
+    drawing(source, state)
+
+
+def test_labels_keep_off_each_other():
+    ax = axes(None)
+    place_labels(ax, [Label(f"label {i}", np.array([0.5, 0.5])) for i in range(9)], np.array([[0.5, 0.5]]))
+    boxes = [text.get_window_extent() for text in ax.texts]
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_a_drawing_names_everything(four_bar):
+    told = {text.get_text() for text in drawing(four_bar.source, four_bar.start).texts}
+    assert {"crank", "coupler", "rocker", "main bearing", "crank pin", "motor", "return spring", "coupler.P", "x", "y"} <= told
+    assert "θ = 57.3°" in told
+
+
+def test_gif_and_frames(pendulum, tmp_path):
+    from PIL import Image
+
+    gif = Image.open(animate(pendulum, tmp_path / "run.gif", fps=10, speed=2))
+    assert gif.n_frames == 11
+    first = animate(pendulum, tmp_path / "frame.svg", fps=2)
+    assert first.name == "frame_0.svg" and len(list(tmp_path.glob("frame_*.svg"))) == 5
+    with pytest.raises(ValueError, match=r"\.gif, \.mp4 or \.svg"):
+        animate(pendulum, tmp_path / "run.avi")
+
+
+def test_mp4_where_ffmpeg_is(pendulum, tmp_path, monkeypatch):
+    if shutil.which("ffmpeg"):
+        assert animate(pendulum, tmp_path / "run.mp4", fps=10).stat().st_size > 1000
+    monkeypatch.setattr(animation.shutil, "which", lambda name: None)
+    with pytest.raises(RuntimeError, match="ffmpeg"):
+        animate(pendulum, tmp_path / "run.mp4")

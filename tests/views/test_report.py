@@ -1,0 +1,123 @@
+"""The report: complete, self-contained, harmless whatever names a model uses, and alive in a browser."""
+
+import json
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+import pytest
+
+from freebody import storage
+from freebody.views.peaks import peak_reactions
+from freebody.views.report import report_html, write_report
+
+from .fake import FakeMechanism
+from .models import run_double_pendulum
+
+EVIL = '</script><script>document.title="hacked"</script><img src=x onerror=alert(1)>'
+
+
+class Tags(HTMLParser):
+    """All elements with their attributes, and the text of the data element."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self.data, self._inside = [], "", False
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append((tag, dict(attrs)))
+        self._inside = dict(attrs).get("id") == "data"
+
+    def handle_data(self, text):
+        self.data += text if self._inside else ""
+
+    def handle_endtag(self, tag):
+        self._inside = False
+
+
+def test_the_page_loads_nothing(four_bar):
+    page = report_html(four_bar)
+    tags = Tags(page).found
+    assert not [
+        tag for tag in tags if {"src", "href", "style", "srcset"} & tag[1].keys() or any(name.startswith("on") for name in tag[1])
+    ]
+    addresses = set(re.findall(r"https?://[^\"' ]+", page))
+    assert addresses <= {"http://www.w3.org/2000/svg"}  # the name of SVG, not an address to be fetched
+    assert not re.search(r"@import|url\(|fetch\(|XMLHttpRequest|innerHTML|eval\(", page)
+
+
+def test_names_are_harmless():
+    run = run_double_pendulum(until=0.2, upper=EVIL, name=EVIL)
+    page = report_html(run)
+    tags = Tags(page)
+    assert [tag for tag, _ in tags.found].count("script") == 2 and "img" not in [tag for tag, _ in tags.found]
+    assert EVIL not in page and "&lt;script&gt;" in page
+    assert EVIL in [figure["name"] for figure in json.loads(tags.data)["scene"]["figures"]]
+
+
+def test_the_page_says_it_all(four_bar):
+    page = report_html(four_bar)
+    for words in (
+        "reached t = 3 s",
+        "largest bearing load",
+        "crank level",
+        "Peak reactions",
+        "Energy ledger",
+        "rocker bearing",
+        "hinges without friction",
+    ):
+        assert words.lower() in page.lower(), words
+    data = json.loads(Tags(page).data)
+    titles = [plot["title"] for plot in data["plots"]]
+    assert {"Coordinates", "Rates", "Accelerations", "Energy", "Reported quantities"} <= set(titles)
+    assert len(data["scene"]["t"]) >= 180
+
+
+def test_an_indeterminate_reaction_has_no_figure(indeterminate):
+    page = report_html(indeterminate)
+    row = re.search(r"<tr><td>knee</td>.*?</tr>", page)[0]
+    assert "indeterminate" in row and not re.search(r"\d", row)
+
+
+def test_peaks_are_refined(four_bar):
+    peaks = {peak.joint: peak for peak in peak_reactions(four_bar)}
+    for name, reaction in four_bar.reactions.items():
+        assert peaks[name].size >= reaction.size.max()
+        assert peaks[name].Fx ** 2 + peaks[name].Fy ** 2 == pytest.approx(peaks[name].size ** 2)
+    assert peaks["main bearing"].size == pytest.approx(four_bar.report["largest bearing load"].value, rel=1e-9)
+
+
+def test_a_loaded_run_has_a_report(four_bar, tmp_path):
+    back = storage.load(four_bar.save(tmp_path / "run.csv"), FakeMechanism)
+    assert "Peak reactions" in report_html(back)
+
+
+def test_a_browser_shows_and_moves_it(tmp_path):
+    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if chromium is None:
+        pytest.skip("no chromium is installed")
+    page = write_report(run_double_pendulum(until=0.5, upper=EVIL), tmp_path / "report.html")
+    flags = [
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--enable-logging=stderr",
+        "--v=0",
+    ]
+    command = [
+        chromium,
+        *flags,
+        f"--user-data-dir={tmp_path / 'profile'}",
+        "--virtual-time-budget=2000",
+        "--dump-dom",
+        page.as_uri(),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    assert "CONSOLE" not in done.stderr, done.stderr
+    assert "<title>double pendulum</title>" in done.stdout
+    assert done.stdout.count("<svg") >= 6 and "t = 0.00" in done.stdout
+    assert len(re.findall(r'class="curve s\d" d="M', done.stdout)) >= 10

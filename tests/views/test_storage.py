@@ -1,0 +1,72 @@
+"""Saved and loaded again: every number, the model, and what cannot be known from a file."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from freebody import storage
+from freebody.compare import compare
+
+from .fake import FakeMechanism
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".csv"])
+def test_a_run_comes_back_to_the_last_bit(suffix, four_bar, tmp_path):
+    back = storage.load(four_bar.save(tmp_path / f"run{suffix}"), FakeMechanism)
+    assert (back.t == four_bar.t).all()
+    for kind, block in four_bar.blocks.items():
+        assert np.array_equal(back.blocks[kind], block, equal_nan=True), kind
+    for part in ("columns", "events", "outcome", "report", "settings", "stats"):
+        assert getattr(back, part) == getattr(four_bar, part), part
+    assert back.source.model == four_bar.source.model and back.source.report == four_bar.source.report
+    assert np.array_equal(back.end.q, four_bar.end.q) and np.array_equal(back.start.u, four_bar.start.u)
+
+
+def test_a_loaded_run_says_what_it_does_not_know(four_bar, tmp_path):
+    back = storage.load(four_bar.save(tmp_path / "run.csv"), FakeMechanism)
+    assert back["theta"][0] == four_bar["theta"][0] and (back["coupler.P"] == four_bar["coupler.P"]).all()
+    with pytest.raises(LookupError, match="again"):
+        back.evaluate("theta", 0.12345)
+    with pytest.raises(LookupError, match="was not saved"):
+        _ = back["2*theta"]
+    assert back.again()["2*theta"] == pytest.approx(2 * four_bar["theta"])
+
+
+def test_a_loaded_run_goes_on(four_bar, tmp_path):
+    back = storage.load(four_bar.save(tmp_path / "run.nc"), FakeMechanism)
+    assert back.continue_(3.2).t[-1] == 3.2
+
+
+def test_indeterminate_stays_indeterminate(indeterminate, tmp_path):
+    back = storage.load(indeterminate.save(tmp_path / "run.nc"), FakeMechanism)
+    assert not back.reactions["knee"].determinate
+    assert back.reactions["knee"].least.Fx == pytest.approx(indeterminate.reactions["knee"].least.Fx)
+
+
+def test_tables_of_other_libraries(four_bar):
+    data, table = four_bar.to_xarray(), four_bar.to_pandas()
+    chosen = data["reaction"].sel(joint="crank pin", part="Fx")
+    assert (chosen.values == four_bar.reactions["crank pin"].Fx).all() and bool(data["determinate"].all())
+    assert list(table.columns) == [column.name for column in four_bar.columns]
+    assert (table["theta"].to_numpy() == four_bar["theta"]).all() and table.attrs["units"]["theta"] == "rad"
+
+
+def test_loaded_and_live_are_compared_at_the_saved_times(four_bar, tmp_path):
+    back = storage.load(four_bar.save(tmp_path / "run.csv"), FakeMechanism)
+    assert compare(four_bar, back).largest.largest == 0
+    assert compare(back, back).largest.largest == 0
+
+
+def test_a_missing_library_is_one_line(four_bar, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match=r"^this needs xarray, which is not installed: pip install freebody\[table\]$"):
+        four_bar.to_xarray()
+
+
+def test_other_files_are_refused(four_bar, tmp_path):
+    (tmp_path / "x.csv").write_text("t,theta\n")
+    with pytest.raises(ValueError, match="no saved run"):
+        storage.load(tmp_path / "x.csv", FakeMechanism)
+    with pytest.raises(ValueError, match=r"\.nc or \.csv"):
+        four_bar.save(tmp_path / "run.xlsx")
