@@ -114,6 +114,15 @@ def test_what_is_wrong_is_said_at_the_call():
     assert list(m.model.bodies) == ["rod"]
 
 
+def test_parameters_can_be_overruled():
+    m = Mechanism.loads("freebody: 1\nparameters: {l: 1 m, m: 2*k, k: 1}\nparts: {leg: {file: leg.yaml}}\n")
+    m.parameters.update({"l": "2 ft", "leg.size": np.float64(3)})
+    assert dict(m.parameters) == {"l": "2 ft", "m": "2*k", "k": 1}
+    assert m.model.parts["leg"].written() == {"file": "leg.yaml", "parameters": {"size": 3.0}}
+    with pytest.raises(ModelFileError, match="no parameter `q`"):
+        m.parameters["q"] = 2
+
+
 def test_the_spec_is_made_again_only_after_a_change():
     m = Mechanism()
     m.particle("a", mass=1)

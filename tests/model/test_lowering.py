@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from freebody import _core
 from freebody.model import lower, reading, syntax
-from freebody.model.answers import ReportItem
 from freebody.model.errors import ModelFileError
 from freebody.model.mechanism import Mechanism
+from freebody.results import ReportItem
 
 
 def lowered(text: str, file: str | None = None) -> lower.Lowered:
@@ -101,7 +101,7 @@ def test_parts_come_in_under_their_name(tmp_path):
     assert made.spec["gauges"][0]["value"] == "y(left.thigh.knee) - left.l"
     assert made.spec["forces"][0]["with"]["value"] == "left.table(left.angle)*sin(t)"
     assert made.start.fixed == {"left.angle": math.radians(30), "right.angle": 0.1}
-    assert made.report[0].expression == "left.height - right.l"
+    assert made.report[0].value == "left.height - right.l"
 
 
 def test_a_wrong_parameter_of_a_part(tmp_path):
@@ -181,17 +181,17 @@ def test_a_track_with_a_gap():
 
 
 REPORTS = {
-    "v @ end": ReportItem("q", "v", at="end", unit="m/s"),
-    "v @ 0.3 s": ReportItem("q", "v", at=0.3, unit="m/s"),
-    "v @ 2*T": ReportItem("q", "v", at=4.0, unit="m/s"),
-    "t @ hits the wall": ReportItem("q", "t", at="hits the wall", unit="s"),
-    "v": ReportItem("q", "v", unit="m/s"),
-    "max of abs(v)": ReportItem("q", "abs(v)", kind="max", unit="m/s"),
-    "mean of v over 1 s .. end": ReportItem("q", "v", kind="mean", over=(1.0, "end"), unit="m/s"),
-    "integral of v over start .. T": ReportItem("q", "v", kind="integral", over=("start", 2.0), unit="m"),
-    "{value: v, at: end, unit: mph}": ReportItem("q", "v", at="end", unit="mph", scale=0.44704),
-    "{value: v @ end, unit: km/h}": ReportItem("q", "v", at="end", unit="km/h", scale=1 / 3.6),
-    "{rms: v, over: [0.5 s, 1.5]}": ReportItem("q", "v", kind="rms", over=(0.5, 1.5), unit="m/s"),
+    "v @ end": ReportItem("q", "v", at="end"),
+    "v @ 0.3 s": ReportItem("q", "v", at=0.3),
+    "v @ 2*T": ReportItem("q", "v", at=4.0),
+    "t @ hits the wall": ReportItem("q", "t", at="hits the wall"),
+    "v": ReportItem("q", "v", at="end"),
+    "max of abs(v)": ReportItem("q", "abs(v)", how="max"),
+    "mean of v over 1 s .. T": ReportItem("q", "v", how="mean", over=(1.0, 2.0)),
+    "{value: v, at: end, unit: mph}": ReportItem("q", "v", at="end", unit="mph"),
+    "{value: v @ end, unit: km/h}": ReportItem("q", "v", at="end", unit="km/h"),
+    "{rms: v, over: [0.5 s, 1.5]}": ReportItem("q", "v", how="rms", over=(0.5, 1.5)),
+    "{integral: v, unit: mm}": ReportItem("q", "v", how="integral", unit="mm"),
 }
 
 

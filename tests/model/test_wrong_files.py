@@ -130,6 +130,9 @@ CASES = {
         30,
         ["the points of a line belong to two bodies"],
     ),
+    "joint of one body": ("[ground.O, rod.A]", "[rod.B, rod.A]", 7, 10, ["both sides of this joint are on `rod`"]),
+    "force that reads an answer": ("value: T", "value: pivot.Fx*l", 9, 41, ["pivot.Fx", "cannot be read here"]),
+    "gauge that reads the time": ("run:", "gauges: {g: theta + t}\nrun:", 11, 13, ["`t`"]),
     "part that is not there": ("run:", "parts: {leg: {file: leg.yaml}}\nrun:", 11, 21, ["there is no file `leg.yaml`"]),
     "part from elsewhere": ("run:", "parts: {leg: {file: ../../leg.yaml}}\nrun:", 11, 21, ["outside the folder of the model"]),
 }
@@ -140,7 +143,7 @@ def problems(text: str, tmp_path) -> list:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ModelFileError) as caught:
         model, source = reading.read(path)
-        lower.lower(model, source, path)
+        lower.lower(model, source, path).compile()
     assert str(caught.value).startswith(str(tmp_path))
     return caught.value.problems
 

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from freebody.results import ReportItem
+
 from . import start, units
 from .errors import Complaint, Path
 from .names import suggestion
@@ -19,31 +21,24 @@ _OVER = re.compile(r"(.+?)\s+over\s+(.+?)\s*\.\.\s*(.+)", re.DOTALL)
 _WORDS = ("start", "end")
 
 Moment = str | float
-"""``start``, ``end``, the name of an event, or a time in s; before parameters are known also an expression of them."""
+"""``start``, ``end``, the name of an event, a time in s, or an expression of parameters for one, marked by ``=``."""
 
 
 @dataclass(frozen=True)
-class ReportItem:
-    """One quantity to report.
-
-    ``kind`` is ``value``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``. A value has its moment in ``at``, or is wanted
-    over the whole run when that is None; the others may have a window in ``over``. ``expression`` gives SI; the printed
-    figure is that divided by ``scale``, in ``unit`` (empty: a plain number or not known).
-    """
+class Asked:
+    """A quantity to report before parameters are known; see ``ReportItem``."""
 
     label: str
-    expression: str
-    kind: str = "value"
-    at: Moment | None = None
+    value: str
+    how: str = "at"
+    at: Moment = "end"
     over: tuple[Moment, Moment] | None = None
     unit: str = ""
-    scale: float = 1.0
 
     def with_parameters(self, values: Mapping[str, float]) -> ReportItem:
         """The item with times as numbers. Raises ``Complaint``."""
-        at = None if self.at is None else _time(self.at, values)
-        over = None if self.over is None else (_time(self.over[0], values), _time(self.over[1], values))
-        return replace(self, at=at, over=over)
+        over = None if self.over is None else (float(_time(self.over[0], values)), float(_time(self.over[1], values)))
+        return ReportItem(self.label, self.value, self.how, _time(self.at, values), over, self.unit)
 
 
 @dataclass(frozen=True)
@@ -87,9 +82,9 @@ class AnswerWriter:
             self.write.scope.complain(("run", "method"), "`rk4` needs a fixed step", "add `step: 1 ms`, or choose `dop853`")
         return Run(method=run.method, **found)
 
-    def report(self) -> list[ReportItem]:
+    def report(self) -> list[Asked]:
         """The quantities to report, in order."""
-        found: list[ReportItem] = []
+        found: list[Asked] = []
         for label, asked in self.model.report.items():
             path: Path = ("report", label)
             try:
@@ -98,7 +93,7 @@ class AnswerWriter:
                 self.write.scope.complain(path, complaint.what, complaint.hint)
         return found
 
-    def _text(self, path: Path, text: str, unit: str | None = None) -> ReportItem:
+    def _text(self, path: Path, text: str, unit: str | None = None) -> Asked:
         if statistic := _STATISTIC.fullmatch(text):
             kind, rest = statistic.groups()
             window = _OVER.fullmatch(rest)
@@ -108,29 +103,34 @@ class AnswerWriter:
         expression, sign, moment = text.rpartition("@")
         return self._item(path, "value", expression if sign else text, moment.strip() if sign else None, None, unit)
 
-    def _mapping(self, path: Path, asked: Question) -> ReportItem:
+    def _mapping(self, path: Path, asked: Question) -> Asked:
         kind = next(word for word in ("value", *EXTREMES) if getattr(asked, word) is not None)
         text = getattr(asked, kind)
         if kind == "value" and asked.at is None:
             return self._text(path, text, asked.unit)
         return self._item(path, kind, text, asked.at, asked.over, asked.unit)
 
-    def _item(self, path: Path, kind: str, text: str, at: Any, over: Sequence[Any] | None, unit: str | None) -> ReportItem:
+    def _item(self, path: Path, kind: str, text: str, at: Any, over: Sequence[Any] | None, unit: str | None) -> Asked:
         expression, dimension = self.write.measured(text.strip())
-        dimension = self._dimension(kind, units.TIME if expression == "t" else dimension)
-        moment = None if at is None else self._moment(at)
-        window = None if over is None else (self._moment(over[0]), self._moment(over[1]))
-        item = ReportItem(str(path[1]), expression, kind, moment, window, dimension.unit() if dimension else "")
-        return item if unit is None else self._in_unit(path, item, unit, dimension)
+        moment = "end" if at is None else self._moment(at)
+        window = None if over is None else (self._window_end(over[0]), self._window_end(over[1]))
+        if unit is not None:
+            self._check_unit(path, unit, self._dimension(kind, units.TIME if expression == "t" else dimension))
+        return Asked(str(path[1]), expression, "at" if kind == "value" else kind, moment, window, unit or "")
 
-    def _in_unit(self, path: Path, item: ReportItem, unit: str, own: Dimension | None) -> ReportItem:
-        scale, dimension = units.convert(unit)
+    def _check_unit(self, path: Path, unit: str, own: Dimension | None) -> None:
+        _, dimension = units.convert(unit)
         if own is not None and not own.fits(dimension):
             what = f"the value is {own.words()}; `{unit}` is the unit of {dimension.words()}"
             self.write.scope.complain(
                 (*path, "unit"), what, f"write e.g. `unit: {own.unit()}`" if own.unit() else "leave the unit out"
             )
-        return replace(item, unit=unit, scale=scale)
+
+    def _window_end(self, moment: Any) -> Moment:
+        found = self._moment(moment)
+        if isinstance(found, str) and not found.startswith("="):
+            raise Complaint(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
+        return found
 
     def _dimension(self, kind: str, dimension: Dimension | None) -> Dimension | None:
         return dimension.times(units.TIME) if dimension and kind == "integral" else dimension

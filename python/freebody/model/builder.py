@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import linecache
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path as FilePath
 from typing import Any
 
 from pydantic import ValidationError
 
 from freebody import _core
+from freebody.results import ReportItem
 
 from . import file, reading, schema
-from .answers import ReportItem, Run
+from .answers import Run
 from .errors import Complaint, ModelFileError, Path, Problem, Where, path_text
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
 from .meanings import EVERY_BODY, SHAPE_POINTS
-from .names import spell
+from .names import spell, suggestion
 from .source import Source
 from .start import Assembly, initial_state, parameter_values
 
@@ -34,7 +35,7 @@ class Calls:
 
     def note(self, path: Path) -> None:
         """Remembers the line outside freebody that is being executed."""
-        self.made[path] = _caller()
+        self.made[path] = caller()
 
     def where(self, path: Path, at_key: bool = False) -> Where:
         """The place of an item, or of the nearest that holds it."""
@@ -49,7 +50,8 @@ def called(file: str, line: int, path: Path) -> Where:
     return Where(file, line, 0, path_text(path), linecache.getline(file, line).strip())
 
 
-def _caller() -> tuple[str, int]:
+def caller() -> tuple[str, int]:
+    """The file and line outside freebody that is being executed."""
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename.startswith(_OWN):
         frame = frame.f_back
@@ -68,6 +70,43 @@ def plain(value: Any) -> Any:
         listed = value.tolist() if hasattr(value, "tolist") else value
         return [plain(v) for v in listed] if isinstance(listed, (list, tuple)) else listed
     return value
+
+
+class Overrules(MutableMapping[str, Any]):
+    """The parameters of a model, those of its parts as ``part.name``. Unknown names raise ``ModelFileError``."""
+
+    def __init__(self, builder: Builder) -> None:
+        self._builder = builder
+
+    def __getitem__(self, name: str) -> Any:
+        known, rest, _ = self._place(name)
+        return known[rest]
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        known, rest, path = self._place(name)
+        made = self._builder.validated({"parameters": {rest: plain(value)}}, path)
+        known[rest] = made.parameters[rest]
+        self._builder.noted(path)
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("a parameter cannot be taken out of a model that may use it")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._builder.model.parameters)
+
+    def __len__(self) -> int:
+        return len(self._builder.model.parameters)
+
+    def _place(self, name: str) -> tuple[dict[str, Any], str, Path]:
+        model = self._builder.model
+        if name in model.parameters:
+            return model.parameters, name, ("parameters", name)
+        part, dot, rest = name.partition(".")
+        if dot and part in model.parts:
+            model.parts[part].model_fields_set.add("parameters")
+            return model.parts[part].parameters, rest, ("parts", part, "parameters", rest)
+        hint = suggestion(name, model.parameters, "parameters")
+        raise self._builder.error(("parameters", name), f"there is no parameter `{name}`", hint, caller())
 
 
 class Builder:
@@ -131,6 +170,11 @@ class Builder:
         return f"<mechanism {m.name!r}: {len(m.bodies)} bodies, {len(m.joints)} joints, {len(m.forces)} forces>"
 
     # -- what the model says, piece by piece
+
+    @property
+    def parameters(self) -> Overrules:
+        """The parameters by name; those that the model has can be given other numbers."""
+        return Overrules(self)
 
     def parameter(self, name: str, value: Any) -> Expression:
         """Names a number; the answer stands for it in arithmetic: ``2*T``."""
@@ -203,12 +247,12 @@ class Builder:
         name, old = str(plain(name)), getattr(self.model, section)
         if note:
             if name in old:
-                raise self._error(
-                    (section, name), f"`{name}` is used twice in {section}", "give one of them another name", _caller()
+                raise self.error(
+                    (section, name), f"`{name}` is used twice in {section}", "give one of them another name", caller()
                 )
             self._calls.note((section, name))
         # Validated alone, so that making many items takes linear time.
-        made = self._validated({section: {name: plain(value)}}, (section, name))
+        made = self.validated({section: {name: plain(value)}}, (section, name))
         old[name] = getattr(made, section)[name]
         self.model.model_fields_set.add(section)
         self._changed()
@@ -216,11 +260,12 @@ class Builder:
     def _assign(self, section: str, value: Any, note: bool = True) -> None:
         if note:
             self._calls.note((section,))
-        made = self._validated({section: plain(value)}, (section,))
+        made = self.validated({section: plain(value)}, (section,))
         setattr(self.model, section, getattr(made, section))
         self._changed()
 
-    def _validated(self, data: dict[str, Any], path: Path) -> schema.Model:
+    def validated(self, data: dict[str, Any], path: Path) -> schema.Model:
+        """A model of that data alone. Raises ``ModelFileError``."""
         try:
             return schema.Model.model_validate({"freebody": schema.VERSION} | data)
         except ValidationError as error:
@@ -228,10 +273,16 @@ class Builder:
             self._calls.made.pop(path, None)
             raise ModelFileError(found) from None
 
-    def _error(self, path: Path, what: str, hint: str, at: tuple[str, int]) -> ModelFileError:
+    def error(self, path: Path, what: str, hint: str, at: tuple[str, int]) -> ModelFileError:
+        """The error about an item, at a Python call."""
         return ModelFileError([Problem(called(*at, path), what, hint)])
 
     # -- what others make of it
+
+    def noted(self, path: Path) -> None:
+        """Remembers that the item was made by the call that is being executed."""
+        self._calls.note(path)
+        self._changed()
 
     def _changed(self) -> None:
         self._lowered = self._compiled = None
@@ -256,7 +307,7 @@ class Builder:
         try:
             return initial_state(self.lowered().start, self.compile(), overrides)
         except Complaint as complaint:
-            raise self._error(("initial",), complaint.what, complaint.hint, _caller()) from None
+            raise self.error(("initial",), complaint.what, complaint.hint, caller()) from None
 
     def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Run:
         """The settings of ``run`` as numbers, for these parameters (the model's by default)."""

@@ -12,7 +12,7 @@ from typing import Any
 from freebody import _core
 
 from . import cards, elements, meanings, scope, units
-from .answers import AnswerWriter, ReportItem, Run
+from .answers import AnswerWriter, Asked, Run
 from .bodies import BodyWriter
 from .errors import Complaint, ModelFileError, Path, Problem, Where
 from .names import suggestion
@@ -39,7 +39,7 @@ class Lowered:
     spec: Spec
     start: Start
     run: Run
-    report: list[ReportItem]
+    report: list[Asked]
     root: Scope
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
 

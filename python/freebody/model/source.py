@@ -128,7 +128,7 @@ class _Reader:
             return self._mapping(node, path)
         if isinstance(node, SequenceNode):
             return [self.read(item, (*path, i)) for i, item in enumerate(node.value)]
-        return _scalar(node)
+        return _scalar(node.tag.rpartition(":")[2], _paired(node.value))
 
     def _mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
         out: dict[str, Any] = {}
@@ -142,15 +142,14 @@ class _Reader:
                     "in flow style write `{name: value}`; expressions in braces need quotes",
                 )
                 continue
-            inner = (*path, key.value)
-            if key.value in out:
+            name = _paired(key.value)
+            inner = (*path, name)
+            if name in out:
                 first = self.source.keys[inner][0]
-                self._complain(
-                    mark, inner, f"`{key.value}` is used twice (first in line {first})", "give one of them another name"
-                )
+                self._complain(mark, inner, f"`{name}` is used twice (first in line {first})", "give one of them another name")
                 continue
             self.source.keys[inner] = mark
-            out[key.value] = self.read(value, inner)
+            out[name] = self.read(value, inner)
         return out
 
     def _complain(self, mark: Mark, path: Path, what: str, hint: str) -> None:
@@ -158,14 +157,21 @@ class _Reader:
         self.source.problems.append(Problem(where, what, hint))
 
 
-def _scalar(node: ScalarNode) -> Any:
-    kind, text = node.tag.rpartition(":")[2], node.value
+def _paired(text: str) -> str:
+    """The text with the two halves of a sign joined that JSON writes as ``\\ud83d\\ude00``; a lone half becomes a mark."""
+    return text if text.isascii() else text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
+
+
+def _scalar(kind: str, text: str) -> Any:
+    """The value of a scalar whose tag ends so."""
     if kind == "null":
         return None
     if kind == "bool":
         return text.lower() == "true"
     if kind == "int":
         digits = text.replace("_", "")
+        if len(digits) > 400:
+            return math.inf
         return int(digits, 0) if digits.lstrip("+-")[:2].lower() in ("0x", "0o") else int(digits)
     if kind == "float":
         return _float(text.replace("_", "").lower())

@@ -39,6 +39,8 @@ def parse(text: str) -> Expression:
     rewritten = units.rewrite(text)
     try:
         tree = json.loads(_core.parse(rewritten.text))
+    except UnicodeEncodeError:
+        raise Complaint("the expression holds a character that is none", "type it anew") from None
     except _core.ExpressionError as error:
         start, end, what, hint = error.args
         place = rewritten.text[start:end].strip()

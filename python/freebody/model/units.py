@@ -161,7 +161,7 @@ def word(text: str) -> Unit | None:
     """The unit of one word, e.g. ``mm``; None when there is none of mechanics."""
     if text in _COHERENT:
         return Unit(Fraction(1), _COHERENT[text])
-    if text in _NO_UNITS:
+    if text in _NO_UNITS or not (text.isidentifier() or text == "°"):
         return None
     registry = _registry()
     try:

@@ -1,3 +1,0 @@
-from . import fake_core
-
-fake_core.install()
