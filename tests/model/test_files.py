@@ -98,6 +98,15 @@ def test_saving_twice_changes_nothing(tmp_path):
     assert (tmp_path / "a.yaml").read_text() == (tmp_path / "b.yaml").read_text()
 
 
+def test_the_example_of_the_page_runs():
+    page = (Path(__file__).parents[2] / "docs" / "model_file.md").read_text()
+    example = page.split("```yaml\n")[1].split("```")[0]
+    m = Mechanism.loads(example)
+    q, _, _ = m.compile().assemble(**m.initial_state())
+    assert list(q) == [0.0, 0.1]
+    assert m.report_items()[0].at == "leaves"
+
+
 def test_json_with_tabs_is_accepted():
     text = json.dumps(new_gun().model.written(), indent="\t")
     assert file.loads(text) == new_gun().model
