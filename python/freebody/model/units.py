@@ -135,7 +135,7 @@ _COMMON = (
 _NO_UNITS = {"c", "pi", "tau", "e", "G", "speed_of_light", "count", "percent", "ppm"}
 
 _NUMBER = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*")
-_PIECE = re.compile(r"\s*([^\W\d]\w*|°|\d+|\*\*|[*^/·()²³-])")
+_PIECE = re.compile(r"\s*([^\W\d²³][^\W²³]*|°|\d+|\*\*|[*^/·()²³-])")
 
 
 @cache
