@@ -216,7 +216,8 @@ impl<'a> Runner<'a> {
         if self.pace.is_fixed() || ahead * h <= 0.0 || ahead.abs() > 1.5 * h.abs() {
             return h;
         }
-        match ahead.abs() <= 1.2 * gap * h.abs() {
+        // Less than the least shortening after a rejection, lest the same step be tried again.
+        match ahead.abs() <= 1.05 * gap * h.abs() {
             true => ahead / gap,
             false => ahead - gap * h,
         }
@@ -263,6 +264,7 @@ impl<'a> Runner<'a> {
         self.run.trajectory.segments.push(segment);
         self.run.accepted += 1;
         std::mem::swap(&mut self.now, &mut self.next);
+        self.norm.noise = self.system.system.noise();
         self.blind.1 = self.system.system.blind_spot(self.now.t, &self.now.y);
     }
 

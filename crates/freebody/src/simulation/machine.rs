@@ -35,6 +35,7 @@ pub struct Machine<'m> {
     pub(super) worst_gap: f64,
     /// Whether the loops are near a configuration where they lose independence.
     delicate: bool,
+    independence: f64,
     scales: Vec<f64>,
 }
 
@@ -55,6 +56,7 @@ impl<'m> Machine<'m> {
             stretches: vec![first],
             worst_gap: 0.0,
             delicate: false,
+            independence: 1.0,
             scales: vec![1.0; size],
         }
     }
@@ -195,10 +197,21 @@ impl System for Machine<'_> {
         let (q, rest) = y.split_at_mut(n);
         let moved = self.balance.close(t, q, &rest[..n])?;
         self.worst_gap = self.worst_gap.max(self.balance.worst_gap());
-        self.delicate = self.balance.independence() < DELICATE;
+        self.independence = self.balance.independence();
+        self.delicate = self.independence < DELICATE;
         let turned = self.balance.align(t, q, &mut rest[..n])?;
         let pace = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / pace))
+    }
+
+    /// A gap of round-off size is a rate error of its size over the independence cubed: once for the positions, once for
+    /// the velocities, once for the accelerations that close it. Within a step the independence may fall to a third.
+    fn noise(&self) -> f64 {
+        if self.delicate {
+            100.0 * f64::EPSILON / self.independence.powi(3)
+        } else {
+            0.0
+        }
     }
 
     /// When the loops lose independence, from how fast they do so now.
