@@ -21,7 +21,7 @@ from .lower import Lowered, lower
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .names import spell, suggestion
 from .source import Source
-from .start import Assembly, initial_state, parameter_values
+from .start import Assembly, Start, initial_state, parameter_values
 
 _OWN = str(FilePath(__file__).parent.parent)
 
@@ -302,12 +302,18 @@ class Builder:
             self._compiled = (self._lowered[0], lowered.compile())
         return self._compiled[1]
 
-    def initial_state(self, overrides: Mapping[str, Any] | None = None) -> Assembly:
-        """Arguments for ``compile().assemble``, with coordinates and parameters overruled. Raises ``ModelFileError``."""
+    def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:
+        """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``.
+
+        Raises ``ModelFileError``.
+        """
+        start = self.lowered().start
+        if initial is not None:
+            start = Start(coordinates=start.coordinates, parameters=start.parameters)
         try:
-            return initial_state(self.lowered().start, self.compile(), overrides)
+            return initial_state(start, self.compile(), {**(initial or {}), **(changes or {})})
         except Complaint as complaint:
-            raise self.error(("initial",), complaint.what, complaint.hint, caller()) from None
+            raise self.error((), complaint.what, complaint.hint, caller()) from None
 
     def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Run:
         """The settings of ``run`` as numbers, for these parameters (the model's by default)."""

@@ -6,14 +6,17 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from freebody.moving import Moving
+
 from . import cards, schema
 from .builder import Builder
 from .handles import Body, Element
 from .scope import coordinate_names
 
 
-class Mechanism(Builder):
-    """A mechanism under construction; see ``Builder``. Each shape, joint and force is a method: ``rod``, ``hinge`` …"""
+class Mechanism(Moving, Builder):
+    """A mechanism under construction; see ``Builder``. Each shape, joint and force is a method: ``rod``, ``hinge`` …;
+    ``Moving`` solves, simulates and draws it."""
 
 
 _KEYWORD = inspect.Parameter.KEYWORD_ONLY
