@@ -6,7 +6,7 @@
 use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
-use super::{Balance, Source};
+use super::{Balance, Row, Source};
 use crate::plane::Wrench;
 use crate::solve::{Matrix, Orthogonal};
 
@@ -90,21 +90,33 @@ impl Balance<'_> {
         }
     }
 
-    /// The largest rank at a few configurations nearby, on the closed loops.
+    /// The largest rank at a few configurations nearby, reached by motions that the loops allow.
     fn nearby_rank(&mut self, here: usize) -> usize {
         let (t, q, u) = (self.t, self.q.clone(), self.u.clone());
+        self.rows = self.geometric();
+        // A factorisation that fails for want of inertia has still found the motions.
+        let _ = self.factor(Force::Gradient);
+        let motions = self.dense.saddle.motions();
         let still = vec![0.0; u.len()];
         let mut most = here;
-        for k in 1..=3 {
-            let step = |i: usize| 1e-2 * ((k * (i + 1)) as f64 * std::f64::consts::SQRT_2).sin();
-            let unit = column_scales(self.at(), self.length);
-            let mut near: Vec<f64> = (0..q.len()).map(|i| q[i] + step(i) * unit[i]).collect();
+        for k in 0..motions.cols() {
+            let along: Vec<f64> = (0..q.len()).map(|i| 1e-2 * motions[(i, k)]).collect();
+            let mut step = still.clone();
+            self.place(t, &q, &u);
+            self.to_user(&along, &mut step);
+            let mut near: Vec<f64> = q.iter().zip(&step).map(|(q, d)| q + d).collect();
             if self.close(t, &mut near, &still).is_ok() {
                 most = most.max(self.closing_rank().0);
             }
         }
         self.place(t, &q, &u);
         most
+    }
+
+    /// The rows that close loops, motions left out.
+    fn geometric(&self) -> Vec<Row> {
+        let motion = |s: Source| matches!(s, Source::Drive(d) if !self.m.drives[d].coupling);
+        closing_rows(self.at(), None).into_iter().filter(|r| !motion(r.source)).collect()
     }
 
     fn geometric_rows(&self) -> usize {
@@ -114,8 +126,7 @@ impl Balance<'_> {
 
     /// Rank of the rows that close loops, motions left out.
     fn closing_rank(&self) -> (usize, bool) {
-        let motion = |s: Source| matches!(s, Source::Drive(d) if !self.m.drives[d].coupling);
-        let rows: Vec<_> = closing_rows(self.at(), None).into_iter().filter(|r| !motion(r.source)).collect();
+        let rows = self.geometric();
         if rows.is_empty() || self.m.freedom() == 0 {
             return (0, false);
         }
