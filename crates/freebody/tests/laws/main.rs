@@ -1,0 +1,7 @@
+//! The laws of mechanics, stated over the lists of joints, gauges, forces and integrators, and over mechanisms
+//! thrown together at random. What is new in a list is tested because it is there.
+
+mod joints;
+mod model;
+mod rng;
+mod thrown;
