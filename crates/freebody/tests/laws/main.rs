@@ -2,6 +2,8 @@
 //! thrown together at random. What is new in a list is tested because it is there.
 
 mod joints;
+mod random;
+mod random_mechanisms;
 mod model;
 mod rng;
 mod thrown;

@@ -156,12 +156,11 @@ impl Thrown {
         let relative = |numbers: &[f64], q: &[f64]| kind.pose(&Numbers { of: numbers, curve: Some(&wave) }, q);
         let first_turns = of_kind(Role::First) == Some(FieldKind::Line);
         let second_turns = matches!(of_kind(Role::Second), Some(FieldKind::Line | FieldKind::Points));
-        let (mut alpha, mut beta) = (if first_turns { rng.about(3.0) } else { 0.0 }, 0.0);
+        let mut alpha = if first_turns { rng.about(3.0) } else { 0.0 };
+        let beta = if second_turns { rng.about(3.0) } else { 0.0 };
         if let Some(there) = relative(&numbers, &q) {
-            let missing = theta_b - theta_a - alpha - there.angle;
-            if second_turns {
-                beta = -missing;
-            } else if first_turns {
+            let missing = theta_b + beta - theta_a - alpha - there.angle;
+            if first_turns {
                 alpha += missing;
             } else if !(self.is_particle(a) || self.is_particle(b)) {
                 turn_by(kind, &mut numbers, &mut q, &wave, missing);
