@@ -35,9 +35,33 @@ impl Balance<'_> {
         self.check_consistent(solution.inconsistency, &asked)?;
         self.solved.nu_dot.copy_from_slice(&solution.a);
         self.solved.lambda = solution.lambda;
+        self.settle();
+        self.refine(&asked);
+        Ok(())
+    }
+
+    /// Bodies and loads of the joint accelerations and multipliers found.
+    fn settle(&mut self) {
         self.k.spread(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
         self.pass_loads();
-        Ok(())
+    }
+
+    /// One step of iterative refinement: what the balance of the bodies leaves along the freedom of each joint, which can
+    /// pass nothing there, is asked of the factored equations again. Small masses behind large ones keep their digits.
+    fn refine(&mut self, asked: &[f64]) {
+        let mut left = vec![0.0; self.m.freedom()];
+        for (i, body) in self.m.bodies.iter().enumerate() {
+            let Some(b) = body.branch else { continue };
+            for k in 0..b.freedom {
+                left[b.start + k] = -self.solved.passed[i].power(self.k.columns[i][k]);
+            }
+        }
+        let told = self.dense.g.mul_vec(&self.solved.nu_dot);
+        let gap: Vec<f64> = asked.iter().zip(told).map(|(r, g)| r - g).collect();
+        let more = self.dense.saddle.solve(&left, &gap);
+        self.solved.nu_dot.iter_mut().zip(&more.a).for_each(|(x, d)| *x += d);
+        self.solved.lambda.iter_mut().zip(&more.lambda).for_each(|(x, d)| *x += d);
+        self.settle();
     }
 
     /// Sets up and factors the equations of the present state; returns the generalized forces.
@@ -65,7 +89,7 @@ impl Balance<'_> {
         mass_matrix(at, &self.arms, &mut self.dense.mass);
         rows_in_coordinates(at, &self.rows, &mut self.dense.g, &mut self.dense.b);
         let columns = column_scales(at, self.length);
-        let scales = row_scales(&self.dense.g, &columns);
+        let scales = row_scales(&self.rows, &self.dense.g, &columns, self.length);
         let own = force == Force::OwnWay && self.rows.iter().any(|row| row.force.is_some());
         let d = &mut self.dense;
         let b = own.then_some(&d.b);
@@ -113,7 +137,7 @@ impl Balance<'_> {
 
     fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), Trouble> {
         let columns = column_scales(self.at(), self.length);
-        let scales = row_scales(&self.dense.g, &columns);
+        let scales = row_scales(&self.rows, &self.dense.g, &columns, self.length);
         let most = asked.iter().zip(&scales).map(|(r, s)| (r * s).abs()).fold(1.0, f64::max);
         if inconsistency <= CONTRADICTION * most {
             return Ok(());
@@ -154,15 +178,21 @@ pub(super) fn column_scales(at: Placed<'_>, length: f64) -> Vec<f64> {
     (0..at.m.freedom()).map(unit).collect()
 }
 
-/// Makes every row of order one in scaled coordinates.
-pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
-    (0..g.rows())
-        .map(|i| {
+/// Part of a row's own size below which what is left of it in the tree's coordinates is round-off: the tree already
+/// holds what it asks for.
+const HELD: f64 = 1e-10;
+
+/// Makes every row of order one in scaled coordinates, rows that hold only round-off apart.
+pub(super) fn row_scales(rows: &[Row], g: &Matrix, columns: &[f64], length: f64) -> Vec<f64> {
+    let own = |row: &Row| row.motion.iter().map(|(_, w)| w.f.norm() * length + w.m.abs()).fold(0.0, f64::max);
+    rows.iter()
+        .enumerate()
+        .map(|(i, row)| {
             let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c).powi(2)).sum::<f64>().sqrt();
-            if norm > 0.0 {
-                1.0 / norm
-            } else {
-                1.0
+            match own(row) {
+                size if norm > HELD * size => 1.0 / norm,
+                size if size > 0.0 => 1.0 / size,
+                _ => 1.0,
             }
         })
         .collect()

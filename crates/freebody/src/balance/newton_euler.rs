@@ -2,9 +2,12 @@
 //! there are loops): A x = b.
 
 use super::rows::closing_rows;
-use super::{effective, Balance, Trouble};
+use super::{effective, Balance, Row, Trouble};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
+
+/// Part of its terms below which a sum is round-off.
+const CANCELLED: f64 = 1e-13;
 
 /// The unknown loads of one body's joint in the tree: directions at the body's pin.
 fn reaction_directions(columns: &[Twist], particle: bool) -> Vec<Wrench> {
@@ -98,7 +101,7 @@ impl Balance<'_> {
                 enter(&mut a, i, j, self.momentum_rate(i, motion[i]), 1.0);
             }
             for (r, row) in self.rows.iter().enumerate() {
-                a[(balances + r, j)] = row.motion.iter().map(|(body, w)| w.power(motion[*body])).sum();
+                a[(balances + r, j)] = told(row, &motion);
             }
         }
         for (c, &(body, w)) in reactions.iter().enumerate() {
@@ -139,6 +142,21 @@ impl Balance<'_> {
             self.solved.passed[body] += w * size;
         }
         self.solved.lambda = x[n + reactions.len()..].to_vec();
+    }
+}
+
+/// What a row says of a motion; 0 where the bodies' parts cancel but for round-off, as those of a body welded to
+/// another do.
+fn told(row: &Row, motion: &[Twist]) -> f64 {
+    let (mut sum, mut size) = (0.0, 0.0);
+    for &(body, w) in &row.motion {
+        sum += w.power(motion[body]);
+        size += w.f.norm() * motion[body].v.norm() + (w.m * motion[body].w).abs();
+    }
+    if sum.abs() > CANCELLED * size {
+        sum
+    } else {
+        0.0
     }
 }
 
