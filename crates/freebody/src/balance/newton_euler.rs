@@ -58,7 +58,7 @@ impl Balance<'_> {
         self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
         let reactions = self.reactions();
         let (a, b) = self.brute_force(&reactions);
-        let mut x = vec![0.0; b.len()];
+        let mut x = vec![0.0; a.cols()];
         solve_any(&a, &b, &mut x).map_err(|_| {
             Trouble::new("singular_mass", "the balance equations have no unique motion; the route `minimal` says where")
         })?;

@@ -63,7 +63,8 @@ impl Balance<'_> {
     pub fn worst_gap(&mut self) -> f64 {
         self.take_rows();
         let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
-        self.rows.iter().map(size).fold(0.0, f64::max)
+        // What cannot be told (wheels that overlap) is wide open.
+        self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
     }
 
     /// Unit of a row's value: the characteristic length, or 1 where it is an angle.
