@@ -20,7 +20,7 @@ mod rows;
 mod sweep;
 
 pub use instant::{Instant, Observer};
-pub use load::{effective, force_power, force_value, unaccounted_power};
+pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
