@@ -3,7 +3,7 @@
 use crate::model::*;
 use crate::rng::Rng;
 use crate::thrown::*;
-use freebody::balance::Balance;
+use freebody::balance::{Balance, Route};
 use freebody::compile::Compiled;
 use freebody::forces;
 use freebody::joints::{FieldKind, Joint, Kind};
@@ -49,12 +49,13 @@ impl Recipe {
             let kind = if i < self.bodies { *rng.of(&TREE()) } else { *rng.of(&FOR_PARTICLES()) };
             let rigid: Vec<String> = bodies.iter().filter(|b| !thrown.is_particle(b)).cloned().collect();
             let parent = rng.of(&rigid).clone();
+            // Two massless links in a row would fold with no inertia to resist it.
+            let after_massless = massless_body(&thrown, &bodies[i]);
             let mass = 10f64.powf(rng.about(2.0));
             let place = [rng.about(2.0), rng.about(2.0), rng.about(3.0)];
             // A massless link has something hinged to its far end that is sure to resist its turning.
-            let massless = i + 1 < self.bodies && rng.chance(0.2);
-            let kind = if i >= 1 && carries(&thrown, &bodies[i]) { Kind::Hinge } else { kind };
-            let parent = if i >= 1 && carries(&thrown, &bodies[i]) { bodies[i].clone() } else { parent };
+            let massless = i + 1 < self.bodies && !after_massless && !massless_body(&thrown, &parent) && rng.chance(0.2);
+            let (kind, parent) = if after_massless { (Kind::Hinge, bodies[i].clone()) } else { (kind, parent) };
             if i >= self.bodies {
                 thrown.throw_particle(&name, heavy(mass), [place[0], place[1]]);
             } else if massless {
@@ -89,7 +90,46 @@ impl Recipe {
             let force = force_for(&format!("f{i}"), kind, &two, base.angle(), &mut thrown, rng);
             thrown.model.0.forces.push(force);
         }
+        for i in 0..self.motions {
+            let rigid: Vec<String> = bodies[1..].iter().filter(|b| !thrown.is_particle(b)).cloned().collect();
+            let body = rng.of(&rigid).clone();
+            self.drive(&mut thrown, &format!("m{i}"), &body, rng);
+        }
         thrown
+    }
+
+    /// A motion of a body's angle or of one of its points, that holds at time 0 at the pose thrown.
+    fn drive(&self, thrown: &mut Thrown, name: &str, body: &str, rng: &mut Rng) {
+        let local = freebody::plane::vec2(rng.about(1.0), rng.about(1.0));
+        let (point, now) = (thrown.point(body, local), thrown.frame(body).place(local));
+        let bench = Bench::new(thrown);
+        let some = rng.below(bench.q.len());
+        let coordinate = &bench.compiled.mechanism.coordinate(some).name;
+        let (gauge, at) = match rng.below(4) {
+            3 => (format!("'{coordinate}'"), bench.q[some]),
+            0 => (format!("angle({body})"), thrown.pose[body][2]),
+            1 => (format!("x({point})"), now.x),
+            _ => (format!("y({point})"), now.y),
+        };
+        let feedback = self.own_directions && rng.chance(0.5);
+        let state = if feedback { format!(" + 0.1*sin(x({body}.origin)) - 0.1*sin({:?})", thrown.pose[body][0]) } else { String::new() };
+        let (level, law) = match rng.below(3) {
+            0 => ("position", format!("{at:?} + 0.2*sin(3*t){state}")),
+            1 => ("velocity", format!("0.4*cos(2*t){state}")),
+            _ => ("acceleration", format!("1.5*sin(t){state} - 0.3*rate({gauge})")),
+        };
+        // An actuator that pushes another way, but not across what it drives.
+        let by = (self.own_directions && rng.chance(0.5)).then(|| format!("({gauge}) + 0.2*angle({body}) + 0.1*x({body}.origin)"));
+        let before = thrown.model.clone();
+        thrown.model = before.clone().motion(name, &gauge, &law, level, by.as_deref());
+        // A motion that loops and other motions exclude, or already give, is taken back.
+        let bench = Bench::new(thrown);
+        let mut balance = bench.balance();
+        balance.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+        let possible = balance.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate.iter().all(|&sure| sure));
+        if !possible {
+            thrown.model = before;
+        }
     }
 }
 
@@ -110,7 +150,7 @@ fn FOR_PARTICLES() -> Vec<Kind> {
 }
 
 /// Whether a body has no mass of its own.
-fn carries(thrown: &Thrown, body: &str) -> bool {
+fn massless_body(thrown: &Thrown, body: &str) -> bool {
     let spec = thrown.model.0.bodies.iter().find(|b| b.name == body);
     spec.is_some_and(|b| b.pieces[0].mass == literal(0.0))
 }
@@ -239,11 +279,14 @@ impl Bench {
         let still = vec![0.0; n];
         balance.place(0.0, &self.q, &still);
         balance.take_phases();
-        for _ in 0..20 {
+        for _ in 0..200 {
             let t = rng.within(0.0, 1.0);
             let mut q: Vec<f64> = self.q.iter().map(|q| q + rng.about(reach)).collect();
             let mut u = rng.vector(n, 2.0);
-            if balance.close(t, &mut q, &still).is_ok() && balance.align(t, &q, &mut u).is_ok() {
+            let closed = balance.close(t, &mut q, &still).is_ok() && balance.align(t, &q, &mut u).is_ok();
+            // Loops may close far off, at a place where the mechanism is all but singular.
+            let near = q.iter().zip(&self.q).all(|(a, b)| (a - b).abs() < 2.0) && u.iter().all(|u| u.abs() < 20.0);
+            if closed && near {
                 return Some(State { t, q, u });
             }
         }

@@ -162,7 +162,7 @@ impl Thrown {
             let missing = theta_b + beta - theta_a - alpha - there.angle;
             if first_turns {
                 alpha += missing;
-            } else if !(self.is_particle(a) || self.is_particle(b)) {
+            } else {
                 turn_by(kind, &mut numbers, &mut q, &wave, missing);
             }
         }
