@@ -1,7 +1,7 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
 use super::rows::closing_rows;
-use super::{effective, project, Balance, Row, Trouble};
+use super::{effective, project, Balance, Row, Trouble, CANCELLED};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Matrix, Saddle, SaddleError};
@@ -89,7 +89,7 @@ impl Balance<'_> {
         mass_matrix(at, &self.arms, &mut self.dense.mass);
         rows_in_coordinates(at, &self.rows, &mut self.dense.g, &mut self.dense.b);
         let columns = column_scales(at, self.length);
-        let scales = row_scales(&self.rows, &self.dense.g, &columns, self.length);
+        let scales = row_scales(&self.dense.g, &columns);
         let own = force == Force::OwnWay && self.rows.iter().any(|row| row.force.is_some());
         let d = &mut self.dense;
         let b = own.then_some(&d.b);
@@ -137,7 +137,7 @@ impl Balance<'_> {
 
     fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), Trouble> {
         let columns = column_scales(self.at(), self.length);
-        let scales = row_scales(&self.rows, &self.dense.g, &columns, self.length);
+        let scales = row_scales(&self.dense.g, &columns);
         let most = asked.iter().zip(&scales).map(|(r, s)| (r * s).abs()).fold(1.0, f64::max);
         if inconsistency <= CONTRADICTION * most {
             return Ok(());
@@ -178,21 +178,15 @@ pub(super) fn column_scales(at: Placed<'_>, length: f64) -> Vec<f64> {
     (0..at.m.freedom()).map(unit).collect()
 }
 
-/// Part of a row's own size below which what is left of it in the tree's coordinates is round-off: the tree already
-/// holds what it asks for.
-const HELD: f64 = 1e-10;
-
-/// Makes every row of order one in scaled coordinates, rows that hold only round-off apart.
-pub(super) fn row_scales(rows: &[Row], g: &Matrix, columns: &[f64], length: f64) -> Vec<f64> {
-    let own = |row: &Row| row.motion.iter().map(|(_, w)| w.f.norm() * length + w.m.abs()).fold(0.0, f64::max);
-    rows.iter()
-        .enumerate()
-        .map(|(i, row)| {
+/// Makes every row of order one in scaled coordinates.
+pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
+    (0..g.rows())
+        .map(|i| {
             let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c).powi(2)).sum::<f64>().sqrt();
-            match own(row) {
-                size if norm > HELD * size => 1.0 / norm,
-                size if size > 0.0 => 1.0 / size,
-                _ => 1.0,
+            if norm > 0.0 {
+                1.0 / norm
+            } else {
+                1.0
             }
         })
         .collect()
@@ -204,8 +198,27 @@ pub(super) fn rows_in_coordinates(at: Placed<'_>, rows: &[Row], g: &mut Matrix, 
     g.reset(rows.len(), n);
     b.reset(rows.len(), n);
     for (i, row) in rows.iter().enumerate() {
-        project(at, &row.motion, g.row_mut(i));
-        project(at, row.loads(), b.row_mut(i));
+        project_sum(at, &row.motion, g.row_mut(i));
+        project_sum(at, row.loads(), b.row_mut(i));
+    }
+}
+
+/// The part of opposite loads that does work on each joint coordinate; 0 where they cancel but for round-off, as they do
+/// on all that carries both. Such a row asks for nothing, and must not be scaled up to a constraint.
+fn project_sum(at: Placed<'_>, spread: &[(usize, Wrench)], out: &mut [f64]) {
+    let (mut one, mut size) = (vec![0.0; out.len()], vec![0.0; out.len()]);
+    for part in spread.chunks(1) {
+        one.fill(0.0);
+        project(at, part, &mut one);
+        for ((sum, size), x) in out.iter_mut().zip(&mut size).zip(&one) {
+            *sum += x;
+            *size += x.abs();
+        }
+    }
+    for (sum, size) in out.iter_mut().zip(&size) {
+        if sum.abs() <= CANCELLED * size {
+            *sum = 0.0;
+        }
     }
 }
 

@@ -56,6 +56,9 @@ impl Route {
     }
 }
 
+/// Part of its terms below which a sum is round-off.
+const CANCELLED: f64 = 1e-13;
+
 impl Trouble {
     /// A motion of a body that nothing resists.
     pub(crate) fn can_move_freely(m: &Mechanism, body: usize) -> Trouble {

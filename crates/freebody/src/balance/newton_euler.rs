@@ -2,12 +2,9 @@
 //! there are loops): A x = b.
 
 use super::rows::closing_rows;
-use super::{effective, Balance, Row, Trouble};
+use super::{effective, Balance, Row, Trouble, CANCELLED};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
-
-/// Part of its terms below which a sum is round-off.
-const CANCELLED: f64 = 1e-13;
 
 /// The unknown loads of one body's joint in the tree: directions at the body's pin.
 fn reaction_directions(columns: &[Twist], particle: bool) -> Vec<Wrench> {

@@ -94,7 +94,7 @@ impl Balance<'_> {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
         rows_in_coordinates(self.at(), &rows, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
-        let scales = row_scales(&rows, &g, &columns, self.length);
+        let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
         let rank = Orthogonal::factor(&scaled).rank();
         (rank.rank, rank.uncertain)
