@@ -46,7 +46,11 @@ impl Recipe {
         let mut bodies = vec!["base".to_string()];
         for i in 0..self.bodies + self.particles {
             let name = format!("b{i}");
-            let kind = if i < self.bodies { *rng.of(&TREE()) } else { *rng.of(&FOR_PARTICLES()) };
+            let kind = match i {
+                0 => *rng.of(&moving()),
+                _ if i < self.bodies => *rng.of(&of_the_tree()),
+                _ => *rng.of(&for_particles()),
+            };
             let rigid: Vec<String> = bodies.iter().filter(|b| !thrown.is_particle(b)).cloned().collect();
             let parent = rng.of(&rigid).clone();
             // Two massless links in a row would fold with no inertia to resist it.
@@ -139,14 +143,16 @@ fn heavy(mass: f64) -> Number {
 }
 
 /// Joints that a body may hang on.
-#[allow(non_snake_case)]
-fn TREE() -> Vec<Kind> {
+fn of_the_tree() -> Vec<Kind> {
     Kind::ALL.iter().copied().filter(|&k| has_pose(k)).collect()
 }
 
-#[allow(non_snake_case)]
-fn FOR_PARTICLES() -> Vec<Kind> {
-    TREE().into_iter().filter(|&k| suits_particle(k)).collect()
+fn moving() -> Vec<Kind> {
+    of_the_tree().into_iter().filter(|k| !k.card().coordinates.is_empty()).collect()
+}
+
+fn for_particles() -> Vec<Kind> {
+    of_the_tree().into_iter().filter(|&k| suits_particle(k)).collect()
 }
 
 /// Whether a body has no mass of its own.
@@ -273,6 +279,17 @@ impl Bench {
         m.joints.iter().map(joint).chain(drives).collect::<Vec<_>>().join("; ")
     }
 
+    /// Whether every distance from a pole is well above 0, where polar coordinates are singular.
+    fn off_the_pole(&self, q: &[f64]) -> bool {
+        let m = &self.compiled.mechanism;
+        let n = m.bind(&self.p);
+        m.coordinates.iter().zip(q).all(|(&(joint, k), q)| {
+            let c = &m.joints[joint].coordinates[k];
+            let word = m.joints[joint].kind.card().coordinates[c.card].name;
+            word != "r" || n.slots[c.zero] + c.sense * q > 0.1
+        })
+    }
+
     /// A random state on the closed loops within `reach` of the pose thrown; None where no state was found there.
     pub fn state(&self, balance: &mut Balance, rng: &mut Rng, reach: f64) -> Option<State> {
         let n = self.q.len();
@@ -286,7 +303,7 @@ impl Bench {
             let closed = balance.close(t, &mut q, &still).is_ok() && balance.align(t, &q, &mut u).is_ok();
             // Loops may close far off, at a place where the mechanism is all but singular.
             let near = q.iter().zip(&self.q).all(|(a, b)| (a - b).abs() < 2.0) && u.iter().all(|u| u.abs() < 20.0);
-            if closed && near {
+            if closed && near && self.off_the_pole(&q) {
                 return Some(State { t, q, u });
             }
         }

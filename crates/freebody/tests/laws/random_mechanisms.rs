@@ -122,15 +122,10 @@ fn energy_changes_by_the_power_put_in() {
         terms.extend(balance.drive_powers().iter().map(|p| -p));
         // Ideal joints transmit any power; what they take in at one body they give out at the other.
         let left: f64 = terms.iter().sum();
-        let size = terms.iter().fold(1e-300, |m: f64, x| m.max(x.abs())) * balance_condition(balance);
+        let transmitted = balance.joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
+        let size = terms.iter().fold(transmitted, |m: f64, x| m.max(x.abs()));
         assert!(left.abs() < AGREE * size, "{told}: {left:e} of {size:e} W is unaccounted for");
     });
-}
-
-/// The largest power that a joint transmits may exceed all powers put in.
-fn balance_condition(balance: &Balance) -> f64 {
-    let most = balance.joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
-    most.max(1.0)
 }
 
 /// Where joints do no work, the acceleration of coordinate i for a unit load on j is that of j for a unit load on i.
@@ -212,7 +207,9 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         let (a, f) = (apart(&motion(&forward), &motion(&inverse), 1.0), apart(&loads(&forward), &loads(&inverse)[..loads(&forward).len()], load));
         assert!(a < AGREE, "{told}: accelerations {a:e} apart");
         if inverse.drives_determinate[0] {
-            let most = loads(&forward).iter().fold(load, |m, x| m.max(x.abs()));
+            let mass = pushed.compiled.mechanism.bind(&pushed.p).mass.iter().sum::<f64>();
+            let inertial = motion(&forward).iter().fold(0.0_f64, |m, x| m.max(x.abs())) * mass;
+            let most = loads(&forward).iter().fold(inertial.max(load), |m, x| m.max(x.abs()));
             assert!((inverse.drives[0] - load).abs() < AGREE * most, "{told}: {} N for {load} N", inverse.drives[0]);
             assert!(f < AGREE, "{told}: reactions {f:e} apart");
         }
