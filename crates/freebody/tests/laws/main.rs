@@ -7,3 +7,5 @@ mod random_mechanisms;
 mod model;
 mod rng;
 mod thrown;
+mod tree_choice;
+mod two_tellings;
