@@ -1,7 +1,7 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
 use super::rows::closing_rows;
-use super::{effective, project, Balance, Row, Trouble, CANCELLED};
+use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Trouble, CANCELLED};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Matrix, Saddle, SaddleError};
@@ -87,7 +87,7 @@ impl Balance<'_> {
     pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
         let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         mass_matrix(at, &self.arms, &mut self.dense.mass);
-        rows_in_coordinates(at, &self.rows, &mut self.dense.g, &mut self.dense.b);
+        rows_in_coordinates(at, &self.rows, self.length, &mut self.dense.g, &mut self.dense.b);
         let columns = column_scales(at, self.length);
         let scales = row_scales(&self.dense.g, &columns);
         let own = force == Force::OwnWay && self.rows.iter().any(|row| row.force.is_some());
@@ -193,28 +193,24 @@ pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
 }
 
 /// Rows by joint coordinates, n columns, and the loads of their multipliers.
-pub(super) fn rows_in_coordinates(at: Placed<'_>, rows: &[Row], g: &mut Matrix, b: &mut Matrix) {
+pub(super) fn rows_in_coordinates(at: Placed<'_>, rows: &[Row], length: f64, g: &mut Matrix, b: &mut Matrix) {
     let n = at.m.freedom();
     g.reset(rows.len(), n);
     b.reset(rows.len(), n);
     for (i, row) in rows.iter().enumerate() {
-        project_sum(at, &row.motion, g.row_mut(i));
-        project_sum(at, row.loads(), b.row_mut(i));
+        project_clean(at, &row.motion, length, g.row_mut(i));
+        project_clean(at, row.loads(), length, b.row_mut(i));
     }
 }
 
-/// The part of opposite loads that does work on each joint coordinate; 0 where they cancel but for round-off, as they do
-/// on all that carries both. Such a row asks for nothing, and must not be scaled up to a constraint.
-fn project_sum(at: Placed<'_>, spread: &[(usize, Wrench)], out: &mut [f64]) {
-    let (mut one, mut size) = (vec![0.0; out.len()], vec![0.0; out.len()]);
-    for part in spread.chunks(1) {
-        one.fill(0.0);
-        project(at, part, &mut one);
-        for ((sum, size), x) in out.iter_mut().zip(&mut size).zip(&one) {
-            *sum += x;
-            *size += x.abs();
-        }
-    }
+/// As [`project`], but 0 where loads cancel, or pass through a pin, but for round-off: such a row asks for nothing of that
+/// coordinate, and must not be scaled up to a constraint.
+fn project_clean(at: Placed<'_>, spread: &[(usize, Wrench)], length: f64, out: &mut [f64]) {
+    let mut size = vec![0.0; out.len()];
+    down_to_ground(at, spread, |i, load, column| {
+        out[i] += load.power(column);
+        size[i] += size_of_power(load, column, length);
+    });
     for (sum, size) in out.iter_mut().zip(&size) {
         if sum.abs() <= CANCELLED * size {
             *sum = 0.0;

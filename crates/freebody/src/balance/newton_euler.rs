@@ -2,7 +2,7 @@
 //! there are loops): A x = b.
 
 use super::rows::closing_rows;
-use super::{effective, Balance, Row, Trouble, CANCELLED};
+use super::{effective, size_of_power, Balance, Row, Trouble, CANCELLED};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
@@ -98,7 +98,7 @@ impl Balance<'_> {
                 enter(&mut a, i, j, self.momentum_rate(i, motion[i]), 1.0);
             }
             for (r, row) in self.rows.iter().enumerate() {
-                a[(balances + r, j)] = told(row, &motion);
+                a[(balances + r, j)] = told(row, &motion, self.length);
             }
         }
         for (c, &(body, w)) in reactions.iter().enumerate() {
@@ -142,13 +142,12 @@ impl Balance<'_> {
     }
 }
 
-/// What a row says of a motion; 0 where the bodies' parts cancel but for round-off, as those of a body welded to
-/// another do.
-fn told(row: &Row, motion: &[Twist]) -> f64 {
+/// What a row says of a motion; 0 where the bodies' parts cancel, or the load passes through a pin, but for round-off.
+fn told(row: &Row, motion: &[Twist], length: f64) -> f64 {
     let (mut sum, mut size) = (0.0, 0.0);
     for &(body, w) in &row.motion {
         sum += w.power(motion[body]);
-        size += w.f.norm() * motion[body].v.norm() + (w.m * motion[body].w).abs();
+        size += size_of_power(w, motion[body], length);
     }
     if sum.abs() > CANCELLED * size {
         sum

@@ -218,7 +218,7 @@ impl Balance<'_> {
     /// Rows by scaled coordinates, each of order one, with the scales of rows and coordinates.
     fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), rows, &mut g, &mut b);
+        rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
         let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
