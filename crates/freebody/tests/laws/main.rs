@@ -4,7 +4,9 @@
 mod joints;
 mod random;
 mod random_mechanisms;
+mod metamorphic;
 mod model;
+mod redundancy;
 mod rng;
 mod thrown;
 mod tree_choice;

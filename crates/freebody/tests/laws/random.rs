@@ -28,8 +28,8 @@ pub struct Recipe {
 pub enum Base {
     /// Welded to ground at a place.
     At([f64; 3]),
-    /// Sliding along x at a given rate and acceleration.
-    Sliding(f64, f64),
+    /// Sliding along x at a given acceleration.
+    Sliding(f64),
 }
 
 impl Recipe {
@@ -165,7 +165,7 @@ impl Base {
     fn angle(&self) -> f64 {
         match self {
             Base::At([_, _, angle]) => *angle,
-            Base::Sliding(..) => 0.0,
+            Base::Sliding(_) => 0.0,
         }
     }
     fn lay(&self, thrown: &mut Thrown) {
@@ -176,7 +176,7 @@ impl Base {
         thrown.readings.insert("foundation".into(), vec![0.0]);
         thrown.model = match self {
             Base::At(_) => model.joint("foundation", "weld", &[("of", of), ("angle", value(pose[2]))], &[]),
-            Base::Sliding(_, a) => model
+            Base::Sliding(a) => model
                 .joint(
                     "foundation",
                     "slider",
@@ -204,7 +204,8 @@ pub fn force_for(
         2 => format!("distance({p}, {q})^2"),
         _ => format!("distance({p}, {q})"),
     };
-    let body_fixed = rng.chance(0.5);
+    // The axes of a particle do not turn.
+    let body_fixed = rng.chance(0.5) && !thrown.is_particle(a);
     let stiffness = rng.within(1.0, 20.0);
     let has = |word: &str| card.fields.iter().any(|f| f.name == word);
     let mut fields = vec![];
