@@ -1,6 +1,7 @@
 //! The laws of mechanics, stated over the lists of joints, gauges, forces and integrators, and over mechanisms
 //! thrown together at random. What is new in a list is tested because it is there.
 
+mod gauges;
 mod joints;
 mod random;
 mod random_mechanisms;

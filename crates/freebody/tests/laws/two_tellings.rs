@@ -28,7 +28,7 @@ fn pair(kind: Kind, seed: u64, reversed: bool, free: bool) -> Thrown {
         thrown.throw(name, literal(mass), literal(rng.within(0.1, 0.5)), [rng.about(0.4), rng.about(0.4)], place);
     }
     let ends = if reversed { ["b", "a"] } else { ["a", "b"] };
-    let mut hang = |thrown: &mut Thrown, rng: &mut Rng, body: &str| match (body, free) {
+    let hang = |thrown: &mut Thrown, rng: &mut Rng, body: &str| match (body, free) {
         ("a", _) => thrown.join(rng, "hang", Kind::Hinge, ["ground", "a"], true, false),
         (_, true) => thrown.join(rng, "free", Kind::Free, ["ground", "b"], true, false),
         _ => {}
