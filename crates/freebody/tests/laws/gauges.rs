@@ -67,7 +67,8 @@ fn gauges(spec: &Spec, compiled: &mut Compiled) -> Vec<(String, Law)> {
 /// The functions of places and bodies that expressions know.
 fn words(compiled: &mut Compiled) -> Vec<String> {
     use freebody::expr::Scope as _;
-    Scope { names: &compiled.names, reach: Reach::Configuration, switches: &mut compiled.mechanism.switches }.functions()
+    Scope { names: &compiled.names, reach: Reach::Configuration, switches: &mut compiled.mechanism.switches }
+        .functions()
 }
 
 fn read(at: Placed<'_>, law: &Law) -> f64 {
@@ -125,7 +126,10 @@ fn the_loads_of_a_gauge_are_its_gradient() {
             };
             let difference = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
             let power: f64 = m.bodies_of(law).into_iter().map(|b| gradient(at, law, b).power(moves[b])).sum();
-            assert!((power - difference).abs() < DIFFERENCE * (1.0 + power.abs()), "{told}: {text}: {power} {difference}");
+            assert!(
+                (power - difference).abs() < DIFFERENCE * (1.0 + power.abs()),
+                "{told}: {text}: {power} {difference}"
+            );
         }
     });
 }

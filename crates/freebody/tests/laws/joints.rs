@@ -32,7 +32,8 @@ impl Drawn {
     /// Columns of the pose: x, y and angle by each coordinate.
     fn columns(&self) -> Vec<[f64; 3]> {
         let of: Vec<Dual<3, f64>> = self.numbers.iter().map(|&x| Dual::constant(x)).collect();
-        let there = self.kind.pose_gradient(&Numbers { of: &of, curve: Some(&self.wave) }, &self.q).expect("has a pose");
+        let there =
+            self.kind.pose_gradient(&Numbers { of: &of, curve: Some(&self.wave) }, &self.q).expect("has a pose");
         (0..self.q.len()).map(|k| [there.x.du[k], there.y.du[k], there.angle.du[k]]).collect()
     }
     /// Gradient of each row by x, y and angle.

@@ -47,7 +47,8 @@ fn the_place_and_direction_of_the_world_do_not_matter() {
         if !home.self_stress.is_empty() {
             continue;
         }
-        for (place, close) in [([0.0, 0.0, 2.0], AGREE), ([3.0, -40.0, 0.0], 10.0 * AGREE), ([-5.0, 2.0, -1.0], AGREE)] {
+        for (place, close) in [([0.0, 0.0, 2.0], AGREE), ([3.0, -40.0, 0.0], 10.0 * AGREE), ([-5.0, 2.0, -1.0], AGREE)]
+        {
             let away = solved(seed, Base::At(place), &[], &s);
             let ((a, f), (b, g)) = (turned_back(&home, 0.0), turned_back(&away, place[2]));
             let (a, f) = (apart(&a, &b, 1.0), apart(&f, &g, 1e-300));

@@ -58,7 +58,8 @@ impl Recipe {
             let mass = 10f64.powf(rng.about(2.0));
             let place = [rng.about(2.0), rng.about(2.0), rng.about(3.0)];
             // A massless link has something hinged to its far end that is sure to resist its turning.
-            let massless = i + 1 < self.bodies && !after_massless && !massless_body(&thrown, &parent) && rng.chance(0.2);
+            let massless =
+                i + 1 < self.bodies && !after_massless && !massless_body(&thrown, &parent) && rng.chance(0.2);
             let (kind, parent) = if after_massless { (Kind::Hinge, bodies[i].clone()) } else { (kind, parent) };
             if i >= self.bodies {
                 thrown.throw_particle(&name, heavy(mass), [place[0], place[1]]);
@@ -116,14 +117,19 @@ impl Recipe {
             _ => (format!("y({point})"), now.y),
         };
         let feedback = self.own_directions && rng.chance(0.5);
-        let state = if feedback { format!(" + 0.1*sin(x({body}.origin)) - 0.1*sin({:?})", thrown.pose[body][0]) } else { String::new() };
+        let state = if feedback {
+            format!(" + 0.1*sin(x({body}.origin)) - 0.1*sin({:?})", thrown.pose[body][0])
+        } else {
+            String::new()
+        };
         let (level, law) = match rng.below(3) {
             0 => ("position", format!("{at:?} + 0.2*sin(3*t){state}")),
             1 => ("velocity", format!("0.4*cos(2*t){state}")),
             _ => ("acceleration", format!("1.5*sin(t){state} - 0.3*rate({gauge})")),
         };
         // An actuator that pushes another way, but not across what it drives.
-        let by = (self.own_directions && rng.chance(0.5)).then(|| format!("({gauge}) + 0.2*angle({body}) + 0.1*x({body}.origin)"));
+        let by = (self.own_directions && rng.chance(0.5))
+            .then(|| format!("({gauge}) + 0.2*angle({body}) + 0.1*x({body}.origin)"));
         let before = thrown.model.clone();
         thrown.model = before.clone().motion(name, &gauge, &law, level, by.as_deref());
         // A motion that loops and other motions exclude, or already give, is taken back.
@@ -171,7 +177,8 @@ impl Base {
     fn lay(&self, thrown: &mut Thrown) {
         let pose = if let Base::At(pose) = self { *pose } else { [0.0; 3] };
         thrown.throw("base", written("scale*1.0"), written("scale*1.0"), [0.0, 0.0], [0.0; 3]);
-        let model = std::mem::take(&mut thrown.model).point("ground.base", [pose[0], pose[1]]).point("base.O", [0.0; 2]);
+        let model =
+            std::mem::take(&mut thrown.model).point("ground.base", [pose[0], pose[1]]).point("base.O", [0.0; 2]);
         let of = points(&["ground.base", "base.O"]);
         thrown.readings.insert("foundation".into(), vec![0.0]);
         thrown.model = match self {
@@ -231,9 +238,7 @@ pub fn force_for(
                 Some("m" | "rad") => value(rng.within(0.2, 1.0)),
                 _ => text(format!("scale*{:?}", rng.within(0.5, 10.0))),
             },
-            (_, FieldKind::Law) => {
-                text(format!("scale*({:?} + 1.5*sin(2*t) - 0.3*rate({gauge}))", rng.about(5.0)))
-            }
+            (_, FieldKind::Law) => text(format!("scale*({:?} + 1.5*sin(2*t) - 0.3*rate({gauge}))", rng.about(5.0))),
             other => panic!("a force with a field that is new to this test: {other:?}"),
         };
         fields.push((field.name, drawn));

@@ -62,9 +62,11 @@ pub fn motion(now: &Instant) -> Vec<f64> {
 /// Determinate reactions and forces of actuators, 0 for the others.
 pub fn loads(now: &Instant) -> Vec<f64> {
     let known = |x: f64, sure: bool| if sure { x } else { 0.0 };
-    let joints = now.joints.iter().zip(&now.determinate).flat_map(|(l, sure)| {
-        [known(l.force.x, sure[0]), known(l.force.y, sure[1]), known(l.couple, sure[2])]
-    });
+    let joints = now
+        .joints
+        .iter()
+        .zip(&now.determinate)
+        .flat_map(|(l, sure)| [known(l.force.x, sure[0]), known(l.force.y, sure[1]), known(l.couple, sure[2])]);
     joints.chain(now.drives.iter().zip(&now.drives_determinate).map(|(&x, &sure)| known(x, sure))).collect()
 }
 
@@ -167,9 +169,21 @@ fn accelerations_are_reciprocal() {
             for j in 0..i {
                 let (a, b) = (columns[i][j] - rest[j], columns[j][i] - rest[i]);
                 // Both are small differences of accelerations as large as those at rest.
-                let size = rest[i].abs().max(rest[j].abs()).max(columns[i][j].abs()).max(columns[j][i].abs()).max(1.0)
-                    .max(columns[i][i].abs()).max(columns[j][j].abs());
-                assert!((a - b).abs() < AGREE * size, "seed {seed}, {} and {}: {a} {b}; {}", names[i], names[j], bench.told());
+                let size = rest[i]
+                    .abs()
+                    .max(rest[j].abs())
+                    .max(columns[i][j].abs())
+                    .max(columns[j][i].abs())
+                    .max(1.0)
+                    .max(columns[i][i].abs())
+                    .max(columns[j][j].abs());
+                assert!(
+                    (a - b).abs() < AGREE * size,
+                    "seed {seed}, {} and {}: {a} {b}; {}",
+                    names[i],
+                    names[j],
+                    bench.told()
+                );
             }
         }
     }
@@ -184,11 +198,8 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         let name = plain.compiled.mechanism.coordinate(seed as usize % plain.q.len()).name.clone();
         let load = 3.0;
         let mut pushed = thrown.clone();
-        pushed.model = pushed.model.force(
-            "push",
-            "law",
-            &[("along", text(format!("'{name}'"))), ("value", value(load))],
-        );
+        pushed.model =
+            pushed.model.force("push", "law", &[("along", text(format!("'{name}'"))), ("value", value(load))]);
         let pushed = Bench::new(&pushed);
         let mut balance = pushed.balance();
         let mut rng = Rng::new(seed);
@@ -204,7 +215,10 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         balance.place(state.t, &state.q, &state.u);
         let inverse = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
         let told = format!("seed {seed}, {name}, {}", driven.told());
-        let (a, f) = (apart(&motion(&forward), &motion(&inverse), 1.0), apart(&loads(&forward), &loads(&inverse)[..loads(&forward).len()], load));
+        let (a, f) = (
+            apart(&motion(&forward), &motion(&inverse), 1.0),
+            apart(&loads(&forward), &loads(&inverse)[..loads(&forward).len()], load),
+        );
         assert!(a < AGREE, "{told}: accelerations {a:e} apart");
         if inverse.drives_determinate[0] {
             let mass = pushed.compiled.mechanism.bind(&pushed.p).mass.iter().sum::<f64>();

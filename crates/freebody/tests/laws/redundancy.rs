@@ -24,11 +24,13 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         };
         planted += 1;
         let [a, b] = m.ends(hinge).map(|b| m.bodies[b].name.clone());
-        let pin = |site: usize| m.points.iter().find(|(_, s)| *s == site).expect("a thrown joint has named points").0.clone();
+        let pin =
+            |site: usize| m.points.iter().find(|(_, s)| *s == site).expect("a thrown joint has named points").0.clone();
         let mut bound = thrown.clone();
         let far = bound.point(&a, freebody::plane::vec2(0.9, 0.7));
         let of_first = thrown.model.0.points.iter().find(|p| p.name == pin(hinge.first.site)).expect("named");
-        let [x, y] = of_first.at.each_ref().map(|n| if let freebody::spec::Number::Literal(x) = n { *x } else { panic!() });
+        let [x, y] =
+            of_first.at.each_ref().map(|n| if let freebody::spec::Number::Literal(x) = n { *x } else { panic!() });
         let length = (0.9 - x).hypot(0.7 - y);
         bound.readings.insert("planted".into(), vec![0.0, 0.0]);
         let of = points(&[&far, &pin(hinge.second.site)]);
@@ -52,7 +54,8 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
             for (j, joint) in bound.compiled.mechanism.joints.iter().enumerate() {
                 // Its thrust has both components, except where it lies along an axis, which chance does not do.
                 let touched = joint.name == "planted" || joint.name == hinge.name;
-                let sure = m.joints.iter().position(|k| k.name == joint.name).map_or([true; 3], |k| before.determinate[k]);
+                let sure =
+                    m.joints.iter().position(|k| k.name == joint.name).map_or([true; 3], |k| before.determinate[k]);
                 let expected = if touched { [false, false, sure[2]] } else { sure };
                 assert_eq!(after.determinate[j], expected, "{told}: {}", joint.name);
             }

@@ -41,7 +41,15 @@ fn compare(told: &str, [m, n]: [&Mechanism; 2], [a, b]: [&Instant; 2]) {
 fn the_tree_does_not_matter() {
     let mut other_trees = 0;
     for seed in 0..3 * MECHANISMS {
-        let recipe = Recipe { bodies: 3 + seed as usize % 6, particles: 0, loops: 1 + seed as usize % 3, forces: 4, motions: 0, own_directions: false, odd: false };
+        let recipe = Recipe {
+            bodies: 3 + seed as usize % 6,
+            particles: 0,
+            loops: 1 + seed as usize % 3,
+            forces: 4,
+            motions: 0,
+            own_directions: false,
+            odd: false,
+        };
         let thrown = recipe.draw(seed, HOME);
         let mut renamed = thrown.clone();
         let mut rng = Rng::new(seed);
@@ -82,13 +90,15 @@ fn the_tree_does_not_matter() {
 /// A four-bar of which any one link may be massless, cut at any joint: then a massless link may end the tree.
 #[test]
 fn a_massless_link_may_be_cut_loose() {
-    let joints = [["ground.A", "crank.A"], ["crank.B", "coupler.B"], ["coupler.C", "rocker.C"], ["rocker.D", "ground.D"]];
+    let joints =
+        [["ground.A", "crank.A"], ["crank.B", "coupler.B"], ["coupler.C", "rocker.C"], ["rocker.D", "ground.D"]];
     let at = [[0.0, 0.0], [0.3, 0.4], [1.2, 0.9], [1.0, 0.0]].map(|[x, y]| Vec2 { x, y });
     for massless in ["crank", "coupler", "rocker"] {
         let mut found: Vec<Instant> = vec![];
         let mut mechanisms = vec![];
         for cut in 0..4 {
-            let mut model = Model::new().gravity(0.0, -9.81).point("ground.A", [0.0, 0.0]).point("ground.D", [1.0, 0.0]);
+            let mut model =
+                Model::new().gravity(0.0, -9.81).point("ground.A", [0.0, 0.0]).point("ground.D", [1.0, 0.0]);
             // Each bar lies along its own x axis, from the pin named first.
             for (i, body) in ["crank", "coupler", "rocker"].into_iter().enumerate() {
                 let length = (at[i + 1] - at[i]).norm();
@@ -112,7 +122,8 @@ fn a_massless_link_may_be_cut_loose() {
             balance.place(0.0, &q, &vec![0.0; q.len()]);
             assert!(balance.worst_gap() < 1e-15);
             for (word, route) in Route::ALL {
-                found.push(balance.instant(*route).unwrap_or_else(|e| panic!("{massless} cut at {cut}: {word}: {e:?}")));
+                found
+                    .push(balance.instant(*route).unwrap_or_else(|e| panic!("{massless} cut at {cut}: {word}: {e:?}")));
             }
         }
         for (i, now) in found.iter().enumerate() {

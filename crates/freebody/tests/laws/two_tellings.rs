@@ -43,7 +43,8 @@ fn pair(kind: Kind, seed: u64, reversed: bool, free: bool) -> Thrown {
     }
     let (p, q) = (thrown.point("a", Default::default()), thrown.point("b", Default::default()));
     let between = points(&[&p, &q]);
-    let spring = [("between", between), ("stiffness", value(30.0)), ("rest_length", value(0.4)), ("damping", value(2.0))];
+    let spring =
+        [("between", between), ("stiffness", value(30.0)), ("rest_length", value(0.4)), ("damping", value(2.0))];
     let model = std::mem::take(&mut thrown.model).force("spring", "spring", &spring);
     thrown.model = model.force("motor", "torque", &[("on", text("b")), ("from", text("a")), ("value", value(1.7))]);
     thrown
@@ -99,7 +100,10 @@ fn a_joint_of_the_tree_is_the_same_joint_closing_a_loop() {
                 let now = other.instant(*route).unwrap_or_else(|e| panic!("{what}: {word}: {e:?}"));
                 let (b, g) = (accelerations(n, &now.bodies), told(&now.joints[joint_named(n, "test")]));
                 let (da, df) = (apart(&a, &b, 1.0), apart(&f, &g, 1.0));
-                assert!(da < AGREE && df < AGREE, "{what}: {word}: accelerations {da:e}, reactions {df:e} apart\n{f:?} {g:?}");
+                assert!(
+                    da < AGREE && df < AGREE,
+                    "{what}: {word}: accelerations {da:e}, reactions {df:e} apart\n{f:?} {g:?}"
+                );
             }
         }
     }
