@@ -296,13 +296,15 @@ impl Bench {
         })
     }
 
-    /// A random state on the closed loops within `reach` of the pose thrown; None where no state was found there.
+    /// A random state on the closed loops within `reach` of the pose thrown, or nearer where loops close nowhere else; None
+    /// where no state was found.
     pub fn state(&self, balance: &mut Balance, rng: &mut Rng, reach: f64) -> Option<State> {
         let n = self.q.len();
         let still = vec![0.0; n];
         balance.place(0.0, &self.q, &still);
         balance.take_phases();
-        for _ in 0..200 {
+        for i in 0..200 {
+            let reach = reach * 0.97_f64.powi(i);
             let t = rng.within(0.0, 1.0);
             let mut q: Vec<f64> = self.q.iter().map(|q| q + rng.about(reach)).collect();
             let mut u = rng.vector(n, 2.0);

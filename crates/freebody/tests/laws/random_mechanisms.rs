@@ -103,6 +103,39 @@ fn the_three_routes_agree_and_every_body_balances() {
     assert!(states >= 1000);
 }
 
+/// Small masses in loops behind large ones: from 1e-4 to 1e4 kg in one linkage of six bars.
+#[test]
+fn light_links_between_heavy_ones_keep_their_digits() {
+    let mut rng = Rng::new(5);
+    for i in 0..100 {
+        let mut model = Model::new().gravity(0.0, -9.81);
+        let bars = 5;
+        let mut at = freebody::plane::vec2(0.0, 0.0);
+        let (mut before, mut q) = ("ground.O".to_string(), vec![]);
+        for b in 0..bars {
+            let (mass, angle) = (10f64.powf(rng.about(4.0)), rng.about(1.5));
+            let (body, pin, end) = (format!("b{b}"), format!("b{b}.A"), format!("b{b}.B"));
+            model = model.body(&body, mass, 0.1 * mass, [0.5, 0.1]).point(&pin, [0.0, 0.0]).point(&end, [1.0, 0.0]);
+            model = model.joint(&body, "hinge", &[("of", points(&[&before, &pin]))], &[&format!("q{b}")]);
+            model.0.joints.last_mut().expect("just joined").coordinates[0].absolute = true;
+            at += turned(freebody::plane::vec2(1.0, 0.0), angle);
+            before = end;
+            q.push(angle);
+        }
+        model = model.point("ground.E", [at.x, at.y]);
+        let compiled = model.joint("close", "hinge", &[("of", points(&[&before, "ground.E"]))], &[]).compile();
+        let mut balance = Balance::new(&compiled.mechanism, &[]);
+        let mut u = rng.vector(bars, 1.0);
+        balance.align(0.0, &q, &mut u).expect("closed as drawn");
+        balance.place(0.0, &q, &u);
+        let found: Vec<Instant> = Route::ALL.iter().map(|r| balance.instant(r.1).expect("moves")).collect();
+        for now in &found {
+            let off = apart(&motion(&found[0]), &motion(now), 1.0);
+            assert!(off < AGREE, "draw {i}: accelerations {off:e} apart");
+        }
+    }
+}
+
 /// d(kinetic + potential)/dt is the power of what has no potential, actuators included.
 #[test]
 fn energy_changes_by_the_power_put_in() {
