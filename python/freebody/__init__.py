@@ -1,0 +1,59 @@
+"""Planar multibody dynamics, from the free-body diagram to the motion.
+
+``Mechanism`` describes, solves, simulates and draws; ``load`` reads a model file. Names are imported where they are first
+used, so that ``import freebody`` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._core import ExpressionError, ModelError, MotionError
+    from .compare import compare
+    from .instant import Indeterminate, Instant
+    from .model import Mechanism, ModelFileError
+    from .run import Run
+
+_HOMES = {
+    "ExpressionError": "_core",
+    "Indeterminate": "instant",
+    "Instant": "instant",
+    "Mechanism": "model",
+    "ModelError": "_core",
+    "ModelFileError": "model",
+    "MotionError": "_core",
+    "Run": "run",
+    "compare": "compare",
+}
+
+__all__ = [
+    "ExpressionError",
+    "Indeterminate",
+    "Instant",
+    "Mechanism",
+    "ModelError",
+    "ModelFileError",
+    "MotionError",
+    "Run",
+    "compare",
+    "load",
+]
+
+
+def load(path: Any) -> Mechanism:
+    """The mechanism of a model file (YAML or JSON). Raises ``ModelFileError`` with all that is wrong in it."""
+    from .model import Mechanism
+
+    return Mechanism.load(path)
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("freebody")
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

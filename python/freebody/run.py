@@ -59,12 +59,14 @@ class Motion(Protocol):
 
 @dataclass(frozen=True)
 class Source:
-    """What is simulated: the compiled mechanism, the JSON it was compiled from, the model as JSON, what to report."""
+    """What is simulated: the compiled mechanism, the JSON it was compiled from, the model as JSON, what to report, and
+    what is worth saying about its assembly."""
 
     core: _core.Mechanism
     spec: str
     model: str
     report: tuple[ReportItem, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def about(self) -> dict[str, Any]:
@@ -383,6 +385,6 @@ class Run:
 def _reported(item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:
     if not item.unit:
         return Reported(value, si, t, note)
-    from pint import UnitRegistry
+    from freebody.model.units import convert
 
-    return Reported(value / UnitRegistry()(item.unit).to_base_units().magnitude, item.unit, t, note)
+    return Reported(value / convert(item.unit)[0], item.unit, t, note)

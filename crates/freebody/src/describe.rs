@@ -126,7 +126,7 @@ fn notes(m: &Mechanism, n: &Numbers) -> Vec<String> {
     notes
 }
 
-/// Named points in their bodies' frames: name → [body, x, y].
+/// Named points in their bodies' frames, origins and mass centres among them: name → [body, x, y].
 pub fn places(m: &Mechanism, n: &Numbers) -> Value {
     let mut all = Map::new();
     for (name, site) in &m.points {

@@ -51,8 +51,8 @@ pub struct Mechanism {
     pub forces: Vec<Force>,
     /// What to watch for.
     pub events: Vec<Event>,
-    /// Laws that hold switches, with the identifiers of those switches.
-    pub kinks: Vec<(usize, Law)>,
+    /// Where laws and curves are not smooth: the integrator must not step over these.
+    pub kinks: Vec<Kink>,
     /// Number of switches in the model.
     pub switches: usize,
     /// What was assumed while compiling, in sentences.
@@ -235,6 +235,17 @@ pub struct Drive {
     pub feedback: bool,
 }
 
+/// A place where a law or a curve is not smooth: the zero of a function of the state.
+#[derive(Clone, Debug)]
+pub enum Kink {
+    /// A switch of a law, by its identifier; its arm is frozen between the kinks.
+    Switch(usize, Law),
+    /// The argument of a table of straight pieces at one of its points.
+    Knot(Law, f64),
+    /// A switch in the description of the curve of a joint.
+    Bend(usize, usize),
+}
+
 /// Something to watch for.
 #[derive(Clone, Debug)]
 pub struct Event {
@@ -290,6 +301,16 @@ impl Mechanism {
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {
         self.coordinates.len()
+    }
+    /// The last body on the way from ground to both of two bodies.
+    pub fn common_carrier(&self, a: usize, b: usize) -> usize {
+        let (mut a, mut b) = (a, b);
+        while a != b {
+            // Parents come first: the later of the two cannot carry the other.
+            let later = if a > b { &mut a } else { &mut b };
+            *later = self.bodies[*later].branch.map_or(0, |branch| branch.parent);
+        }
+        a
     }
     /// The bodies in the order of the model.
     pub fn listed_bodies(&self) -> Vec<usize> {

@@ -206,6 +206,8 @@ pub enum Value {
     Flag(bool),
     /// A number or an expression; also the name of a point, body, curve or choice.
     Number(Number),
+    /// Several points or numbers. Before the structures, which would take a list for their fields.
+    List(Vec<Value>),
     /// A circle about a point.
     Circle {
         /// Full name of its centre.
@@ -215,8 +217,6 @@ pub enum Value {
     },
     /// A directed line.
     Line(Place),
-    /// Several points or numbers.
-    List(Vec<Value>),
 }
 
 /// How a joint coordinate is measured.

@@ -68,9 +68,9 @@ def run(
     done = simulated(model, changes, until=until, method=method, rtol=rtol)
     written = [done.save(output)] if output else []
     if not no_report:
-        from freebody.views import report as html
+        from freebody.views.report import write_report
 
-        written.append(html.write(done, report or Path(f"{model.stem}.html")))
+        written.append(write_report(done, report or Path(f"{model.stem}.html")))
     show.run(done, written, as_json)
     if not done.outcome.ok:
         raise typer.Exit(BAD_END)
@@ -167,7 +167,7 @@ def systems(
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of the model file."""
-    from freebody.model import schema as model_schema
+    from freebody.model.schema import schema as model_schema
 
     typer.echo(json.dumps(model_schema(), ensure_ascii=False, indent=1))
 

@@ -15,8 +15,9 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+
 from freebody.instant import Indeterminate
-from freebody.results import quote
+from freebody.views.peaks import Peak, peak_reactions
 
 if TYPE_CHECKING:
     from freebody.compare import Comparison
@@ -66,7 +67,7 @@ def put(*things: Any) -> None:
 
 def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
     """What happened, what was asked for, whether the energy adds up, the largest reactions, what was written."""
-    peaks = {name: _peak(done, name) for name in done.reactions}
+    peaks = peak_reactions(done)
     if as_json:
         print(dumped(_run_as_dict(done, peaks, files)))
         return
@@ -76,7 +77,7 @@ def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
         table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
         table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
         f"The balance stays within {closure(done):.1e} of the largest entry.\n",
-        table("largest reactions", ["joint", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks.items())),
+        table("largest reactions", ["joint", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks)),
     )
     written(files)
 
@@ -89,14 +90,14 @@ def closure(done: Run) -> float:
     return float(worst / entries) if entries else float(worst)
 
 
-def _run_as_dict(done: Run, peaks: Mapping[str, Mapping[str, Any]], files: Sequence[Path]) -> dict[str, Any]:
+def _run_as_dict(done: Run, peaks: Sequence[Peak], files: Sequence[Path]) -> dict[str, Any]:
     return {
         "name": done.name,
         "outcome": asdict(done.outcome),
         "events": [asdict(event) for event in done.events],
         "report": {label: asdict(reported) for label, reported in done.report.items()},
         "energy": {"balance": float(abs(done.energy.balance).max(initial=0.0)), "relative": closure(done)},
-        "peaks": peaks,
+        "peaks": [asdict(peak) for peak in peaks],
         "stats": done.stats,
         "files": [str(path) for path in files],
     }
@@ -112,25 +113,10 @@ def _ledger_rows(done: Run) -> list[Row]:
     return [(name, float(done.energy[name][0]), float(done.energy[name][-1])) for name in done.energy.names]
 
 
-def _peak(done: Run, joint: str) -> dict[str, Any]:
-    """Largest force (N) and couple (N·m) of a joint, each with its time; None where indeterminate."""
-    found: dict[str, Any] = {}
-    for what, part in (("force", "F"), ("couple", "M")):
-        try:
-            t, value = done.peak(f"{quote(joint)}.{part}")
-        except Indeterminate:
-            t = value = None
-        found[what] = {"value": value, "t": t}
-    return found
-
-
-def _peak_row(item: tuple[str, Mapping[str, Any]]) -> Row:
-    joint, peak = item
-    cells: list[Any] = [joint]
-    for what in ("force", "couple"):
-        known = peak[what]["value"] is not None
-        cells += [peak[what]["value"], peak[what]["t"]] if known else ["indeterminate", ""]
-    return cells
+def _peak_row(peak: Peak) -> Row:
+    if not peak.determinate:
+        return peak.joint, peak.body, "indeterminate", "", "", ""
+    return peak.joint, peak.body, peak.size, peak.t, peak.couple, peak.t_couple
 
 
 # One instant

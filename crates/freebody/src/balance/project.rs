@@ -87,7 +87,7 @@ impl Balance<'_> {
         for _ in 0..TRIES {
             self.place(t, q, u);
             let gap = self.worst_gap();
-            if gap <= CLOSED || (gap >= 0.5 * last && gap <= OPEN) {
+            if gap == 0.0 || (gap >= 0.5 * last && gap <= OPEN) {
                 return Ok(moved);
             }
             last = gap;
@@ -237,6 +237,22 @@ impl Balance<'_> {
             motion: super::rows::spread(self.at(), gauge),
             force: None,
         }
+    }
+
+    /// How far the closing rows are from depending on one another: the least row, and where there are few rows the least
+    /// combination of rows, relative to the greatest, in units of the characteristic length.
+    pub(crate) fn independence(&mut self) -> f64 {
+        let (mut g, mut b) = (Matrix::default(), Matrix::default());
+        rows_in_coordinates(self.at(), &self.rows, &mut g, &mut b);
+        let columns = column_scales(self.at(), self.length);
+        let units: Vec<f64> = self.rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
+        let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j]);
+        if self.many_loops {
+            let norms = (0..g.rows()).map(|i| scaled.row(i).iter().map(|x| x * x).sum::<f64>().sqrt());
+            let (least, most) = norms.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+            return least / most;
+        }
+        Orthogonal::factor(&scaled).rank().kept
     }
 
     fn size_of(&self, user: &[f64]) -> f64 {

@@ -24,6 +24,8 @@ pub struct Freedom {
     pub rows: usize,
     /// Rows that say nothing new at this configuration.
     pub redundant: usize,
+    /// Rows that say nothing new anywhere nearby either: redundant for good, not only in a singular configuration.
+    pub always_redundant: usize,
     /// Prescribed motions.
     pub driven: usize,
     /// Whether the rank was too close to call.
@@ -45,10 +47,17 @@ impl Freedom {
         let (count, here) = (self.count, self.here);
         let mut told = match (self.redundant, here as i64 - count) {
             (0, 0) => format!("{here} degrees of freedom, as the count of coordinates less constraints says"),
-            (r, more) => format!(
-                "{here} degrees of freedom, {more} more than the count of {count}: {r} of the {} constraints say nothing new here",
-                self.rows
-            ),
+            (r, more) => {
+                let singular = r - self.always_redundant.min(r);
+                let mut why = vec![];
+                if self.always_redundant > 0 {
+                    why.push(format!("{} of the {} constraints are redundant", self.always_redundant, self.rows));
+                }
+                if singular > 0 {
+                    why.push(format!("{singular} of the {} constraints say nothing new in this configuration, which is singular", self.rows));
+                }
+                format!("{here} degrees of freedom, {more} more than the count of {count}: {}", why.join("; "))
+            }
         };
         if self.driven > 0 {
             told += &format!("; {} prescribed by motions", self.driven);
@@ -61,22 +70,41 @@ impl Freedom {
 }
 
 impl Balance<'_> {
-    /// Degrees of freedom at the present state.
-    pub fn freedom(&self) -> Freedom {
+    /// Degrees of freedom at the present state, and whether constraints that are redundant here are so nearby.
+    pub fn freedom(&mut self) -> Freedom {
         let m = self.m;
         let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
         let couplings = m.drives.iter().filter(|d| d.coupling).count();
         let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
         let (rank, uncertain) = self.closing_rank();
         let redundant = self.geometric_rows() - rank;
+        let always_redundant = if redundant == 0 { 0 } else { self.geometric_rows() - self.nearby_rank(rank) };
         Freedom {
             count: bodies as i64 - rows as i64,
             here: m.freedom() - rank,
             rows,
             redundant,
+            always_redundant,
             driven: m.drives.len() - couplings,
             uncertain,
         }
+    }
+
+    /// The largest rank at a few configurations nearby, on the closed loops.
+    fn nearby_rank(&mut self, here: usize) -> usize {
+        let (t, q, u) = (self.t, self.q.clone(), self.u.clone());
+        let still = vec![0.0; u.len()];
+        let mut most = here;
+        for k in 1..=3 {
+            let step = |i: usize| 1e-2 * ((k * (i + 1)) as f64 * std::f64::consts::SQRT_2).sin();
+            let unit = column_scales(self.at(), self.length);
+            let mut near: Vec<f64> = (0..q.len()).map(|i| q[i] + step(i) * unit[i]).collect();
+            if self.close(t, &mut near, &still).is_ok() {
+                most = most.max(self.closing_rank().0);
+            }
+        }
+        self.place(t, &q, &u);
+        most
     }
 
     fn geometric_rows(&self) -> usize {

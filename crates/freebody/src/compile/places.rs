@@ -13,12 +13,12 @@ impl Compiler<'_> {
             let name = self.m.bodies[body].name.clone();
             let origin = self.site(body, Spot::At([zero, zero]));
             self.m.bodies[body].pin = origin;
-            self.names.sites.insert(format!("{name}.origin"), origin);
+            self.name_site(format!("{name}.origin"), origin);
             if body == 0 {
-                self.names.sites.insert("ground.O".to_string(), origin);
+                self.name_site("ground.O".to_string(), origin);
             } else {
                 let centre = self.site(body, Spot::MassCentre);
-                self.names.sites.insert(format!("{name}.G"), centre);
+                self.name_site(format!("{name}.G"), centre);
             }
         }
         for point in &self.spec.points {
@@ -29,10 +29,16 @@ impl Compiler<'_> {
             let [x, y] = &point.at;
             let at = Spot::At([self.number_slot(&path, x)?, self.number_slot(&path, y)?]);
             let site = self.site(body, at);
-            self.names.sites.insert(point.name.clone(), site);
-            self.m.points.push((point.name.clone(), site));
+            self.name_site(point.name.clone(), site);
         }
         Ok(())
+    }
+
+    /// A name of the model takes the place of one that every body has.
+    fn name_site(&mut self, name: String, site: usize) {
+        self.m.points.retain(|(known, _)| *known != name);
+        self.names.sites.insert(name.clone(), site);
+        self.m.points.push((name, site));
     }
 
     pub(crate) fn site(&mut self, body: usize, at: Spot) -> usize {

@@ -10,7 +10,7 @@ use crate::plane::{Pose, Turn, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
 
 /// Where all bodies are, as scalars `T`.
-pub trait Poses<T> {
+pub trait Poses<T: Scalar> {
     /// The pose of a body at its pin.
     fn pose(&self, body: usize) -> Pose<T>;
     /// The place of a site from its body's pin, in the body's axes.
@@ -23,6 +23,11 @@ pub trait Poses<T> {
     fn time(&self) -> T;
     /// A coordinate of a joint, as its user reads it.
     fn coordinate(&self, joint: usize, k: usize) -> T;
+    /// The vector from one site to another, fixed axes.
+    fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<T> {
+        let place = |site: usize| self.pose(m.body_of(site)).place(self.arm(site));
+        place(to) - place(from)
+    }
 }
 
 /// One state of a mechanism, as everything that measures sees it.
@@ -66,6 +71,32 @@ impl<S: Scalar> Poses<S> for Placed<'_, S> {
             None => measured(self.m, self.n, self, joint, k, |x| x),
         }
     }
+    /// Along the tree, so that what both sites have in common cancels before it is rounded.
+    fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<S> {
+        let [a, b] = [from, to].map(|site| m.body_of(site));
+        let meeting = m.common_carrier(a, b);
+        let [(near_a, far_a), (near_b, far_b)] = [(from, a), (to, b)].map(|(site, body)| self.reach(site, body, meeting));
+        (near_b - near_a) + (far_b - far_a)
+    }
+}
+
+impl<S: Scalar> Placed<'_, S> {
+    /// The way from the pin of `carrier` to a site on `body`: its first part, on the carrier itself, and the rest.
+    fn reach(&self, site: usize, body: usize, carrier: usize) -> (Vec2<S>, Vec2<S>) {
+        let own = self.k.pose[body].turn.apply(self.n.arms[site]);
+        if body == carrier {
+            return (own, Vec2::zero());
+        }
+        let (mut body, mut rest) = (body, own);
+        loop {
+            let parent = self.m.bodies[body].branch.expect("a body that hangs on the carrier").parent;
+            if parent == carrier {
+                return (self.k.arm[body], rest);
+            }
+            rest += self.k.arm[body];
+            body = parent;
+        }
+    }
 }
 
 /// The state in motion: every measure comes with its rate and its acceleration.
@@ -105,6 +136,12 @@ impl<S: Scalar> Poses<Jet<S>> for Moving<'_, S> {
     }
     fn time(&self) -> Jet<S> {
         Jet::new(self.at.t, S::one(), S::zero())
+    }
+    fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<Jet<S>> {
+        let value = self.at.span(from, to, m);
+        let place = |site: usize| self.pose(m.body_of(site)).place(self.arm(site));
+        let by_places = place(to) - place(from);
+        Vec2 { x: Jet { d0: value.x, ..by_places.x }, y: Jet { d0: value.y, ..by_places.y } }
     }
     fn coordinate(&self, joint: usize, k: usize) -> Jet<S> {
         match (self.at.m.place_in_q(joint, k), self.accelerations) {

@@ -21,6 +21,8 @@ pub struct Method {
     pub symplectic: bool,
     /// The step is kept unless it may grow by more than this factor.
     pub(super) growth_threshold: f64,
+    /// The fraction of a step farthest from where the rate is evaluated.
+    pub(super) blind_spot: f64,
     pub(super) stepper: fn(usize) -> Box<dyn Stepper>,
 }
 

@@ -8,25 +8,28 @@ use super::system::System;
 /// A component weighs rtol·max(|y₀|, |y₁|, |h·ẏ₀|, |h·ẏ₁|) + floor: the change over the step
 /// stands in for the size where the component passes through zero, so a decaying quantity keeps
 /// its relative digits. The floor, max(1e-6·rtol, 1e-15)·scale, keeps a component that is zero but
-/// for round-off from governing the step. The norm is the root mean square of the rms and
+/// for round-off from governing the step; where the system amplifies round-off it is raised to that
+/// noise, at most to rtol·scale. The norm is the root mean square of the rms and
 /// the maximum of the weighted errors: the worst component always counts for at least 0.7.
 pub(super) struct Norm {
     pub rtol: f64,
     /// Physical size of each component.
     pub scale: Vec<f64>,
+    /// Round-off of the rate, relative to the physical sizes.
+    pub noise: f64,
 }
 
 impl Norm {
     pub fn new(system: &dyn System, rtol: f64) -> Self {
         let mut scale = vec![1.0; system.dim()];
         system.scale(&mut scale);
-        Self { rtol, scale }
+        Self { rtol, scale, noise: 0.0 }
     }
 
     /// Tolerated error of each component for a step between two points.
     pub fn weights(&self, from: &Point, to: &Point, out: &mut [f64]) {
         let h = to.t - from.t;
-        let floor = (1e-6 * self.rtol).max(1e-15);
+        let floor = (1e-6 * self.rtol).max(1e-15).max(self.noise.min(self.rtol));
         for (i, weight) in out.iter_mut().enumerate() {
             let size = from.y[i].abs().max(to.y[i].abs());
             let change = (h * from.dy[i]).abs().max((h * to.dy[i]).abs());

@@ -67,6 +67,8 @@ pub(super) struct Runner<'a> {
     pub norm: Norm,
     pub pace: Pace,
     estimate_order: Option<u32>,
+    /// Where a step may hold a blind spot of the system, and when the next one comes.
+    blind: (f64, Option<f64>),
     pub now: Point,
     /// End of the step being made.
     pub next: Point,
@@ -90,6 +92,7 @@ impl<'a> Runner<'a> {
             norm: Norm::new(system, options.rtol),
             pace: Pace::new(method.estimate_order, method.growth_threshold, options.max_step),
             estimate_order: method.estimate_order,
+            blind: (method.blind_spot, None),
             next: now.clone(),
             t_end,
             run: Run::new(&now),
@@ -150,10 +153,13 @@ impl<'a> Runner<'a> {
             return Err(Outcome::Completed);
         }
         let error = self.accept(options)?;
+        let natural = self.natural_step();
         self.settle()?;
         let segment = self.segment()?;
         let marks = self.search(&segment)?;
-        self.pace.accepted(error);
+        if natural {
+            self.pace.accepted(error);
+        }
         if marks.iter().any(|mark| mark.kind == Kind::Crossing) {
             self.go_to_event(segment, &marks)?;
         } else {
@@ -196,10 +202,30 @@ impl<'a> Runner<'a> {
 
     /// End of the next step: the end of the run when it is in reach.
     fn target(&self) -> f64 {
-        match (self.t_end - self.now.t).abs() <= (1.0 + 1e-6) * self.pace.h.abs() {
+        let h = self.astride();
+        match (self.t_end - self.now.t).abs() <= (1.0 + 1e-6) * h.abs() {
             true => self.t_end,
-            false => self.now.t + self.pace.h,
+            false => self.now.t + h,
         }
+    }
+
+    /// The step that the pace asks for, or where a blind spot comes near one that takes it, or the next step, into its gap.
+    fn astride(&self) -> f64 {
+        let (gap, Some(spot)) = self.blind else { return self.pace.h };
+        let (h, ahead) = (self.pace.h, spot - self.now.t);
+        if self.pace.is_fixed() || ahead * h <= 0.0 || ahead.abs() > 1.5 * h.abs() {
+            return h;
+        }
+        // Less than the least shortening after a rejection, lest the same step be tried again.
+        match ahead.abs() <= 1.05 * gap * h.abs() {
+            true => ahead / gap,
+            false => ahead - gap * h,
+        }
+    }
+
+    /// Whether the step just made was as long as the pace asked for.
+    fn natural_step(&self) -> bool {
+        (self.next.t - self.now.t).abs() > 0.5 * self.pace.h.abs()
     }
 
     /// Ends the run when it has, or will have, too many steps.
@@ -238,6 +264,8 @@ impl<'a> Runner<'a> {
         self.run.trajectory.segments.push(segment);
         self.run.accepted += 1;
         std::mem::swap(&mut self.now, &mut self.next);
+        self.norm.noise = self.system.system.noise();
+        self.blind.1 = self.system.system.blind_spot(self.now.t, &self.now.y);
     }
 
     fn finish(self, outcome: Outcome) -> Run {

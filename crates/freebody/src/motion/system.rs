@@ -70,6 +70,17 @@ pub trait System {
         Ok(0.0)
     }
 
+    /// Round-off of the rate after the last projection, relative to [`System::scale`], where it is more than usual.
+    fn noise(&self) -> f64 {
+        0.0
+    }
+
+    /// The time at which the motion, as it goes at (t, y), passes a place where the rate is smooth but cannot be
+    /// evaluated accurately, if it goes there. An adaptive method then steps across it.
+    fn blind_spot(&mut self, _t: f64, _y: &[f64]) -> Option<f64> {
+        None
+    }
+
     /// Writes the physical size of each component (1 rad, a length, a speed …); positive.
     fn scale(&self, out: &mut [f64]) {
         out.fill(1.0);

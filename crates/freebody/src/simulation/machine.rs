@@ -2,9 +2,12 @@
 
 use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
-use crate::mechanism::Deed;
+use crate::mechanism::{Deed, Kink};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
+
+/// Independence of the closing rows below which every stage of a step is brought onto the loops.
+const DELICATE: f64 = 0.5;
 
 /// A stretch of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]
@@ -30,6 +33,9 @@ pub struct Machine<'m> {
     set: Vec<(usize, f64)>,
     pub(super) stretches: Vec<Stretch>,
     pub(super) worst_gap: f64,
+    /// Whether the loops are near a configuration where they lose independence.
+    delicate: bool,
+    independence: f64,
     scales: Vec<f64>,
 }
 
@@ -49,6 +55,8 @@ impl<'m> Machine<'m> {
             set: m.overruled(p),
             stretches: vec![first],
             worst_gap: 0.0,
+            delicate: false,
+            independence: 1.0,
             scales: vec![1.0; size],
         }
     }
@@ -70,15 +78,38 @@ impl<'m> Machine<'m> {
         self.balance.place(t, q, u);
     }
 
+    /// Goes to the state on the closed loops that is nearest to y. Close to a singular configuration a motion off
+    /// the loops, however little, is accelerated without bound; a motion on them is not.
+    fn place_closed(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        let (q, u) = self.split(y);
+        let (mut q, mut u) = (q.to_vec(), u.to_vec());
+        self.balance.close(t, &mut q, &u)?;
+        self.balance.align(t, &q, &mut u)?;
+        self.balance.place(t, &q, &u);
+        Ok(())
+    }
+
     /// Freezes every switch at the arm it has now.
     pub fn freeze_arms(&mut self, t: f64, y: &[f64]) {
         self.place(t, y);
         let m = self.balance.m;
-        for (kink, law) in &m.kinks {
-            let value = law.switch(*kink, &State(self.balance.at()));
-            self.balance.mode.freeze(*kink, value >= 0.0);
+        for kink in &m.kinks {
+            let value = self.switching(kink);
+            if let Kink::Switch(switch, _) = kink {
+                self.balance.mode.freeze(*switch, value >= 0.0);
+            }
         }
         self.stretches[0].mode = self.balance.mode.clone();
+    }
+
+    /// The function whose zero is a kink, at the present state.
+    fn switching(&self, kink: &Kink) -> f64 {
+        let at = self.balance.at();
+        match kink {
+            Kink::Switch(switch, law) => law.switch(*switch, &State(at)),
+            Kink::Knot(argument, x) => argument.eval::<f64, _>(&State(at)) - x,
+            Kink::Bend(joint, switch) => crate::kinematics::curve_switch(at, *joint, *switch),
+        }
     }
 
     /// Learns the physical sizes of the state's components from the starting state.
@@ -149,9 +180,13 @@ impl System for Machine<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
-        self.place(t, y);
+        if self.delicate {
+            self.place_closed(t, y)?;
+        } else {
+            self.place(t, y);
+        }
         self.balance.solve()?;
-        dy[..n].copy_from_slice(&y[n..2 * n]);
+        dy[..n].copy_from_slice(self.balance.at().u);
         self.balance.accelerations(&mut dy[n..2 * n]);
         for (i, &f) in self.worked.iter().enumerate() {
             let force = &self.balance.m.forces[f];
@@ -174,9 +209,40 @@ impl System for Machine<'_> {
         let (q, rest) = y.split_at_mut(n);
         let moved = self.balance.close(t, q, &rest[..n])?;
         self.worst_gap = self.worst_gap.max(self.balance.worst_gap());
+        self.independence = self.balance.independence();
+        self.delicate = self.independence < DELICATE;
         let turned = self.balance.align(t, q, &mut rest[..n])?;
         let pace = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / pace))
+    }
+
+    /// A gap of round-off size is a rate error of its size over the independence cubed: once for the positions, once for
+    /// the velocities, once for the accelerations that close it. Within a step the independence may fall to a third.
+    fn noise(&self) -> f64 {
+        if self.delicate {
+            100.0 * f64::EPSILON / self.independence.powi(3)
+        } else {
+            0.0
+        }
+    }
+
+    /// When the loops lose independence, from how fast they do so now.
+    fn blind_spot(&mut self, t: f64, y: &[f64]) -> Option<f64> {
+        if !self.delicate {
+            return None;
+        }
+        let n = self.balance.m.freedom();
+        let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
+        let dt = 1e-3 * DELICATE / fastest;
+        let mut independence = |t: f64, y: &[f64]| {
+            self.place(t, y);
+            self.balance.take_rows();
+            self.balance.independence()
+        };
+        let ahead: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
+        let (now, next) = (independence(t, y), independence(t + dt, &ahead));
+        let when = now * dt / (now - next);
+        (when > 0.0 && when.is_finite()).then_some(t + when)
     }
 
     fn scale(&self, out: &mut [f64]) {
@@ -194,8 +260,8 @@ impl System for Machine<'_> {
         out[..values.len()].copy_from_slice(&values);
         if !m.kinks.is_empty() {
             self.place(t, y);
-            for (i, (kink, law)) in m.kinks.iter().enumerate() {
-                out[m.events.len() + i] = law.switch(*kink, &State(self.balance.at()));
+            for (i, kink) in m.kinks.iter().enumerate() {
+                out[m.events.len() + i] = self.switching(kink);
             }
         }
         Ok(())
@@ -217,9 +283,10 @@ impl System for Machine<'_> {
     fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
         let m = self.balance.m;
         let Some(event) = m.events.get(i) else {
-            let kink = m.kinks[i - m.events.len()].0;
-            let arm = self.balance.mode.arm(kink).unwrap_or(true);
-            self.balance.mode.freeze(kink, !arm);
+            if let Kink::Switch(switch, _) = m.kinks[i - m.events.len()] {
+                let arm = self.balance.mode.arm(switch).unwrap_or(true);
+                self.balance.mode.freeze(switch, !arm);
+            }
             let p = self.balance.n.p.clone();
             self.stretches.push(Stretch { from: t, p, mode: self.balance.mode.clone(), jump: 0.0 });
             return Ok(After::Restart);

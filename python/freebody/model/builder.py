@@ -1,0 +1,334 @@
+"""The builder: says in Python what a model file says, with the same words."""
+
+from __future__ import annotations
+
+import linecache
+import sys
+from collections.abc import Iterator, Mapping, MutableMapping
+from pathlib import Path as FilePath
+from typing import Any
+
+from pydantic import ValidationError
+
+from freebody import _core
+from freebody.results import ReportItem
+
+from . import file, reading, schema
+from .answers import Run
+from .errors import Complaint, ModelFileError, Path, Problem, Where, path_text
+from .handles import Body, Element, Expression, Ground
+from .lower import Lowered, lower
+from .meanings import EVERY_BODY, SHAPE_POINTS
+from .names import spell, suggestion
+from .source import Source
+from .start import Assembly, Start, initial_state, parameter_values
+
+_OWN = str(FilePath(__file__).parent.parent)
+
+
+class Calls:
+    """Where items were made: in the file that was loaded, or by a Python call."""
+
+    def __init__(self, source: Source | None = None) -> None:
+        self.source = source
+        self.made: dict[Path, tuple[str, int]] = {}
+
+    def note(self, path: Path) -> None:
+        """Remembers the line outside freebody that is being executed."""
+        self.made[path] = caller()
+
+    def where(self, path: Path, at_key: bool = False) -> Where:
+        """The place of an item, or of the nearest that holds it."""
+        for length in range(len(path), 0 if self.source else -1, -1):
+            if path[:length] in self.made:
+                return called(*self.made[path[:length]], path)
+        return self.source.where(path, at_key) if self.source else Where("", 0, 0, path_text(path))
+
+
+def called(file: str, line: int, path: Path) -> Where:
+    """The place of a Python call."""
+    return Where(file, line, 0, path_text(path), linecache.getline(file, line).strip())
+
+
+def caller() -> tuple[str, int]:
+    """The file and line outside freebody that is being executed."""
+    frame = sys._getframe(1)
+    while frame.f_back and frame.f_code.co_filename.startswith(_OWN):
+        frame = frame.f_back
+    return frame.f_code.co_filename, frame.f_lineno
+
+
+def plain(value: Any) -> Any:
+    """Handles as the words of the model; arrays and tuples as lists."""
+    if isinstance(value, str):
+        return str(value)
+    if isinstance(value, (Body, Ground, Element)):
+        return value.name
+    if isinstance(value, Mapping):
+        return {str(plain(k)): plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+        listed = value.tolist() if hasattr(value, "tolist") else value
+        return [plain(v) for v in listed] if isinstance(listed, (list, tuple)) else listed
+    return value
+
+
+class Overrules(MutableMapping[str, Any]):
+    """The parameters of a model, those of its parts as ``part.name``. Unknown names raise ``ModelFileError``."""
+
+    def __init__(self, builder: Builder) -> None:
+        self._builder = builder
+
+    def __getitem__(self, name: str) -> Any:
+        known, rest, _ = self._place(name)
+        return known[rest]
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        known, rest, path = self._place(name)
+        made = self._builder.validated({"parameters": {rest: plain(value)}}, path)
+        known[rest] = made.parameters[rest]
+        self._builder.noted(path)
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("a parameter cannot be taken out of a model that may use it")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._builder.model.parameters)
+
+    def __len__(self) -> int:
+        return len(self._builder.model.parameters)
+
+    def _place(self, name: str) -> tuple[dict[str, Any], str, Path]:
+        model = self._builder.model
+        if name in model.parameters:
+            return model.parameters, name, ("parameters", name)
+        part, dot, rest = name.partition(".")
+        if dot and part in model.parts:
+            model.parts[part].model_fields_set.add("parameters")
+            return model.parts[part].parameters, rest, ("parts", part, "parameters", rest)
+        hint = suggestion(name, model.parameters, "parameters")
+        raise self._builder.error(("parameters", name), f"there is no parameter `{name}`", hint, caller())
+
+
+class Builder:
+    """A mechanism under construction: ``model`` is what has been said so far.
+
+    Wrong words raise ``ModelFileError`` at once; names and units are checked by ``lowered()`` and ``compile()``.
+    ``Mechanism`` adds a method for each shape, joint and force.
+    """
+
+    def __init__(self, name: str = "", gravity: Any = None) -> None:
+        self.model = schema.Model(freebody=schema.VERSION)
+        self._calls = Calls()
+        self._file: str | None = None
+        self._text = ""
+        self._lowered: tuple[str, Lowered] | None = None
+        self._compiled: tuple[str, _core.Mechanism] | None = None
+        self.ground = Ground(self, "ground", ("O",))
+        self._calls.note(())
+        if name:
+            self._assign("name", name)
+        if gravity is not None:
+            self._assign("gravity", gravity)
+
+    # -- files
+
+    @classmethod
+    def load(cls, path: str | FilePath) -> Any:
+        """The mechanism of a model file. Raises ``ModelFileError``."""
+        return cls._of(*reading.read(path), str(path))
+
+    @classmethod
+    def loads(cls, text: str, name: str = "model") -> Any:
+        """The mechanism of the text of a model file. Raises ``ModelFileError``."""
+        return cls._of(*reading.reads(text, name), None)
+
+    @classmethod
+    def of(cls, model: schema.Model) -> Any:
+        """The mechanism of a model."""
+        return cls._of(model, None, None)
+
+    @classmethod
+    def _of(cls, model: schema.Model, source: Source | None, path: str | None) -> Any:
+        made = cls()
+        made.model, made._calls, made._file = model, Calls(source), path
+        made._text = source.text if source else ""
+        for name in (model.ground or schema.Ground()).points:
+            made.ground._has(name)
+        return made
+
+    def save(self, path: str | FilePath) -> None:
+        """Writes the model; the comments of the file that it was loaded from stay."""
+        file.save(self.model, path, self._text)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Builder) and self.model == other.model
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        m = self.model
+        return f"<mechanism {m.name!r}: {len(m.bodies)} bodies, {len(m.joints)} joints, {len(m.forces)} forces>"
+
+    # -- what the model says, piece by piece
+
+    @property
+    def parameters(self) -> Overrules:
+        """The parameters by name; those that the model has can be given other numbers."""
+        return Overrules(self)
+
+    def parameter(self, name: str, value: Any) -> Expression:
+        """Names a number; the answer stands for it in arithmetic: ``2*T``."""
+        self.put("parameters", name, value)
+        return Expression(spell(name))
+
+    def gauge(self, name: str, expression: Any) -> Expression:
+        """Names an expression of the configuration."""
+        self.put("gauges", name, expression)
+        return Expression(spell(name))
+
+    def table(self, name: str, x: Any, y: Any, interpolation: str = "linear") -> str:
+        """A function given by points, called in expressions as ``name(x)``."""
+        self.put("tables", name, {"x": x, "y": y, "interpolation": interpolation})
+        return name
+
+    def part(self, name: str, file: str, **parameters: Any) -> str:
+        """Puts another model file here under ``name``, with its parameters overruled."""
+        self.put("parts", name, {"file": file} | ({"parameters": parameters} if parameters else {}))
+        return name
+
+    def motion(self, name: str, of: Any, is_: Any, level: str = "position", by: Any = None) -> Element:
+        """Prescribes a motion of a gauge; ``is_`` is its law (``is`` in a file)."""
+        self.put("motions", name, _given(of=of, level=level, by=by) | {"is": is_})
+        return Element(name, [])
+
+    def event(self, name: str, when: Any, direction: str = "any", if_: Any = None, then: Any = "record") -> str:
+        """Watches for a zero of ``when``; ``if_`` is its condition (``if`` in a file)."""
+        self.put("events", name, _given(when=when, direction=direction, then=then) | ({} if if_ is None else {"if": if_}))
+        return name
+
+    def initial(self, **values: Any) -> None:
+        """Sets coordinates at the start, and ``rates``, ``guess``, ``points``, ``branch``, ``at_rest``; adds to what is there."""
+        before = self.model.initial.written() if self.model.initial else {}
+        self._assign("initial", before | values)
+
+    def run_settings(self, **values: Any) -> None:
+        """Sets ``until``, ``method``, ``rtol``, ``every``, ``max_step``, ``step``; adds to what is there."""
+        before = self.model.run.written() if self.model.run else {}
+        self._assign("run", before | values)
+
+    def report(self, label: str, quantity: Any) -> None:
+        """Asks for a quantity: ``"speed(P) @ end"``, or a mapping."""
+        self.put("report", label, quantity)
+
+    def body(self, name: str, **words: Any) -> Body:
+        """A body of any shape, with the words of a model file."""
+        self.put("bodies", name, words)
+        return self[name]
+
+    def mark(self, body: str, section: str, name: str, value: Any) -> None:
+        """Names a point, line or curve (``section``) of a body or of the ground."""
+        path: Path = ("ground",) if body == "ground" else ("bodies", body)
+        marked = self.model.ground if body == "ground" else self.model.bodies[body]
+        before = marked.written() if marked else {}
+        changed = before | {section: before.get(section, {}) | {name: value}}
+        self._calls.note((*path, section, name))
+        if body == "ground":
+            self._assign("ground", changed, note=False)
+        else:
+            self.put("bodies", body, changed, note=False)
+
+    def __getitem__(self, name: str) -> Body:
+        """The body of that name."""
+        body = self.model.bodies[name]
+        return Body(self, name, (*EVERY_BODY, *SHAPE_POINTS.get(body.shape, ()), *body.points))
+
+    def put(self, section: str, name: str, value: Any, note: bool = True) -> None:
+        """Adds an item to a section. Raises ``ModelFileError`` when its words are wrong."""
+        name, old = str(plain(name)), getattr(self.model, section)
+        if note:
+            if name in old:
+                raise self.error(
+                    (section, name), f"`{name}` is used twice in {section}", "give one of them another name", caller()
+                )
+            self._calls.note((section, name))
+        # Validated alone, so that making many items takes linear time.
+        made = self.validated({section: {name: plain(value)}}, (section, name))
+        old[name] = getattr(made, section)[name]
+        self.model.model_fields_set.add(section)
+        self._changed()
+
+    def _assign(self, section: str, value: Any, note: bool = True) -> None:
+        if note:
+            self._calls.note((section,))
+        made = self.validated({section: plain(value)}, (section,))
+        setattr(self.model, section, getattr(made, section))
+        self._changed()
+
+    def validated(self, data: dict[str, Any], path: Path) -> schema.Model:
+        """A model of that data alone. Raises ``ModelFileError``."""
+        try:
+            return schema.Model.model_validate({"freebody": schema.VERSION} | data)
+        except ValidationError as error:
+            found = [Problem(self._calls.where(at), what, hint) for at, what, hint, _ in reading.complaints(error)]
+            self._calls.made.pop(path, None)
+            raise ModelFileError(found) from None
+
+    def error(self, path: Path, what: str, hint: str, at: tuple[str, int]) -> ModelFileError:
+        """The error about an item, at a Python call."""
+        return ModelFileError([Problem(called(*at, path), what, hint)])
+
+    # -- what others make of it
+
+    def noted(self, path: Path) -> None:
+        """Remembers that the item was made by the call that is being executed."""
+        self._calls.note(path)
+        self._changed()
+
+    def _changed(self) -> None:
+        self._lowered = self._compiled = None
+
+    def lowered(self) -> Lowered:
+        """The model in the core's terms. Raises ``ModelFileError`` with all that is wrong."""
+        key = self.model.model_dump_json(by_alias=True, exclude_unset=True)
+        if self._lowered is None or self._lowered[0] != key:
+            self._lowered = (key, lower(self.model, self._calls, self._file))
+        return self._lowered[1]
+
+    def compile(self) -> _core.Mechanism:
+        """The compiled mechanism; made again only when the model has changed. Raises ``ModelFileError``."""
+        lowered = self.lowered()
+        assert self._lowered is not None
+        if self._compiled is None or self._compiled[0] != self._lowered[0]:
+            self._compiled = (self._lowered[0], lowered.compile())
+        return self._compiled[1]
+
+    def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:
+        """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``.
+
+        Raises ``ModelFileError``.
+        """
+        start = self.lowered().start
+        if initial is not None:
+            start = Start(coordinates=start.coordinates, parameters=start.parameters)
+        try:
+            return initial_state(start, self.compile(), {**(initial or {}), **(changes or {})})
+        except Complaint as complaint:
+            raise self.error((), complaint.what, complaint.hint, caller()) from None
+
+    def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Run:
+        """The settings of ``run`` as numbers, for these parameters (the model's by default)."""
+        return self.lowered().run.with_parameters(self._values(parameters))
+
+    def report_items(self, parameters: Mapping[str, float] | None = None) -> list[ReportItem]:
+        """The quantities to report, for these parameters (the model's by default)."""
+        values = self._values(parameters)
+        return [item.with_parameters(values) for item in self.lowered().report]
+
+    def _values(self, parameters: Mapping[str, float] | None) -> Mapping[str, float]:
+        return parameter_values(self.compile(), self.compile().bind({})) if parameters is None else parameters
+
+
+def _given(**words: Any) -> dict[str, Any]:
+    """What differs from its default, so that builder and file write the same."""
+    usual = {"level": "position", "direction": "any", "then": "record"}
+    return {key: value for key, value in words.items() if value is not None and value != usual.get(key)}

@@ -1,0 +1,83 @@
+"""Joints and forces of the language, made from the cards of the core: a new joint there is a new word here."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Union
+
+from pydantic import Field, create_model
+
+from . import cards
+from .values import Circle, Line, Name, Number, Numbers, Points, Section, Text, number_in, one_of
+
+
+class Element(Section):
+    """What joints and forces have in common; ``type`` is the word of the card."""
+
+
+class Coordinate(Section):
+    """How a coordinate is measured."""
+
+    name: Name
+    zero: Number = Field(0, description="Reading of the joint's own measure at which it is 0, or right, up, left, down.")
+    sense: Literal["ccw", "clockwise", "forward", "backward"] = "ccw"
+    absolute: bool = Field(False, description="Whether an angle is measured from the fixed x axis instead of the first body.")
+
+
+CoordinateName = one_of("this is no coordinate", "write a name, or `{name: theta, zero: down}`", text=Name, mapping=Coordinate)
+
+_KINDS: dict[str, Any] = {
+    "point": Name,
+    "points": Points,
+    "line": Line,
+    "circle": Circle,
+    "curve": Name,
+    "body": Name,
+    "numbers": Numbers,
+    "gauge": Text,
+    "flag": bool,
+}
+
+
+def _type(field: cards.Field) -> Any:
+    if field.kind == "choice":
+        return Literal[field.choices]
+    if field.kind in ("number", "law"):
+        return number_in(field.unit or "")
+    return _KINDS[field.kind]
+
+
+def _model(card: cards.Card, more: dict[str, Any]) -> type[Element]:
+    fields: dict[str, Any] = {"type": (Literal[card.type], Field(description=card.doc))}
+    for field in card.fields:
+        default = ... if field.required else None
+        fields[field.name] = (_type(field), Field(default, description=field.doc[:1].upper() + field.doc[1:] + "."))
+    name = "".join(word.capitalize() for word in card.type.split("_"))
+    return create_model(name, __base__=Element, __doc__=card.doc, **fields, **more)
+
+
+def _coordinates(card: cards.Card) -> dict[str, Any]:
+    if not card.coordinates:
+        return {}
+    usual = ", ".join(c.name for c in card.coordinates)
+    return {
+        "coordinate": (CoordinateName, Field(None, description=f"The first coordinate ({usual}).")),
+        "coordinates": (list[CoordinateName], Field(None, description=f"All coordinates, in this order: {usual}.")),
+    }
+
+
+JOINTS = {word: _model(card, _coordinates(card)) for word, card in cards.joints().items()}
+FORCES = {word: _model(card, {}) for word, card in cards.forces().items()}
+
+Joint = Annotated[Union[tuple(JOINTS.values())], Field(discriminator="type")]  # noqa: UP007
+Force = Annotated[Union[tuple(FORCES.values())], Field(discriminator="type")]  # noqa: UP007
+
+
+def given(element: Element, name: str) -> Any:
+    """The value of a field, None where it was left out; the name may be a Python keyword."""
+    return getattr(element, name) if name in element.model_fields_set else None
+
+
+def coordinates(element: Element) -> list[str | Coordinate]:
+    """The coordinates that a joint names."""
+    one = given(element, "coordinate")
+    return [one] if one is not None else list(given(element, "coordinates") or [])

@@ -1,0 +1,137 @@
+"""What the builder hands back: points, bodies, joints and expressions, all of which a model can be written with."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .names import spell
+
+
+class Expression(str):
+    """The text of an expression; arithmetic on it makes longer ones: ``2*T`` → ``2*T`` in the model."""
+
+    __slots__ = ()
+
+    def _join(self, sign: str, other: Any, swapped: bool = False) -> Expression:
+        left, right = (other, self) if swapped else (self, other)
+        return Expression(f"{_operand(left)} {sign} {_operand(right)}")
+
+    def __add__(self, other: Any) -> Expression:  # type: ignore[override]
+        return self._join("+", other)
+
+    def __radd__(self, other: Any) -> Expression:
+        return self._join("+", other, swapped=True)
+
+    def __sub__(self, other: Any) -> Expression:
+        return self._join("-", other)
+
+    def __rsub__(self, other: Any) -> Expression:
+        return self._join("-", other, swapped=True)
+
+    def __mul__(self, other: Any) -> Expression:  # type: ignore[override]
+        return self._join("*", other)
+
+    def __rmul__(self, other: Any) -> Expression:  # type: ignore[override]
+        return self._join("*", other, swapped=True)
+
+    def __truediv__(self, other: Any) -> Expression:
+        return self._join("/", other)
+
+    def __rtruediv__(self, other: Any) -> Expression:
+        return self._join("/", other, swapped=True)
+
+    def __pow__(self, other: Any) -> Expression:
+        return self._join("^", other)
+
+    def __neg__(self) -> Expression:
+        return Expression(f"-{_operand(self)}")
+
+
+def _operand(value: Any) -> str:
+    text = str(value)
+    alone = text.replace("_", "").replace(".", "").isalnum()
+    return text if alone else f"({text})"
+
+
+class Point(str):
+    """A named point, ``body.name``."""
+
+    __slots__ = ()
+
+
+class Marked:
+    """A body or the ground. Its points are attributes: ``rod.start``, ``m.ground.O``."""
+
+    def __init__(self, mechanism: Any, name: str, points: tuple[str, ...] = ()) -> None:
+        self._mechanism = mechanism
+        self.name = name
+        for point in points:
+            self._has(point)
+
+    def __str__(self) -> str:
+        return self.name
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__.lower()} {self.name}>"
+
+    def point(self, name: str, at: Any) -> Point:
+        """Names a point: coordinates in the body's frame, or the name of another point of it. Also ``body.name`` from now on."""
+        at = at.removeprefix(f"{self.name}.") if isinstance(at, str) else at
+        self._mechanism.mark(self.name, "points", name, at)
+        return self._has(name)
+
+    def line(self, name: str, through: Any, towards: Any = None, *, angle: Any = None) -> str:
+        """Names a line through a point, towards another one or at an angle from the body's x axis."""
+        given = (
+            [str(through), str(towards)]
+            if towards is not None
+            else {"through": str(through), "angle": 0 if angle is None else angle}
+        )
+        self._mechanism.mark(self.name, "lines", name, given)
+        return f"{self.name}.{name}"
+
+    def curve(self, name: str, shape: Any = None, **coordinates: Any) -> str:
+        """Names a curve: ``x=``, ``y=`` as expressions of s, or ``{"arc": …}``, or a list of lines and arcs."""
+        self._mechanism.mark(self.name, "curves", name, coordinates or shape)
+        return f"{self.name}.{name}"
+
+    def _has(self, point: str) -> Point:
+        handle = Point(f"{self.name}.{point}")
+        if point.isidentifier() and not hasattr(type(self), point):
+            setattr(self, point, handle)
+        return handle
+
+    def __getitem__(self, point: str) -> Point:
+        """The point of that name, also when it is no Python word."""
+        return Point(f"{self.name}.{point}")
+
+
+class Body(Marked):
+    """A body of a mechanism under construction."""
+
+
+class Ground(Marked):
+    """The ground; ``ground.O`` is the origin."""
+
+
+class Element:
+    """A joint, force or motion of a mechanism under construction."""
+
+    def __init__(self, name: str, coordinates: list[str]) -> None:
+        self.name = name
+        self.coordinates = [Expression(spell(c)) for c in coordinates]
+
+    def __str__(self) -> str:
+        return self.name
+
+    def __repr__(self) -> str:
+        return f"<{self.name}>"
+
+    @property
+    def coordinate(self) -> Expression:
+        """The first coordinate of a joint, for use in expressions."""
+        return self.coordinates[0]
+
+    def __getitem__(self, part: str) -> Expression:
+        """What a report may read: ``joint["Fx"]``, ``force["power"]``."""
+        return Expression(f"{spell(self.name)}.{part}")

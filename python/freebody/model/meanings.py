@@ -1,0 +1,199 @@
+"""What the names of a whole model mean, parts included, under their full names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from . import syntax
+from .errors import Complaint, Path
+from .names import TOKEN, fault, suggestion, unquote
+from .schema import Body
+from .scope import Scope, coordinate_names
+from .units import Dimension, unit
+
+SHAPE_POINTS = dict.fromkeys(("particle", "disk", "ring", "rectangle"), ("centre",)) | {"rod": ("start", "centre", "end")}
+EVERY_BODY = ("origin", "G")
+
+
+@dataclass
+class Meanings:
+    """All names. ``values`` holds parameters, coordinates and gauges with their kind and dimension (None: not known).
+
+    ``owners`` are joints, forces and motions, whose answers are read as ``name.Fx``; ``alias`` leads from points that
+    only rename another to that one.
+    """
+
+    values: dict[str, tuple[str, Dimension | None]] = field(default_factory=dict)
+    owners: dict[str, str] = field(default_factory=dict)
+    bodies: set[str] = field(default_factory=lambda: {"ground"})
+    points: set[str] = field(default_factory=lambda: {"ground.O", "ground.origin"})
+    alias: dict[str, str] = field(default_factory=lambda: {"ground.origin": "ground.O"})
+    lines: set[str] = field(default_factory=set)
+    curves: set[str] = field(default_factory=set)
+    tables: set[str] = field(default_factory=set)
+    events: set[str] = field(default_factory=set)
+
+    def dimension(self, name: str, scope: Scope) -> Dimension | None:
+        """The dimension of a full name in an expression. Raises ``Complaint`` when it means nothing."""
+        if name in self.values:
+            return self.values[name][1]
+        if name in syntax.CONSTANTS:
+            return None  # laws like `2 + t` mean 2 + t/s
+        owner = name.rpartition(".")[0]
+        if owner in self.owners:
+            return syntax.part(name)
+        raise self.unknown(name, scope)
+
+    def unknown(self, name: str, scope: Scope) -> Complaint:
+        """The complaint about a name in an expression that means nothing."""
+        short = name.removeprefix(scope.prefix)
+        if name in self.points or name in self.bodies:
+            kind = "point" if name in self.points else "body"
+            readings = "`x`, `y`, `vx`, `distance`" if kind == "point" else "`angle`, `omega`"
+            return Complaint(
+                f"`{short}` is a {kind}, not a number",
+                f"read it through a function such as {readings}: `{'x' if kind == 'point' else 'angle'}({short})`",
+            )
+        return Complaint(
+            f"nothing is called `{short}`", suggestion(short, self.seen_from(scope, self.values), "parameters or coordinates")
+        )
+
+    def place(self, name: str, kind: str, known: Iterable[str], scope: Scope) -> Complaint:
+        """The complaint about a point, line or curve that does not exist."""
+        short = name.removeprefix(scope.prefix)
+        body, _, last = name.rpartition(".")
+        if name in self.bodies:
+            points = sorted(k for k in known if k.rpartition(".")[0] == name)
+            return Complaint(
+                f"a {kind} is needed, and `{short}` is a body", f"write one of its {kind}s, e.g. `{points[-1]}`" if points else ""
+            )
+        if body in self.bodies:
+            own = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == body]
+            return Complaint(
+                f"`{body.removeprefix(scope.prefix)}` has no {kind} `{last}`", suggestion(last, own, f"{kind} of that body")
+            )
+        if body:
+            return Complaint(
+                f"there is no body `{body.removeprefix(scope.prefix)}`",
+                suggestion(body.removeprefix(scope.prefix), self.seen_from(scope, self.bodies)),
+            )
+        return Complaint(f"`{short}` is no {kind}", f"a {kind} is written `body.name`, e.g. `ground.O`")
+
+    def seen_from(self, scope: Scope, known: Iterable[str]) -> list[str]:
+        """Full names as that file writes them."""
+        return [k.removeprefix(scope.prefix) for k in known if k.startswith(scope.prefix) or k.startswith("ground")]
+
+
+def meanings(root: Scope) -> Meanings:
+    """The names of a model; those used twice or that cannot be names are complained about."""
+    found = Meanings()
+    for scope in root.all():
+        _Declaring(found, scope).all()
+    return found
+
+
+class _Declaring:
+    def __init__(self, found: Meanings, scope: Scope) -> None:
+        self.found = found
+        self.scope = scope
+        self.model = scope.model
+
+    def all(self) -> None:
+        m, found, full = self.model, self.found, self.full
+        for name in m.parameters:
+            self.value(name, ("parameters", name), "parameter", self.scope.parameters.dimension(name))
+        for name, body in m.bodies.items():
+            self.body(name, body)
+        self.marks("ground", m.ground, ("ground",))
+        for name, joint in m.joints.items():
+            self.owner(name, "joint", ("joints", name))
+            for coordinate, card in coordinate_names(name, joint):
+                path: Path = ("joints", name, "coordinates" if "coordinates" in joint.model_fields_set else "coordinate")
+                self.value(coordinate, path, "coordinate", unit(card.unit).dimension if card.unit else None)
+        for name in m.gauges:
+            self.value(name, ("gauges", name), "gauge", None)
+        for name in m.forces:
+            self.owner(name, "force", ("forces", name))
+        for name in m.motions:
+            self.owner(name, "motion", ("motions", name))
+        for name in m.tables:
+            self.check(name, ("tables", name))
+            found.tables.add(full(name))
+        for name in m.events:
+            self.check(name, ("events", name))
+            found.events.add(full(name))
+
+    def full(self, name: str) -> str:
+        return self.scope.prefix + name
+
+    def check(self, name: str, path: Path) -> None:
+        usual = name.rpartition(".")[2] if path[-1] in ("coordinate", "coordinates") else name
+        if what := fault(usual):
+            self.scope.complain(path, what, "names hold letters, digits, spaces and `_`", True)
+
+    def value(self, name: str, path: Path, kind: str, dimension: Dimension | None) -> None:
+        self.check(name, path)
+        known = self.found.values.get(self.full(name))
+        if known is not None:
+            self.scope.complain(
+                path, f"the {kind} `{name}` has the name of a {known[0]}", "give one of them another name", kind != "coordinate"
+            )
+        elif name in syntax.CONSTANTS and kind != "parameter":
+            self.scope.complain(
+                path, f"`{name}` has a meaning of its own in expressions", f"give the {kind} another name", kind != "coordinate"
+            )
+        self.found.values.setdefault(self.full(name), (kind, dimension))
+
+    def owner(self, name: str, kind: str, path: Path) -> None:
+        self.check(name, path)
+        known = self.found.owners.get(self.full(name))
+        if known is not None:
+            self.scope.complain(path, f"the {kind} `{name}` has the name of a {known}", "give one of them another name", True)
+        self.found.owners[self.full(name)] = kind
+
+    def body(self, name: str, body: Body) -> None:
+        self.check(name, ("bodies", name))
+        if name == "ground":
+            self.scope.complain(
+                ("bodies", name), "`ground` is always there", "give it points under `ground:`, outside `bodies:`", True
+            )
+            return
+        full = self.full(name)
+        self.found.bodies.add(full)
+        for point in (*EVERY_BODY, *SHAPE_POINTS.get(body.shape, ())):
+            self.found.points.add(f"{full}.{point}")
+        self.marks(name, body, ("bodies", name))
+        if name not in self.joined():
+            for word, text in (("x", "m"), ("y", "m"), ("angle", "rad")):
+                self.found.values.setdefault(f"{full}.{word}", ("coordinate", unit(text).dimension))
+
+    def marks(self, body: str, marked: object, path: Path) -> None:
+        owner = f"ground.{self.scope.prefix}" if body == "ground" else f"{self.full(body)}."
+        for section, known in (("points", self.found.points), ("lines", self.found.lines), ("curves", self.found.curves)):
+            for name in getattr(marked, section, {}):
+                self.check(name, (*path, section, name))
+                if section == "points" and f"{owner}{name}" in known:
+                    self.scope.complain(
+                        (*path, section, name), f"`{body}` has a point `{name}` already", "give yours another name", True
+                    )
+                known.add(f"{owner}{name}")
+
+    def joined(self) -> set[str]:
+        """The bodies that the joints of this file name."""
+        if not hasattr(self, "_joined"):
+            texts = [text for joint in self.model.joints.values() for text in _texts(joint.written())]
+            heads = (unquote(t[0]).rpartition(".")[0] for text in texts for t in TOKEN.finditer(text) if t.lastgroup == "name")
+            self._joined = set(heads)
+        return self._joined
+
+
+def _texts(data: object) -> Iterable[str]:
+    if isinstance(data, dict):
+        for value in data.values():
+            yield from _texts(value)
+    elif isinstance(data, list):
+        for item in data:
+            yield from _texts(item)
+    elif isinstance(data, str):
+        yield data

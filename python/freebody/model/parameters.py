@@ -1,0 +1,127 @@
+"""Parameters of a model as numbers and dimensions, each worked out after those it uses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from graphlib import CycleError, TopologicalSorter
+
+from . import syntax, units
+from .errors import Complaint, Consequence
+from .names import fault, suggestion
+from .units import Dimension
+
+Number = float | int | str
+
+
+class Parameters:
+    """Named numbers that may use one another.
+
+    ``overruled`` gives some of them another number and dimension from outside. What is wrong with a parameter is
+    kept in ``faults`` and raised when its value is asked for.
+    """
+
+    def __init__(
+        self, given: Mapping[str, Number], overruled: Mapping[str, tuple[float, Dimension | None]] | None = None
+    ) -> None:
+        self.given = given
+        self.overruled = dict(overruled or {})
+        self.faults: dict[str, Complaint] = {}
+        self._values = {name: value for name, (value, _) in self.overruled.items()}
+        self._dimensions = {name: dimension for name, (_, dimension) in self.overruled.items()}
+        self.children: dict[str, Parameters] = {}
+        for name in self._order():
+            if name in given and name not in self._values and name not in self.faults:
+                self._work_out(name)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.given or (isinstance(name, str) and self._child(name) is not None)
+
+    def value(self, name: str) -> float:
+        """The value in SI. Raises ``Complaint``."""
+        if child := self._child(name):
+            return child[0].value(child[1])
+        if name in self.faults:
+            raise Consequence(f"the parameter `{name}` has no value", self.faults[name].what)
+        if name not in self._values:
+            raise Complaint(f"there is no parameter `{name}`", suggestion(name, self.given, "parameters"))
+        return self._values[name]
+
+    def dimension(self, name: str) -> Dimension | None:
+        """The dimension; None when it fits anywhere or is not known."""
+        if child := self._child(name):
+            return child[0].dimension(child[1])
+        return self._dimensions.get(name)
+
+    def number(self, text: Number) -> float:
+        """The value of a number of the model: bare, a quantity or an expression of parameters. Raises ``Complaint``."""
+        if not isinstance(text, str):
+            return float(text)
+        if (found := units.quantity(text)) is not None:
+            return found.value
+        return self._evaluated(text)
+
+    def whole(self, text: str) -> int:
+        """The value of a whole number, for repetitions and indices. Raises ``Complaint``."""
+        value = self.number(text)
+        if not abs(value) <= 1e9 or value != round(value):
+            raise Complaint(f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers")
+        return round(value)
+
+    def measured(self, text: Number) -> tuple[float, Dimension | None]:
+        """Value and dimension of a number of the model. Raises ``Complaint``."""
+        return self.number(text), self._dimension_of(text)
+
+    def _order(self) -> list[str]:
+        uses: dict[str, list[str]] = {}
+        for name, text in self.given.items():
+            try:
+                if (what := fault(name)) or name in syntax.CONSTANTS:
+                    raise Complaint(
+                        what or f"`{name}` has a meaning of its own in expressions", "give the parameter another name"
+                    )
+                uses[name] = self._uses(text)
+            except Complaint as complaint:
+                self.faults[name] = complaint
+                uses[name] = []
+        while True:
+            try:
+                return list(TopologicalSorter(uses).static_order())
+            except CycleError as error:
+                circle = list(dict.fromkeys(reversed(error.args[1])))
+                shown = " → ".join([*circle, circle[0]])
+                for name in circle:
+                    self.faults[name] = Complaint(
+                        f"parameters are defined by one another in a circle: {shown}", "give one of them a number"
+                    )
+                    uses[name] = []
+
+    def _uses(self, text: Number) -> list[str]:
+        if not isinstance(text, str) or units.quantity(text) is not None:
+            return []
+        return syntax.names(syntax.parse(text).tree)
+
+    def _work_out(self, name: str) -> None:
+        try:
+            self._values[name], self._dimensions[name] = self.measured(self.given[name])
+        except Complaint as complaint:
+            self.faults[name] = complaint
+
+    def _dimension_of(self, text: Number) -> Dimension | None:
+        if not isinstance(text, str):
+            return None
+        if (found := units.quantity(text)) is not None:
+            return found.dimension
+        expression = syntax.parse(text)
+        return syntax.Measure(expression, self.dimension).of(expression.tree)
+
+    def _evaluated(self, text: str) -> float:
+        try:
+            return float(syntax.evaluate(syntax.parse(text).tree, self.value))
+        except (ArithmeticError, ValueError) as error:
+            raise Complaint(
+                f"`{text}` has no value: {error}", "check for a division by 0 or a root of a negative number"
+            ) from None
+
+    def _child(self, name: str) -> tuple[Parameters, str] | None:
+        head, dot, rest = name.partition(".")
+        return (self.children[head], rest) if dot and head in self.children else None

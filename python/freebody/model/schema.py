@@ -1,0 +1,308 @@
+"""The model language as types: they read a model, and the JSON Schema is made from them.
+
+``python -m freebody.model.schema`` prints the schema.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Literal
+
+from pydantic import ConfigDict, Field, model_validator
+
+from .elements import Force, Joint
+from .values import (
+    Angle,
+    Circle,
+    Inertia,
+    Length,
+    Line,
+    Mass,
+    Name,
+    Number,
+    Pair,
+    Place,
+    Section,
+    Text,
+    Time,
+    TwoPoints,
+    number_in,
+    one_of,
+    refuse,
+)
+
+VERSION = 1
+"""The version of the language."""
+
+SHAPES: dict[str, tuple[str, ...]] = {
+    "particle": (),
+    "rod": ("length",),
+    "disk": ("radius",),
+    "ring": ("radius",),
+    "rectangle": ("width", "height"),
+    "triangle": ("corners",),
+    "polygon": ("corners",),
+    "general": (),
+}
+"""The shapes with the sizes that each needs."""
+SIZES = ("length", "radius", "width", "height", "corners")
+Shape = Literal["particle", "rod", "disk", "ring", "rectangle", "triangle", "polygon", "general"]
+
+
+class Shaped(Section):
+    """Something of a shape: a body or a piece of one."""
+
+    shape: Shape = "general"
+    length: Length = Field(None, description="Length of a rod.")
+    radius: Length = Field(None, description="Radius of a disk or ring.")
+    width: Length = Field(None, description="Size of a rectangle along x.")
+    height: Length = Field(None, description="Size of a rectangle along y.")
+    corners: list[Pair] = Field(None, description="Corners of a triangle or polygon, in order.")
+    mass: Mass = Field(None, description="Mass; 0 is allowed.")
+    inertia: Inertia = Field(None, description="Inertia about the mass centre; overrules the shape's.")
+
+    @model_validator(mode="after")
+    def _sizes_suit_shape(self) -> Shaped:
+        needed = set(SHAPES[self.shape])
+        given = self.model_fields_set & set(SIZES)
+        kind = f"a {self.shape}" if self.shape != "general" else "a body without a shape"
+        for size in sorted(needed - given):
+            raise refuse(f"{kind} needs a `{size}`", f"add `{size}:`")
+        for size in sorted(given - needed):
+            fitting = [shape for shape, sizes in SHAPES.items() if size in sizes]
+            raise refuse(f"{kind} has no `{size}`", f"`{size}` belongs to the shape {' or '.join(fitting)}")
+        if self.shape == "triangle" and len(self.corners) != 3:
+            raise refuse(f"a triangle has 3 corners, not {len(self.corners)}", "use `shape: polygon` for more")
+        if self.shape == "polygon" and len(self.corners) < 3:
+            raise refuse(f"a polygon has 3 corners or more, not {len(self.corners)}")
+        return self
+
+
+class Piece(Shaped):
+    """A piece of a composite body, in a frame of its own."""
+
+    mass: Mass = Field(description="Mass; 0 is allowed.")
+    at: Pair = Field([0, 0], description="Place of the piece's own origin in the body's frame.")
+    angle: Angle = Field(0, description="Angle of the piece's x axis in the body's frame.")
+
+
+class PointMass(Section):
+    """A mass added to a body at one of its points."""
+
+    at: Place
+    mass: Mass
+
+
+class Arc(Section):
+    """A piece of a track: from where the track is, about a centre, the shorter way to a point."""
+
+    centre: Name
+    to: Name
+
+
+class Stretch(Section):
+    """One piece of a track: a line or an arc."""
+
+    line: TwoPoints = Field(None, description="From one point straight to another.")
+    arc: Arc = Field(None, description="From where the track is, about a centre, to a point.")
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> Stretch:
+        if len(self.model_fields_set) != 1:
+            raise refuse("a stretch of a track is either a `line` or an `arc`", "give one of the two")
+        return self
+
+
+class CurveShape(Section):
+    """A curve: coordinates as expressions of the curve parameter ``s``, or a whole circle (``s`` is the angle)."""
+
+    x: Text = Field(None, description="x as an expression of s.")
+    y: Text = Field(None, description="y as an expression of s.")
+    arc: Circle = Field(None, description="A circle; s is the angle from the body's x axis.")
+
+    @model_validator(mode="after")
+    def _one_way(self) -> CurveShape:
+        if self.model_fields_set not in ({"x", "y"}, {"arc"}):
+            raise refuse("a curve needs `x` and `y`, or `arc`", "e.g. `{x: 2*s, y: s^2}` or `{arc: {centre: A, radius: r}}`")
+        return self
+
+
+Curve = one_of(
+    "this is no curve",
+    "write `{x: …, y: …}`, `{arc: {centre: A, radius: r}}`, or a list of lines and arcs",
+    pair=list[Stretch],
+    mapping=CurveShape,
+)
+
+
+class Marked(Section):
+    """Something with named points, lines and curves: a body, or ground."""
+
+    points: dict[str, Place] = Field({}, description="Named points: `[x, y]` or the name of another point.")
+    lines: dict[str, Line] = Field({}, description="Named lines.")
+    curves: dict[str, Curve] = Field({}, description="Named curves.")
+    outline: Literal["none"] | list[Place] = Field(None, description="What drawings show: points, or none.")
+
+
+class Ground(Marked):
+    """The ground, which has the point ``ground.O``."""
+
+
+class Body(Marked, Shaped):
+    """A rigid body or a particle."""
+
+    centre: Pair = Field(None, description="Mass centre; overrules the shape's.")
+    point_masses: list[PointMass] = Field([], description="Masses added at points.")
+    pieces: list[Piece] | dict[str, Piece] = Field(None, description="Pieces of a composite body, as a list or by name.")
+
+    @model_validator(mode="after")
+    def _has_mass(self) -> Body:
+        given = self.model_fields_set
+        if "pieces" in given and (alien := given & {"mass", "inertia", "centre", "shape"}):
+            raise refuse(f"a body of pieces takes its mass from them; `{min(alien)}` has no place here", "give it to a piece")
+        if not given & {"mass", "pieces", "point_masses"}:
+            raise refuse("this body has no mass", "add `mass:`; a massless body says `mass: 0`")
+        if self.shape == "particle" and given & {"inertia", "centre"}:
+            raise refuse("a particle has neither `inertia` nor `centre`", "leave the shape out for a body that can turn")
+        return self
+
+
+class Table(Section):
+    """A function given by points; outside them the end value holds."""
+
+    x: list[Number]
+    y: list[Number]
+    interpolation: Literal["linear", "pchip"] = "linear"
+
+
+class Part(Section):
+    """Another model file whose items come in under the name of the part."""
+
+    file: Name = Field(description="The file, relative to this one.")
+    parameters: dict[str, Number] = Field({}, description="Its parameters, overruled.")
+
+
+class Motion(Section):
+    """A prescribed motion of a gauge."""
+
+    of: Text = Field(description="The gauge whose motion is given.")
+    law: Number = Field(alias="is", description="Its value, rate or acceleration: an expression of time and state.")
+    level: Literal["position", "velocity", "acceleration"] = "position"
+    by: Text = Field(None, description="The gauge along which the actuator acts; `of` by default.")
+
+
+class SetParameters(Section):
+    """Parameters that take new values at an event."""
+
+    set: dict[str, Number]
+
+
+Word = Literal["record", "stop"]
+_NO_ACTION = ("this is no action", "write `record`, `stop`, `{set: {T: 0}}` or a list of these")
+Action = one_of(*_NO_ACTION, text=Word, mapping=SetParameters)
+Actions = one_of(*_NO_ACTION, text=Word, pair=list[Action], mapping=SetParameters)
+
+
+class Event(Section):
+    """Something to watch for during a motion."""
+
+    when: Text = Field(description="The expression whose zero is the event.")
+    direction: Literal["rising", "falling", "any"] = "any"
+    condition: Text = Field(None, alias="if", description="It counts only while this holds.")
+    then: Actions = "record"
+
+
+class Initial(Section):
+    """How the motion starts; further keys are coordinates, held exactly."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Number]
+
+    rates: dict[str, Number] = Field({}, description="Rates of coordinates.")
+    at_rest: bool = Field(False, description="Whether all rates are 0.")
+    guess: dict[str, Number] = Field({}, description="Approximate values of the other coordinates.")
+    points: dict[str, Pair] = Field({}, description="Places of points, held exactly.")
+    branch: dict[str, Literal["positive", "negative"]] = Field({}, description="Signs of expressions that choose the assembly.")
+
+
+class Run(Section):
+    """How far and how the motion is computed."""
+
+    until: Time = Field(None, description="Time of the end.")
+    method: Literal["dop853", "tsit5", "radau", "gauss6", "rk4"] = "dop853"
+    rtol: Number = Field(1e-9, description="Relative tolerance.")
+    every: Time = Field(None, description="Time between rows of the output.")
+    max_step: Time = Field(None, description="Longest step.")
+    step: Time = Field(None, description="The step of methods with fixed steps.")
+
+
+Moment = Number
+EXTREMES = ("max", "min", "mean", "rms", "integral")
+
+
+class Question(Section):
+    """A quantity to report, as a mapping."""
+
+    value: Text = Field(None, description="An expression.")
+    at: Moment = Field(None, description="`start`, `end`, an event, or a time.")
+    max: Text = None
+    min: Text = None
+    mean: Text = None
+    rms: Text = None
+    integral: Text = None
+    over: list[Moment] = Field(None, description="From one moment to another.", min_length=2, max_length=2)
+    unit: Name = Field(None, description="Unit of the printed figure.")
+
+    @model_validator(mode="after")
+    def _one_question(self) -> Question:
+        asked = self.model_fields_set & {"value", *EXTREMES}
+        if len(asked) != 1:
+            raise refuse("a report needs one of `value`, `max`, `min`, `mean`, `rms`, `integral`", "give exactly one of them")
+        if "over" in self.model_fields_set and "value" in asked:
+            raise refuse("`over` goes with max, min, mean, rms or integral", "for one moment write `at`")
+        if "at" in self.model_fields_set and "value" not in asked:
+            raise refuse("`at` goes with `value`", "for a window write `over: [a, b]`")
+        return self
+
+
+_Acceleration = number_in("m/s^2")
+Gravity = one_of(
+    "this is no gravity", "write `none`, a size like `9.81`, or `[gx, gy]`", text=_Acceleration, number=_Acceleration, pair=Pair
+)
+Report = one_of("this is no quantity to report", "write `expression @ moment`", text=Text, mapping=Question)
+
+
+class Model(Section):
+    """A whole model, as it is written."""
+
+    freebody: Literal[1] = Field(VERSION, description="Version of the language.")
+    name: str = Field("", description="Title.")
+    parameters: dict[str, Number] = Field({}, description="Named numbers, in any order.")
+    tables: dict[str, Table] = Field({}, description="Functions given by points.")
+    gravity: Gravity = Field(9.81, description="`none`, a size, or `[gx, gy]`.")
+    ground: Ground = Field(None, description="Points, lines and curves of the ground.")
+    parts: dict[str, Part] = Field({}, description="Other model files, used as parts.")
+    bodies: dict[str, Body] = Field({}, description="The bodies.")
+    gauges: dict[str, Text] = Field({}, description="Named expressions of the configuration.")
+    joints: dict[str, Joint] = Field({}, description="The joints.")
+    forces: dict[str, Force] = Field({}, description="The forces, gravity apart.")
+    motions: dict[str, Motion] = Field({}, description="Prescribed motions.")
+    initial: Initial = Field(None, description="How the motion starts.")
+    events: dict[str, Event] = Field({}, description="What to watch for.")
+    run: Run = Field(None, description="How far and how the motion is computed.")
+    report: dict[str, Report] = Field({}, description="Quantities to report.")
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema (2020-12) of a model file."""
+    made = Model.model_json_schema(by_alias=True)
+    head = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"https://freebody.invalid/schema/model/{VERSION}",
+        "title": f"freebody model file, version {VERSION}",
+    }
+    return head | {key: value for key, value in made.items() if key not in head}
+
+
+if __name__ == "__main__":
+    print(json.dumps(schema(), indent=1, ensure_ascii=False))

@@ -1,0 +1,172 @@
+"""How a motion starts: the section ``initial`` as arguments of the core's ``assemble``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypedDict
+
+from numpy.typing import NDArray
+
+from . import syntax, units
+from .errors import Complaint, Path
+from .meanings import Meanings
+from .names import suggestion
+from .schema import Initial
+from .units import TIME, Dimension
+from .writer import Number, Writer
+
+_SIGNS = {"positive": 1, "negative": -1}
+WORDS = ("rates", "at_rest", "guess", "points", "branch")
+
+
+@dataclass
+class Start:
+    """The section ``initial`` in the core's terms; numbers may be expressions of parameters."""
+
+    fixed: dict[str, Number] = field(default_factory=dict)
+    guess: dict[str, Number] = field(default_factory=dict)
+    rates: dict[str, Number] = field(default_factory=dict)
+    at_rest: bool = False
+    points: dict[str, list[Number]] = field(default_factory=dict)
+    branch: dict[str, int] = field(default_factory=dict)
+    coordinates: dict[str, Dimension | None] = field(default_factory=dict)
+    parameters: dict[str, Dimension | None] = field(default_factory=dict)
+
+
+class Assembly(TypedDict):
+    """Arguments of ``_core.Mechanism.assemble``."""
+
+    p: NDArray[Any]
+    fixed: dict[str, float]
+    guess: dict[str, float]
+    rates: dict[str, float]
+    at_rest: bool
+    points: dict[str, list[float]]
+    branch: dict[str, int]
+
+
+class StartWriter:
+    """Adds what one scope says to the start."""
+
+    def __init__(self, write: Writer, start: Start) -> None:
+        self.write = write
+        self.start = start
+
+    def all(self) -> None:
+        """Notes the coordinates and parameters of the model, and the section ``initial`` of this scope."""
+        start, known = self.start, self.write.meanings
+        start.coordinates = {name: d for name, (kind, d) in known.values.items() if kind == "coordinate"}
+        start.parameters = {name: d for name, (kind, d) in known.values.items() if kind == "parameter"}
+        initial = self.write.scope.model.initial
+        if initial is not None:
+            self._initial(initial)
+
+    def _initial(self, initial: Initial) -> None:
+        start, path = self.start, ("initial",)
+        start.fixed |= self._values(path, initial.model_extra or {}, 0)
+        start.guess |= self._values((*path, "guess"), initial.guess, 0)
+        start.rates |= self._values((*path, "rates"), initial.rates, 1)
+        start.at_rest = initial.at_rest
+        for name, at in initial.points.items():
+            here = (*path, "points", name)
+            start.points[self.write.point(here, name)] = self.write.pair(here, at)
+        for text, sign in initial.branch.items():
+            start.branch[self.write.expression((*path, "branch", text), text)] = _SIGNS[sign]
+
+    def _values(self, path: Path, given: Mapping[str, Any], order: int) -> dict[str, Number]:
+        found: dict[str, Number] = {}
+        for name, value in given.items():
+            full = self.write.full(name)
+            if full not in self.start.coordinates:
+                self._unknown((*path, name), full, name)
+                continue
+            dimension = self.start.coordinates[full]
+            found[full] = self.write.number((*path, name), value, dimension and dimension.times(TIME, -order))
+        return found
+
+    def _unknown(self, path: Path, full: str, name: str) -> None:
+        known: Meanings = self.write.meanings
+        kind = known.values.get(full, ("",))[0]
+        coordinates = known.seen_from(self.write.scope, self.start.coordinates)
+        words = WORDS if len(path) == 2 else ()
+        hint = "`initial` sets coordinates; give parameters their value under `parameters`" if kind == "parameter" else ""
+        what = f"`{name}` is a {kind}, not a coordinate" if kind else f"there is no coordinate `{name}`"
+        self.write.scope.complain(path, what, hint or suggestion(name, [*coordinates, *words], "coordinates"), True)
+
+
+def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None = None) -> Assembly:
+    """Arguments for ``core.assemble``: the start of the model with ``overrides``.
+
+    ``overrides`` maps coordinates and parameters to numbers or quantities (``{"phi2": "90 deg", "T": 2}``); the words
+    of ``initial`` (``rates``, ``guess``, ``points``, ``branch``, ``at_rest``) are understood as well. Raises ``Complaint``.
+    """
+    given = dict(overrides or {})
+    words = {word: given.pop(word) for word in WORDS if word in given}
+    unknown = [name for name in given if name not in start.coordinates and name not in start.parameters]
+    if unknown:
+        known = [*start.coordinates, *start.parameters, *WORDS]
+        raise Complaint(f"there is no coordinate or parameter `{unknown[0]}`", suggestion(unknown[0], known))
+    p = core.bind({n: _plain(n, v, start.parameters[n], {}) for n, v in given.items() if n in start.parameters})
+    values = parameter_values(core, p)
+    fixed = dict(start.fixed) | {n: v for n, v in given.items() if n in start.coordinates}
+    rates = {} if words.get("at_rest") else dict(start.rates) | dict(words.get("rates", {}))
+    return {
+        "p": p,
+        "fixed": {n: _plain(n, v, _dimension(start, n), values) for n, v in fixed.items()},
+        "guess": {n: _plain(n, v, _dimension(start, n), values) for n, v in (start.guess | dict(words.get("guess", {}))).items()},
+        "rates": {n: _plain(n, v, _rate(_dimension(start, n)), values) for n, v in rates.items()},
+        "at_rest": bool(words.get("at_rest", start.at_rest and not words.get("rates"))),
+        "points": {
+            n: [_plain(n, v, units.LENGTH, values) for v in at]
+            for n, at in (start.points | dict(words.get("points", {}))).items()
+        },
+        "branch": start.branch | {text: _sign(sign) for text, sign in dict(words.get("branch", {})).items()},
+    }
+
+
+def parameter_values(core: Any, p: NDArray[Any]) -> dict[str, float]:
+    """The parameters of a compiled mechanism by name."""
+    names = [parameter["name"] for parameter in json.loads(core.describe())["parameters"]]
+    return {name: float(value) for name, value in zip(names, p, strict=True)}
+
+
+def evaluate(number: Any, values: Mapping[str, float]) -> float:
+    """A bare number, a quantity, or an expression of parameters with these values. Raises ``Complaint``."""
+    return _plain("the number", number, None, values)
+
+
+def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[str, float]) -> float:
+    if not isinstance(number, str):
+        return float(number)
+    quantity = units.quantity(number)
+    if quantity is None:
+        return float(syntax.evaluate(syntax.parse(number).tree, lambda n: _value(n, values)))
+    if dimension is not None and not quantity.dimension.fits(dimension):
+        raise Complaint(f"`{name}` is {dimension.words()}; `{number}` is {quantity.dimension.words()}")
+    return quantity.value
+
+
+def _value(name: str, values: Mapping[str, float]) -> float:
+    if name not in values:
+        raise Complaint(f"there is no parameter `{name}`", suggestion(name, values))
+    return values[name]
+
+
+def _dimension(start: Start, name: str) -> Dimension | None:
+    if name not in start.coordinates:
+        raise Complaint(f"there is no coordinate `{name}`", suggestion(name, start.coordinates))
+    return start.coordinates[name]
+
+
+def _rate(dimension: Dimension | None) -> Dimension | None:
+    return None if dimension is None else dimension.times(TIME, -1)
+
+
+def _sign(sign: Any) -> int:
+    if sign in _SIGNS:
+        return _SIGNS[sign]
+    if sign in (1, -1):
+        return int(sign)
+    raise Complaint(f"`{sign}` is no branch", "write `positive` or `negative`")

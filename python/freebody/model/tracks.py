@@ -1,0 +1,105 @@
+"""Circles, and tracks of lines and arcs, as expressions of the curve parameter ``s``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from . import syntax
+from .errors import Complaint
+from .schema import Stretch
+from .writer import Number
+
+At = list[Number]
+
+
+def circle(centre: At, radius: Number) -> tuple[str, str]:
+    """x and y of a circle; ``s`` is the angle from the x axis."""
+    x, y = (_text(c) for c in centre)
+    return f"{x} + {_text(radius)}*cos(s)", f"{y} + {_text(radius)}*sin(s)"
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """One stretch: its length and its coordinates as expressions of the way ``{w}`` from its beginning."""
+
+    length: str
+    x: str
+    y: str
+
+
+def track(stretches: list[Stretch], at: Callable[[int, str], At]) -> tuple[str, str]:
+    """x and y of stretches one after another; ``s`` is the length of the way. Beyond its ends the track goes on as there.
+
+    ``at(i, name)`` gives the coordinates of a point of stretch ``i``. Raises ``Complaint``.
+    """
+    if not stretches:
+        raise Complaint("a track needs a line or an arc", "write `[{line: [A, B]}]`")
+    legs: list[_Leg] = []
+    end: At | None = None
+    for i, stretch in enumerate(stretches):
+        if stretch.line is not None:
+            start, stop = (at(i, name) for name in stretch.line)
+            if end is not None and start != end:
+                raise Complaint("the track has a gap", f"the line {stretch.line} must begin where the stretch before it ends")
+            legs.append(_line(start, stop))
+            end = stop
+        elif end is None:
+            raise Complaint(
+                "a track cannot begin with an arc", "an arc begins where the stretch before it ends: begin with a line"
+            )
+        else:
+            stop = at(i, stretch.arc.to)
+            legs.append(_arc(end, at(i, stretch.arc.centre), stop))
+            end = stop
+    return _joined(legs)
+
+
+def _line(start: At, stop: At) -> _Leg:
+    dx, dy = (_difference(b, a) for a, b in zip(start, stop, strict=True))
+    length = _worked(f"hypot({dx}, {dy})")
+    return _Leg(length, f"{_text(start[0])} + {dx}*{{w}}/{length}", f"{_text(start[1])} + {dy}*{{w}}/{length}")
+
+
+def _arc(start: At, centre: At, stop: At) -> _Leg:
+    (ax, ay), (bx, by) = ([_difference(p, c) for p, c in zip(point, centre, strict=True)] for point in (start, stop))
+    radius = _worked(f"hypot({ax}, {ay})")
+    sweep = f"atan2({ax}*{by} - {ay}*{bx}, {ax}*{bx} + {ay}*{by})"
+    turn = f"{_worked(f'sign({sweep})')}*{{w}}/{radius}"
+    x = f"{_text(centre[0])} + {ax}*cos({turn}) - {ay}*sin({turn})"
+    y = f"{_text(centre[1])} + {ax}*sin({turn}) + {ay}*cos({turn})"
+    return _Leg(_worked(f"{radius}*abs({sweep})"), x, y)
+
+
+def _joined(legs: list[_Leg]) -> tuple[str, str]:
+    before, ways = "", []
+    for leg in legs:
+        ways.append(f"(s - ({before}))" if before else "s")
+        before = f"{before} + {leg.length}" if before else leg.length
+    x, y = (getattr(legs[-1], axis).format(w=ways[-1]) for axis in "xy")
+    for i in range(len(legs) - 2, -1, -1):
+        until = " + ".join(leg.length for leg in legs[: i + 1])
+        x, y = (f"if(s < {until}, {getattr(legs[i], axis).format(w=ways[i])}, {later})" for axis, later in (("x", x), ("y", y)))
+    return x, y
+
+
+def _text(number: Number) -> str:
+    return (
+        f"({number!r})"
+        if isinstance(number, float) and number < 0
+        else repr(number)
+        if isinstance(number, float)
+        else f"({number})"
+    )
+
+
+def _worked(text: str) -> str:
+    """The value of an expression without names; others stay as they are."""
+    tree = syntax.parse(text).tree
+    return text if syntax.names(tree) else _text(float(syntax.evaluate(tree, float)))
+
+
+def _difference(a: Number, b: Number) -> str:
+    if isinstance(a, float) and isinstance(b, float):
+        return _text(a - b)
+    return f"({_text(a)} - {_text(b)})"

@@ -1,0 +1,185 @@
+"""The small things that a model is written with: numbers, points, lines, circles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from numbers import Integral, Real
+from typing import Annotated, Any, TypeVar
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    PlainValidator,
+    Tag,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from .names import suggestion
+
+T = TypeVar("T", bound="Section")
+
+
+class Section(BaseModel):
+    """A mapping of the language: its keys are known, others are errors with the nearest known one."""
+
+    model_config = ConfigDict(extra="forbid", populate_by_name=True, validate_assignment=True)
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _name_unknown_keys(cls: type[T], data: Any, handler: Callable[[Any], T]) -> T:
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise ValidationError.from_exception_data(cls.__name__, [cls._with_hint(e) for e in error.errors()]) from None
+
+    @classmethod
+    def words(cls) -> list[str]:
+        """The keys that it knows."""
+        return [field.alias or name for name, field in cls.model_fields.items()]
+
+    @classmethod
+    def _with_hint(cls, error: Any) -> InitErrorDetails:
+        kind, context = error["type"], error.get("ctx", {})
+        if kind == "extra_forbidden" and len(error["loc"]) == 1:
+            key = str(error["loc"][0])
+            kind = refuse(f"unknown key `{key}`", suggestion(key, cls.words()))
+        elif kind == "missing" and len(error["loc"]) == 1:
+            key = str(error["loc"][0])
+            kind = refuse(f"`{key}` is missing", cls._about(key))
+        elif kind == "freebody" and "what" not in context:
+            kind = refuse(*error["msg"].split("\n"))
+        elif kind == "freebody":
+            kind = refuse(context["what"], context["hint"])
+        return InitErrorDetails(type=kind, loc=error["loc"], input=error["input"], ctx=context)
+
+    @classmethod
+    def _about(cls, key: str) -> str:
+        found = [f.description for name, f in cls.model_fields.items() if key in (name, f.alias) and f.description]
+        return f"add `{key}:` ({found[0][0].lower()}{found[0][1:].rstrip('.')})" if found else f"add `{key}:`"
+
+    def written(self) -> dict[str, Any]:
+        """The plain data of what was given, with the keys of the language."""
+        return self.model_dump(by_alias=True, exclude_unset=True)
+
+
+def refuse(what: str, hint: str = "") -> PydanticCustomError:
+    """The error that a validator raises: what is wrong and what to try."""
+    return PydanticCustomError("freebody", "{what}", {"what": what, "hint": hint})
+
+
+def _number(value: Any) -> float | int | str:
+    if isinstance(value, str) and value.strip():
+        return str(value)
+    if isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value):
+        return int(value) if isinstance(value, Integral) else float(value)
+    shown = "nothing stands here" if value is None else f"`{value}` is no number"
+    raise refuse(shown, "write a number, a quantity like `400 mm`, or an expression of parameters")
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, str) and value.strip():
+        return str(value)
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return str(value)
+    raise refuse(
+        "an expression stands here as text" if value is not None else "nothing stands here", "write an expression, e.g. `R - l`"
+    )
+
+
+def _name(value: Any) -> str:
+    if isinstance(value, str) and value.strip():
+        return str(value)
+    raise refuse("a name is needed here", "names are texts; put quotes around one that looks like something else")
+
+
+def number_in(unit: str) -> Any:
+    """The type of a number with that SI unit: a bare number, a quantity or an expression."""
+    schema = {"type": ["number", "string"], "x-unit": unit} if unit else {"type": ["number", "string"]}
+    return Annotated[float | int | str, PlainValidator(_number), WithJsonSchema(schema)]
+
+
+Number = number_in("")
+Length, Angle, Mass, Inertia, Time = (number_in(u) for u in ("m", "rad", "kg", "kg*m^2", "s"))
+Text = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": ["string", "number"]})]
+Name = Annotated[str, PlainValidator(_name), WithJsonSchema({"type": "string"})]
+
+
+def _list(item: Callable[[Any], Any], count: int | None, what: str) -> Callable[[Any], list[Any]]:
+    def check(value: Any) -> list[Any]:
+        given = list(value) if isinstance(value, (list, tuple)) else None
+        if given is None or (len(given) < 2 if count is None else len(given) != count):
+            raise refuse(what)
+        return [item(one) for one in given]
+
+    return check
+
+
+def _list_schema(item: dict[str, Any], count: int | None) -> dict[str, Any]:
+    return {"type": "array", "items": item, "minItems": count or 2} | ({"maxItems": count} if count else {})
+
+
+_PAIR, _POINTS = {"type": ["number", "string"], "x-unit": "m"}, {"type": "string"}
+_two_numbers = _list(_number, 2, "two coordinates are needed: `[x, y]`")
+_two_points = _list(_name, 2, "two points are needed: `[P, Q]`")
+Pair = Annotated[list[Any], PlainValidator(_two_numbers), WithJsonSchema(_list_schema(_PAIR, 2))]
+Numbers = Annotated[
+    list[Any],
+    PlainValidator(_list(_number, None, "a list of two numbers or more is needed")),
+    WithJsonSchema(_list_schema({"type": ["number", "string"]}, None)),
+]
+Points = Annotated[
+    list[str],
+    PlainValidator(_list(_name, None, "a list of two points or more is needed: `[P, Q]`")),
+    WithJsonSchema(_list_schema(_POINTS, None)),
+]
+TwoPoints = Annotated[list[str], PlainValidator(_two_points), WithJsonSchema(_list_schema(_POINTS, 2))]
+
+
+class Through(Section):
+    """A line through a point at an angle from the x axis of its body."""
+
+    through: Name
+    angle: Angle
+
+
+class Circle(Section):
+    """A circle about a point."""
+
+    centre: Name
+    radius: Length
+
+
+def one_of(what: str, hint: str, **kinds: Any) -> Any:
+    """A union told apart by how a value is written: ``text``, ``number``, ``pair`` (a list) or ``mapping``."""
+
+    def kind(value: Any) -> str | None:
+        if isinstance(value, (dict, BaseModel)):
+            return "<mapping>"
+        if isinstance(value, (list, tuple)):
+            return "<pair>"
+        if isinstance(value, Real) and not isinstance(value, bool):
+            return "<number>"
+        return "<text>" if isinstance(value, str) else None
+
+    union: Any = None
+    for word, type_ in kinds.items():
+        member = Annotated[type_, Tag(f"<{word}>")]
+        union = member if union is None else union | member
+    # The message holds both sentences, because a context would make the type unhashable.
+    told = Discriminator(kind, custom_error_type="freebody", custom_error_message=f"{what}\n{hint}")
+    return Annotated[union, told]
+
+
+Line = one_of(
+    "this is no line",
+    "a line is written `body.name`, `[P, Q]` or `{through: P, angle: a}`",
+    text=Name,
+    pair=TwoPoints,
+    mapping=Through,
+)
+Place = one_of("this is no point", "a point is written `[x, y]`, or with the name of another", text=Name, pair=Pair)

@@ -1,0 +1,231 @@
+"""The words of a model in the core's terms: numbers in SI, full names, checked dimensions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import syntax, units
+from .errors import Complaint, Consequence, Path
+from .meanings import Meanings
+from .names import TOKEN, replace_names, spell, suggestion, unquote
+from .scope import Scope
+from .units import Dimension
+from .values import Circle, Through
+
+Number = float | str
+Unit = str | Dimension | None
+# What the functions of places take: a point, a line or a body each; ? where it may be left out.
+_ARGUMENTS = {"along": "pl", "across": "pl", "distance": "pp", "direction": "pp", "kinetic": "b?", "angular_momentum": "p"}
+_ARGUMENTS |= dict.fromkeys(("x", "y", "vx", "vy", "speed", "ax", "ay"), "p") | dict.fromkeys(("angle", "omega", "alpha"), "b")
+_KINDS = {"p": "point", "l": "line", "b": "body"}
+
+
+class Writer:
+    """Writes what one scope says. Every method takes the path of the item; what is wrong is noted there."""
+
+    def __init__(self, scope: Scope, meanings: Meanings, lines: dict[str, dict[str, Any]]) -> None:
+        self.scope = scope
+        self.meanings = meanings
+        self.lines = lines
+
+    # -- numbers and expressions
+
+    def number(self, path: Path, value: Any, unit: Unit = None, positive: str = "") -> Number:
+        """A number of the model. ``positive`` says what may not be negative (``a mass``)."""
+        try:
+            found, dimension = self.number_of(value)
+            self._check_dimension(path, value, dimension, unit)
+            if positive and (size := self.scope.parameters.number(value)) < 0:
+                raise Complaint(f"{positive} cannot be negative; `{value}` is {size:g}", "check its sign")
+            return found
+        except Consequence:
+            return 0.0
+        except Complaint as complaint:
+            self.scope.complain(path, complaint.what, complaint.hint)
+            return 0.0
+
+    def pair(self, path: Path, values: list[Any], unit: str = "m") -> list[Number]:
+        """Two numbers."""
+        return [self.number((*path, i), value, unit) for i, value in enumerate(values)]
+
+    def expression(self, path: Path, text: Any, unit: Unit = None, local: str = "") -> str:
+        """An expression of the configuration, of time or of answers; the core knows which of them may stand where.
+
+        ``unit`` is what it must measure (None: anything); ``local`` is a name that only this expression knows (``s`` of
+        a curve).
+        """
+        try:
+            found, dimension = self.measured(text, local)
+            self._check_dimension(path, text, dimension, unit)
+            return found
+        except Complaint as complaint:
+            self.scope.complain(path, complaint.what, complaint.hint)
+            return "0"
+
+    def dimension(self, text: Any) -> Dimension | None:
+        """The dimension of an expression; None when it fits anywhere or is wrong."""
+        try:
+            return self.measured(text)[1]
+        except Complaint:
+            return None
+
+    def measured(self, text: Any, local: str = "") -> tuple[str, Dimension | None]:
+        """An expression with its dimension (None: fits anywhere). Raises ``Complaint``."""
+        if not isinstance(text, str):
+            return repr(float(text)), None
+        if (quantity := units.quantity(text)) is not None:
+            return repr(quantity.value), quantity.dimension
+        expression = syntax.parse(self._in_full(text))
+        self._check_arguments(expression.tree)
+
+        def lookup(name: str) -> Dimension | None:
+            return None if name == local else self.meanings.dimension(name, self.scope)
+
+        measure = syntax.Measure(expression, lookup, self.meanings.tables.__contains__)
+        return expression.text, measure.of(expression.tree)
+
+    def number_of(self, value: Any) -> tuple[Number, Dimension | None]:
+        """A number of the model with its dimension (None: fits anywhere). Raises ``Complaint``."""
+        if not isinstance(value, str):
+            return float(value), None
+        if (quantity := units.quantity(value)) is not None:
+            return quantity.value, quantity.dimension
+        expression = syntax.parse(self._in_full(value))
+        for name in syntax.names(expression.tree):
+            kind = self.meanings.values.get(name, ("constant" if name == "pi" else "",))[0]
+            if name == "t" or kind not in ("parameter", "constant", ""):
+                what = "the time" if name == "t" else f"a {kind}"
+                raise Complaint(
+                    f"`{name}` is {what}; this number cannot change with the motion", "it may depend on parameters only"
+                )
+            if not kind:
+                raise self.meanings.unknown(name, self.scope)
+        _, dimension = self.scope.parameters.measured(value)
+        return expression.text, dimension
+
+    def _check_dimension(self, path: Path, text: Any, found: Dimension | None, unit: Unit) -> None:
+        if unit is None or found is None:
+            return
+        wanted = units.unit(unit).dimension if isinstance(unit, str) else unit
+        if found.fits(wanted):
+            return
+        name = next((f"`{step}`" for step in reversed(path) if isinstance(step, str)), "this")
+        words = [t[0] for t in TOKEN.finditer(str(text)) if t.lastgroup == "name" and t[0] in self.scope.model.parameters]
+        hint = f"write it in {wanted.unit()}, or in a unit of the same kind" if wanted.unit() else "write a plain number"
+        if words and units.quantity(str(text)) is not None:
+            hint = f"after a number, `{words[0]}` is read as a unit; for the parameter write a product, `*{words[0]}`"
+        raise Complaint(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
+
+    def _check_arguments(self, tree: syntax.Tree) -> None:
+        match tree:
+            case {"call": [name, arguments]} if name in _ARGUMENTS and name not in self.meanings.tables:
+                self._check_call(name, arguments)
+            case {"call": [_, arguments]}:
+                for argument in arguments:
+                    self._check_arguments(argument)
+            case {"chain": [first, rest]}:
+                for part in [first, *(part for _, part in rest)]:
+                    self._check_arguments(part)
+            case {"negate": inner} | {"not": inner}:
+                self._check_arguments(inner)
+
+    def _check_call(self, name: str, arguments: list[syntax.Tree]) -> None:
+        wanted = _ARGUMENTS[name]
+        kinds = wanted.rstrip("?")
+        if len(arguments) != len(kinds) and not (wanted.endswith("?") and not arguments):
+            shown = ", ".join(_KINDS[k] for k in kinds)
+            raise Complaint(
+                f"`{name}` takes {len(kinds)} argument{'s'[: len(kinds) > 1]}, not {len(arguments)}", f"write `{name}({shown})`"
+            )
+        for kind, argument in zip(kinds, arguments, strict=False):
+            if "name" not in argument:
+                raise Complaint(f"`{name}` reads a {_KINDS[kind]}, not a number", "write its name")
+            self._known(argument["name"], _KINDS[kind])
+
+    def _in_full(self, text: str) -> str:
+        return replace_names(text, self._full_token)
+
+    def _full_token(self, token: str, is_call: bool) -> str:
+        name = unquote(token)
+        if is_call:
+            return spell(self.scope.prefix + name) if self.scope.prefix + name in self.meanings.tables else token
+        full = self.full(name)
+        return token if full == name and "'" not in token else spell(full)
+
+    def full(self, name: str) -> str:
+        """The name under which the whole model knows what this file calls ``name``."""
+        head, _, rest = name.partition(".")
+        if head == "ground" and rest:
+            own = name if rest in ("O", "origin") else f"ground.{self.scope.prefix}{rest}"
+        else:
+            own = self.scope.prefix + name if head in self.scope.heads else name
+        return self.meanings.alias.get(own, own)
+
+    # -- places
+
+    def point(self, path: Path, name: str, body: str = "") -> str:
+        """The full name of a point; within a ``body``, its own points need not name it."""
+        return self._place(path, name, "point", body)
+
+    def body(self, path: Path, name: str) -> str:
+        """The full name of a body."""
+        return self._place(path, name, "body")
+
+    def curve(self, path: Path, name: str) -> str:
+        """The full name of a curve."""
+        return self._place(path, name, "curve")
+
+    def line(self, path: Path, line: Any, body: str = "") -> dict[str, Any]:
+        """A point with a direction."""
+        if isinstance(line, list):
+            first, second = (self.point((*path, i), name, body) for i, name in enumerate(line))
+            if first == second or _body(first) != _body(second):
+                why = "are the same" if first == second else "belong to two bodies"
+                self.scope.complain(path, f"the points of a line {why}", "a line goes through two points of one body")
+            return {"point": first, "towards": second}
+        if isinstance(line, Through):
+            return {
+                "point": self.point((*path, "through"), line.through, body),
+                "angle": self.number((*path, "angle"), line.angle, "rad"),
+            }
+        return dict(self.lines.get(self._place(path, line, "line", body), {"point": "ground.O", "angle": 0.0}))
+
+    def circle(self, path: Path, circle: Circle) -> dict[str, Any]:
+        """A centre and a radius."""
+        return {
+            "centre": self.point((*path, "centre"), circle.centre),
+            "radius": self.number((*path, "radius"), circle.radius, "m", "a radius"),
+        }
+
+    def _place(self, path: Path, name: str, kind: str, body: str = "") -> str:
+        name = unquote(name).strip()
+        own = f"{body}.{name}"
+        try:
+            if body and self._is(self.meanings.alias.get(own, own), kind):
+                return self.meanings.alias.get(own, own)
+            return self._known(self.full(name if "." in name or not body else own.removeprefix(self.scope.prefix)), kind)
+        except Complaint as complaint:
+            self.scope.complain(path, complaint.what, complaint.hint)
+            return "ground" if kind == "body" else "ground.O"
+
+    def _is(self, name: str, kind: str) -> bool:
+        return name in self._all(kind)
+
+    def _known(self, name: str, kind: str) -> str:
+        if self._is(name, kind):
+            return name
+        if kind == "body":
+            short = name.removeprefix(self.scope.prefix)
+            what = (
+                f"`{short}` is a point, and a body is needed" if name in self.meanings.points else f"there is no body `{short}`"
+            )
+            raise Complaint(what, suggestion(short.split(".")[0], self.meanings.seen_from(self.scope, self.meanings.bodies)))
+        raise self.meanings.place(name, kind, self._all(kind), self.scope)
+
+    def _all(self, kind: str) -> Any:
+        m = self.meanings
+        return {"point": m.points, "line": m.lines, "curve": m.curves, "body": m.bodies}[kind]
+
+
+def _body(point: str) -> str:
+    return "ground" if point.startswith("ground.") else point.rpartition(".")[0]

@@ -1,0 +1,94 @@
+"""What can be asked of a mechanism once it is described: one instant, a motion, a drawing."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from freebody.instant import Instant, State
+    from freebody.model.builder import Builder
+    from freebody.run import Progress, Run, Source, Times
+
+
+class Moving:
+    """The part of ``Mechanism`` that computes."""
+
+    def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
+        """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
+        and what is worth saying about the assembly. Raises ``ModelFileError`` and ``_core.MotionError``."""
+        from freebody.instant import State
+
+        given = self.initial_state(changes, initial)
+        p = given.pop("p")
+        q, u, notes = self.compile().assemble(p, t, **given)
+        told = json.loads(notes)
+        return State(p, t, q, u), [*told["adjusted"], *told["branch"]]
+
+    def solve(self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Instant:
+        """Accelerations and every reaction at one instant, by default the start.
+
+        ``changes`` are coordinates or parameters (``phi2="90 deg"``), or the words of ``initial`` (``rates={"phi1": 2}``).
+        ``route`` is ``minimal``, ``newton_euler`` or ``constraints``.
+        """
+        from freebody.instant import Instant
+
+        state, _ = self.start(initial, t, **changes)
+        return Instant(self.compile(), state, route)
+
+    def simulate(
+        self: Builder,
+        until: float | str | None = None,
+        *,
+        initial: Mapping[str, Any] | None = None,
+        t_eval: Times | None = None,
+        progress: Progress | None = None,
+        t: float = 0.0,
+        **settings: Any,
+    ) -> Run:
+        """The motion from the start to ``until`` (s, or a quantity like ``"200 ms"``) or to an event that ends it.
+
+        ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``;
+        ``initial`` replaces the section of that name. ``t_eval`` fixes the output times and never changes the steps.
+        """
+        from freebody.run import simulate
+
+        state, notes = self.start(initial, t)
+        return simulate(self.source(notes), state, self.run_plan(until, settings), t_eval, progress)
+
+    def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
+        """A labelled drawing of the mechanism at the start."""
+        from freebody.views.draw import LAYERS, drawing
+
+        state, notes = self.start()
+        return drawing(self.source(notes), state, ax, LAYERS if layers is None else layers)
+
+    def source(self: Builder, notes: Sequence[str] = ()) -> Source:
+        """The compiled mechanism with all that views want to know of it."""
+        from freebody.run import Source
+
+        lowered = self.lowered()
+        core = self.compile()
+        model = self.model.model_dump_json(by_alias=True, exclude_unset=True)
+        return Source(core, json.dumps(lowered.spec), model, tuple(self.report_items()), tuple(notes))
+
+    def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
+        """The section ``run`` as numbers, overruled where asked. Raises ``ValueError`` when the run has no end."""
+        from freebody.model.start import evaluate
+        from freebody.run import Settings
+
+        known = ("method", "rtol", "step", "max_step", "every", "route")
+        unknown = [name for name in overrules if name not in known]
+        if unknown:
+            raise TypeError(f"simulate() knows no {unknown[0]!r}; it takes until, initial, t_eval, progress, {', '.join(known)}")
+        asked = self.run_numbers()
+        end = asked.until if until is None else evaluate(until, {})
+        if end is None:
+            raise ValueError("the run has no end: add `run: {until: 5 s}` to the model, or say until=5")
+        plain = Settings(end, asked.method, asked.rtol, asked.step, asked.max_step, every=asked.every)
+        numbers = {k: v if k in ("method", "route") or v is None else evaluate(v, {}) for k, v in overrules.items()}
+        return replace(plain, **numbers)
