@@ -131,7 +131,7 @@ impl Balance<'_> {
             return (0, false);
         }
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), &rows, &mut g, &mut b);
+        rows_in_coordinates(self.at(), &rows, self.length, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
         let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
