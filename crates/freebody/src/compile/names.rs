@@ -128,7 +128,7 @@ impl Scope<'_> {
         Ok(())
     }
 
-    fn known<'s>(&'s self) -> impl Iterator<Item = &'s str> {
+    fn known(&self) -> impl Iterator<Item = &str> {
         let n = self.names;
         n.parameters.keys().chain(n.coordinates.keys()).chain(n.gauges.keys()).map(String::as_str)
     }
