@@ -243,7 +243,7 @@ impl Balance<'_> {
     /// combination of rows, relative to the greatest, in units of the characteristic length.
     pub(crate) fn independence(&mut self) -> f64 {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), &self.rows, &mut g, &mut b);
+        rows_in_coordinates(self.at(), &self.rows, self.length, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
         let units: Vec<f64> = self.rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j]);
