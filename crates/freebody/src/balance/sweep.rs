@@ -100,7 +100,7 @@ impl Sweep {
             if branch.hinge && !body.particle {
                 let full = &self.full[i];
                 let alpha = -(full.pm + full.h.dot(a.v)) / full.turn;
-                let sense = at.k.columns[i][0].w;
+                let sense = if branch.reversed { -1.0 } else { 1.0 };
                 nu_dot[branch.start] = (alpha - a.w) * sense;
                 a.w = alpha;
             } else if branch.freedom > 0 {
