@@ -216,14 +216,14 @@ impl<'m> Balance<'m> {
 
     /// Accelerations of the user's coordinates of the last solution.
     pub fn accelerations(&self, out: &mut [f64]) {
-        self.k.user_rates(self.m, &self.solved.bodies, &self.solved.nu_dot, out);
+        self.k.user_rates(self.m, &self.n, &self.solved.bodies, &self.solved.nu_dot, out);
     }
 
     /// A motion of the coordinates from joint rates (or displacements) `nu` of the tree.
     pub(crate) fn to_user(&self, nu: &[f64], out: &mut [f64]) {
         let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
         self.k.spread(self.m, nu, false, &mut bodies);
-        self.k.user_rates(self.m, &bodies, nu, out);
+        self.k.user_rates(self.m, &self.n, &bodies, nu, out);
     }
 }
 
