@@ -140,7 +140,7 @@ class Instant:
     def __init__(self, core: _core.Mechanism, state: State, route: str = "minimal") -> None:
         self.state = state
         self.route = route
-        self._core = core
+        self.core = core
         self._about = json.loads(core.describe())
         self._solved = core.instant(state.p, state.t, state.q, state.u, route)
         self._rank: dict[str, Any] = json.loads(self._solved.rank)
@@ -196,7 +196,7 @@ class Instant:
 
     def __getitem__(self, text: str) -> float:
         """The value of any expression at this instant; a reaction that is not determined raises."""
-        value = float(self._core.evaluate([text], self.state.p, self.state.t, self.state.q, self.state.u)[0])
+        value = float(self.core.evaluate([text], self.state.p, self.state.t, self.state.q, self.state.u)[0])
         if np.isnan(value):
             refuse_indeterminate(text, self.reactions)
         return value
@@ -211,7 +211,7 @@ class Instant:
             values=self._solved.reactions[i],
             determined=self._solved.determinate[i],
             smallest=lambda: self._solved.least_reactions[i],
-            local=lambda: self._core.evaluate(texts, s.p, s.t, s.q, s.u),
+            local=lambda: self.core.evaluate(texts, s.p, s.t, s.q, s.u),
         )
 
     def tables(self) -> list[Table]:
