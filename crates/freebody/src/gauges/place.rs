@@ -75,7 +75,8 @@ impl<S: Scalar> Poses<S> for Placed<'_, S> {
     fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<S> {
         let [a, b] = [from, to].map(|site| m.body_of(site));
         let meeting = m.common_carrier(a, b);
-        let [(near_a, far_a), (near_b, far_b)] = [(from, a), (to, b)].map(|(site, body)| self.reach(site, body, meeting));
+        let [(near_a, far_a), (near_b, far_b)] =
+            [(from, a), (to, b)].map(|(site, body)| self.reach(site, body, meeting));
         (near_b - near_a) + (far_b - far_a)
     }
 }
