@@ -64,7 +64,9 @@ impl Mechanism {
             let i = m.parameters.iter().position(|p| p.name == *name);
             given.push((i.ok_or_else(|| unknown("parameter", name, m.parameters.iter().map(|p| &p.name)))?, *value));
         }
-        Ok(PyArray1::from_vec(py, m.parameters_with(&given)))
+        let p = m.parameters_with(&given);
+        m.check(&p).map_err(errors::model)?;
+        Ok(PyArray1::from_vec(py, p))
     }
 
     #[pyo3(signature = (p, t=0.0, fixed=Named::new(), guess=Named::new(), rates=Named::new(), at_rest=false, points=BTreeMap::new(), branch=BTreeMap::new()))]
@@ -247,7 +249,7 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) 
 
 fn rank_json(f: &Freedom, stresses: &[String]) -> String {
     serde_json::json!({
-        "freedom": f.here, "count": f.count, "rows": f.rows, "redundant": f.redundant, "driven": f.driven,
+        "freedom": f.here, "count": f.count, "rows": f.rows, "redundant": f.redundant, "always_redundant": f.always_redundant, "driven": f.driven,
         "uncertain": f.uncertain, "explanation": f.explain(), "self_stress": stresses,
     })
     .to_string()

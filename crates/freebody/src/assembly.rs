@@ -97,47 +97,29 @@ fn descend(balance: &mut Balance, t: f64, held: &[(String, Law, f64)], q: &mut V
     let still = vec![0.0; q.len()];
     balance.place(t, q, &still);
     let mut present = rows(balance, held);
-    let mut size = norm(balance, &present);
-    let mut damping = 1e-3;
+    // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
+    let mut damping = 0.0;
     for _ in 0..ITERATIONS {
-        let gap = worst(balance, &present);
+        let (gap, size) = (worst(balance, &present), norm(balance, &present));
         if gap <= CLOSED || !gap.is_finite() {
             break;
         }
-        let step = balance.damped_motion(&present, if gap < 1e-4 { 0.0 } else { damping });
+        let step = balance.damped_motion(&present, damping);
         let mut user = vec![0.0; q.len()];
         balance.to_user(&step, &mut user);
-        let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d).collect();
+        let short = |i: usize| user[i].clamp(-unit(balance, i), unit(balance, i));
+        let trial: Vec<f64> = (0..q.len()).map(|i| q[i] + short(i)).collect();
         balance.place(t, &trial, &still);
         let next = rows(balance, held);
-        let next_size = norm(balance, &next);
-        if next_size < size {
-            let stalled = next_size > 0.9 * size && gap <= OPEN;
-            (*q, present, size) = (trial, next, next_size);
-            damping = (damping * 0.2).max(1e-12);
-            if stalled {
-                break;
-            }
+        if norm(balance, &next) < size {
+            (*q, present) = (trial, next);
+            damping = if damping < 1e-6 { 0.0 } else { 0.2 * damping };
         } else {
             balance.place(t, q, &still);
-            if gap <= OPEN || damping > 1e12 {
+            if gap <= OPEN || damping > 1e9 {
                 break;
             }
-            damping = (damping * 5.0).max(1e-9);
-            if gap < 1e-4 && damping > 1e-6 {
-                // A full step near the solution that does not help means a singular assembly.
-                let step = balance.damped_motion(&present, damping);
-                balance.to_user(&step, &mut user);
-                let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d).collect();
-                balance.place(t, &trial, &still);
-                let next = rows(balance, held);
-                let next_size = norm(balance, &next);
-                if next_size < size {
-                    (*q, present, size) = (trial, next, next_size);
-                } else {
-                    balance.place(t, q, &still);
-                }
-            }
+            damping = (5.0 * damping).max(1e-4);
         }
     }
     worst(balance, &present)
@@ -219,8 +201,16 @@ fn same(balance: &Balance, a: &[f64], b: &[f64]) -> bool {
         let d = a[i] - b[i];
         let turn = std::f64::consts::TAU;
         let d = if balance.m.coordinate(i).dimension == "rad" { d - turn * (d / turn).round() } else { d };
-        d.abs() < 1e-6 * if balance.m.coordinate(i).dimension == "m" { balance.length } else { 1.0 }
+        d.abs() < 1e-6 * unit(balance, i)
     })
+}
+
+/// A large change of a coordinate: a radian, or the characteristic length.
+fn unit(balance: &Balance, i: usize) -> f64 {
+    match balance.m.coordinate(i).dimension {
+        "m" => balance.length,
+        _ => 1.0,
+    }
 }
 
 /// Rates that keep the loops closed and what is held, nearest to the starting rates.

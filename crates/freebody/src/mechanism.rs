@@ -51,8 +51,8 @@ pub struct Mechanism {
     pub forces: Vec<Force>,
     /// What to watch for.
     pub events: Vec<Event>,
-    /// Laws that hold switches, with the identifiers of those switches.
-    pub kinks: Vec<(usize, Law)>,
+    /// Where laws and curves are not smooth: the integrator must not step over these.
+    pub kinks: Vec<Kink>,
     /// Number of switches in the model.
     pub switches: usize,
     /// What was assumed while compiling, in sentences.
@@ -233,6 +233,17 @@ pub struct Drive {
     pub by: Option<Law>,
     /// Whether the law reads the state.
     pub feedback: bool,
+}
+
+/// A place where a law or a curve is not smooth: the zero of a function of the state.
+#[derive(Clone, Debug)]
+pub enum Kink {
+    /// A switch of a law, by its identifier; its arm is frozen between the kinks.
+    Switch(usize, Law),
+    /// The argument of a table of straight pieces at one of its points.
+    Knot(Law, f64),
+    /// A switch in the description of the curve of a joint.
+    Bend(usize, usize),
 }
 
 /// Something to watch for.

@@ -81,7 +81,7 @@ _READINGS = {
     "N*m*s": "angular_momentum",
 }
 _READS = {word: unit for unit, words in _READINGS.items() for word in words.split()}
-_PARTS = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "Fs": FORCE, "Fn": FORCE, "tension": FORCE, "M": ENERGY}
+_PARTS = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "Fs": FORCE, "Fn": FORCE, "F1": FORCE, "F2": None, "tension": FORCE, "M": ENERGY}
 _PARTS |= {"power": ENERGY.times(TIME, -1), "work": ENERGY}
 FUNCTIONS = _PLAIN_FUNCTIONS | _ALIKE | set(_READS) | {"sqrt", "atan2", "sign", "step", "if", "rate", "accel"}
 """All functions of the language; tables come on top."""

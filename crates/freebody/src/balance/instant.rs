@@ -123,6 +123,7 @@ impl<'b, 'm> Observer<'b, 'm> {
         let read = |reading: Reading| -> f64 {
             let known = |sure: bool, x: f64| if sure { x } else { f64::NAN };
             match reading {
+                Reading::Reaction(j, Axis::Row(r)) => known(sure[j].iter().all(|&s| s), b.row_loads(j)[r]),
                 Reading::Reaction(j, axis) => component(&joints[j], sure[j], axis),
                 Reading::Drive(d) => known(drives_sure[d], drives[d]),
                 Reading::DrivePower(d) => known(drives_sure[d], powers[d]),
@@ -154,6 +155,7 @@ fn component(load: &JointLoad, sure: [bool; 3], axis: Axis) -> f64 {
         Axis::Along => (sure[0] && sure[1], load.in_joint_axes().x),
         Axis::Across => (sure[0] && sure[1], load.in_joint_axes().y),
         Axis::Size => (sure[0] && sure[1], load.force.norm()),
+        Axis::Row(_) => unreachable!("a row is read by its own way"),
         Axis::Tension => (sure[0] && sure[1], load.tension()),
     };
     if needed {

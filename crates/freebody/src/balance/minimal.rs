@@ -1,7 +1,7 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
 use super::rows::closing_rows;
-use super::{effective, project, Balance, Row, Trouble};
+use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Trouble, CANCELLED};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Matrix, Saddle, SaddleError};
@@ -35,9 +35,33 @@ impl Balance<'_> {
         self.check_consistent(solution.inconsistency, &asked)?;
         self.solved.nu_dot.copy_from_slice(&solution.a);
         self.solved.lambda = solution.lambda;
+        self.settle();
+        self.refine(&asked);
+        Ok(())
+    }
+
+    /// Bodies and loads of the joint accelerations and multipliers found.
+    fn settle(&mut self) {
         self.k.spread(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
         self.pass_loads();
-        Ok(())
+    }
+
+    /// One step of iterative refinement: what the balance of the bodies leaves along the freedom of each joint, which can
+    /// pass nothing there, is asked of the factored equations again. Small masses behind large ones keep their digits.
+    fn refine(&mut self, asked: &[f64]) {
+        let mut left = vec![0.0; self.m.freedom()];
+        for (i, body) in self.m.bodies.iter().enumerate() {
+            let Some(b) = body.branch else { continue };
+            for k in 0..b.freedom {
+                left[b.start + k] = -self.solved.passed[i].power(self.k.columns[i][k]);
+            }
+        }
+        let told = self.dense.g.mul_vec(&self.solved.nu_dot);
+        let gap: Vec<f64> = asked.iter().zip(told).map(|(r, g)| r - g).collect();
+        let more = self.dense.saddle.solve(&left, &gap);
+        self.solved.nu_dot.iter_mut().zip(&more.a).for_each(|(x, d)| *x += d);
+        self.solved.lambda.iter_mut().zip(&more.lambda).for_each(|(x, d)| *x += d);
+        self.settle();
     }
 
     /// Sets up and factors the equations of the present state; returns the generalized forces.
@@ -63,7 +87,7 @@ impl Balance<'_> {
     pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
         let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         mass_matrix(at, &self.arms, &mut self.dense.mass);
-        rows_in_coordinates(at, &self.rows, &mut self.dense.g, &mut self.dense.b);
+        rows_in_coordinates(at, &self.rows, self.length, &mut self.dense.g, &mut self.dense.b);
         let columns = column_scales(at, self.length);
         let scales = row_scales(&self.dense.g, &columns);
         let own = force == Force::OwnWay && self.rows.iter().any(|row| row.force.is_some());
@@ -169,13 +193,28 @@ pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
 }
 
 /// Rows by joint coordinates, n columns, and the loads of their multipliers.
-pub(super) fn rows_in_coordinates(at: Placed<'_>, rows: &[Row], g: &mut Matrix, b: &mut Matrix) {
+pub(super) fn rows_in_coordinates(at: Placed<'_>, rows: &[Row], length: f64, g: &mut Matrix, b: &mut Matrix) {
     let n = at.m.freedom();
     g.reset(rows.len(), n);
     b.reset(rows.len(), n);
     for (i, row) in rows.iter().enumerate() {
-        project(at, &row.motion, g.row_mut(i));
-        project(at, row.loads(), b.row_mut(i));
+        project_clean(at, &row.motion, length, g.row_mut(i));
+        project_clean(at, row.loads(), length, b.row_mut(i));
+    }
+}
+
+/// As [`project`], but 0 where loads cancel, or pass through a pin, but for round-off: such a row asks for nothing of that
+/// coordinate, and must not be scaled up to a constraint.
+fn project_clean(at: Placed<'_>, spread: &[(usize, Wrench)], length: f64, out: &mut [f64]) {
+    let mut size = vec![0.0; out.len()];
+    down_to_ground(at, spread, |i, load, column| {
+        out[i] += load.power(column);
+        size[i] += size_of_power(load, column, length);
+    });
+    for (sum, size) in out.iter_mut().zip(&size) {
+        if sum.abs() <= CANCELLED * size {
+            *sum = 0.0;
+        }
     }
 }
 

@@ -21,7 +21,7 @@ mod sizes;
 mod sweep;
 
 pub use instant::{Instant, Observer};
-pub use load::{effective, force_power, force_value, unaccounted_power};
+pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
@@ -57,6 +57,9 @@ impl Route {
         Route::ALL.iter().find(|r| r.0 == word).map(|r| r.1)
     }
 }
+
+/// Part of its terms below which a sum is round-off.
+const CANCELLED: f64 = 1e-13;
 
 impl Trouble {
     /// A motion of a body that nothing resists.
@@ -236,11 +239,20 @@ fn characteristic_length(n: &Numbers) -> f64 {
 
 /// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.
 fn project<S: Scalar>(at: Placed<'_, S>, spread: &[(usize, Wrench<S>)], out: &mut [S]) {
+    down_to_ground(at, spread, |i, load, column| out[i] += load.power(column));
+}
+
+/// Every coordinate on which loads may do work, with the load at the pin of its body and its column.
+fn down_to_ground<S: Scalar>(
+    at: Placed<'_, S>,
+    spread: &[(usize, Wrench<S>)],
+    mut visit: impl FnMut(usize, Wrench<S>, Twist<S>),
+) {
     for &(body, load) in spread {
         let (mut body, mut load) = (body, load);
         while let Some(b) = at.m.bodies[body].branch {
             for k in 0..b.freedom {
-                out[b.start + k] += load.power(at.k.columns[body][k]);
+                visit(b.start + k, load, at.k.columns[body][k]);
             }
             load = load.seen_from(at.k.arm[body]);
             if at.m.bodies[body].particle {
@@ -250,4 +262,9 @@ fn project<S: Scalar>(at: Placed<'_, S>, spread: &[(usize, Wrench<S>)], out: &mu
             body = b.parent;
         }
     }
+}
+
+/// How large the power of a load may be on its way to cancelling, levers being of the characteristic length.
+fn size_of_power(load: Wrench, motion: Twist, length: f64) -> f64 {
+    load.f.norm() * (motion.v.norm() + length * motion.w.abs()) + (load.m * motion.w).abs()
 }

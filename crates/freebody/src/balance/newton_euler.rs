@@ -2,7 +2,7 @@
 //! there are loops): A x = b.
 
 use super::rows::closing_rows;
-use super::{effective, Balance, Trouble};
+use super::{effective, size_of_power, Balance, Row, Trouble, CANCELLED};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
@@ -55,7 +55,7 @@ impl Balance<'_> {
         self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
         let reactions = self.reactions();
         let (a, b) = self.brute_force(&reactions);
-        let mut x = vec![0.0; b.len()];
+        let mut x = vec![0.0; a.cols()];
         solve_any(&a, &b, &mut x).map_err(|_| {
             Trouble::new("singular_mass", "the balance equations have no unique motion; the route `minimal` says where")
         })?;
@@ -98,7 +98,7 @@ impl Balance<'_> {
                 enter(&mut a, i, j, self.momentum_rate(i, motion[i]), 1.0);
             }
             for (r, row) in self.rows.iter().enumerate() {
-                a[(balances + r, j)] = row.motion.iter().map(|(body, w)| w.power(motion[*body])).sum();
+                a[(balances + r, j)] = told(row, &motion, self.length);
             }
         }
         for (c, &(body, w)) in reactions.iter().enumerate() {
@@ -139,6 +139,20 @@ impl Balance<'_> {
             self.solved.passed[body] += w * size;
         }
         self.solved.lambda = x[n + reactions.len()..].to_vec();
+    }
+}
+
+/// What a row says of a motion; 0 where the bodies' parts cancel, or the load passes through a pin, but for round-off.
+fn told(row: &Row, motion: &[Twist], length: f64) -> f64 {
+    let (mut sum, mut size) = (0.0, 0.0);
+    for &(body, w) in &row.motion {
+        sum += w.power(motion[body]);
+        size += size_of_power(w, motion[body], length);
+    }
+    if sum.abs() > CANCELLED * size {
+        sum
+    } else {
+        0.0
     }
 }
 

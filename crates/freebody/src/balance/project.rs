@@ -63,7 +63,8 @@ impl Balance<'_> {
     pub fn worst_gap(&mut self) -> f64 {
         self.take_rows();
         let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
-        self.rows.iter().map(size).fold(0.0, f64::max)
+        // What cannot be told (wheels that overlap) is wide open.
+        self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
     }
 
     /// Unit of a row's value: the characteristic length, or 1 where it is an angle.
@@ -217,7 +218,7 @@ impl Balance<'_> {
     /// Rows by scaled coordinates, each of order one, with the scales of rows and coordinates.
     fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), rows, &mut g, &mut b);
+        rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
         let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
@@ -242,7 +243,7 @@ impl Balance<'_> {
     /// combination of rows, relative to the greatest, in units of the characteristic length.
     pub(crate) fn independence(&mut self) -> f64 {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), &self.rows, &mut g, &mut b);
+        rows_in_coordinates(self.at(), &self.rows, self.length, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
         let units: Vec<f64> = self.rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j]);

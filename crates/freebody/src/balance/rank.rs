@@ -6,7 +6,7 @@
 use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
-use super::{Balance, Source};
+use super::{Balance, Row, Source};
 use crate::plane::Wrench;
 use crate::solve::{Matrix, Orthogonal};
 
@@ -24,6 +24,8 @@ pub struct Freedom {
     pub rows: usize,
     /// Rows that say nothing new at this configuration.
     pub redundant: usize,
+    /// Rows that say nothing new anywhere nearby either: redundant for good, not only in a singular configuration.
+    pub always_redundant: usize,
     /// Prescribed motions.
     pub driven: usize,
     /// Whether the rank was too close to call.
@@ -45,10 +47,17 @@ impl Freedom {
         let (count, here) = (self.count, self.here);
         let mut told = match (self.redundant, here as i64 - count) {
             (0, 0) => format!("{here} degrees of freedom, as the count of coordinates less constraints says"),
-            (r, more) => format!(
-                "{here} degrees of freedom, {more} more than the count of {count}: {r} of the {} constraints say nothing new here",
-                self.rows
-            ),
+            (r, more) => {
+                let singular = r - self.always_redundant.min(r);
+                let mut why = vec![];
+                if self.always_redundant > 0 {
+                    why.push(format!("{} of the {} constraints are redundant", self.always_redundant, self.rows));
+                }
+                if singular > 0 {
+                    why.push(format!("{singular} of the {} constraints say nothing new in this configuration, which is singular", self.rows));
+                }
+                format!("{here} degrees of freedom, {more} more than the count of {count}: {}", why.join("; "))
+            }
         };
         if self.driven > 0 {
             told += &format!("; {} prescribed by motions", self.driven);
@@ -61,22 +70,53 @@ impl Freedom {
 }
 
 impl Balance<'_> {
-    /// Degrees of freedom at the present state.
-    pub fn freedom(&self) -> Freedom {
+    /// Degrees of freedom at the present state, and whether constraints that are redundant here are so nearby.
+    pub fn freedom(&mut self) -> Freedom {
         let m = self.m;
         let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
         let couplings = m.drives.iter().filter(|d| d.coupling).count();
         let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
         let (rank, uncertain) = self.closing_rank();
         let redundant = self.geometric_rows() - rank;
+        let always_redundant = if redundant == 0 { 0 } else { self.geometric_rows() - self.nearby_rank(rank) };
         Freedom {
             count: bodies as i64 - rows as i64,
             here: m.freedom() - rank,
             rows,
             redundant,
+            always_redundant,
             driven: m.drives.len() - couplings,
             uncertain,
         }
+    }
+
+    /// The largest rank at a few configurations nearby, reached by motions that the loops allow.
+    fn nearby_rank(&mut self, here: usize) -> usize {
+        let (t, q, u) = (self.t, self.q.clone(), self.u.clone());
+        self.rows = self.geometric();
+        // A factorisation that fails for want of inertia has still found the motions.
+        let _ = self.factor(Force::Gradient);
+        let motions = self.dense.saddle.motions();
+        let still = vec![0.0; u.len()];
+        let mut most = here;
+        for k in 0..motions.cols() {
+            let along: Vec<f64> = (0..q.len()).map(|i| 1e-2 * motions[(i, k)]).collect();
+            let mut step = still.clone();
+            self.place(t, &q, &u);
+            self.to_user(&along, &mut step);
+            let mut near: Vec<f64> = q.iter().zip(&step).map(|(q, d)| q + d).collect();
+            if self.close(t, &mut near, &still).is_ok() {
+                most = most.max(self.closing_rank().0);
+            }
+        }
+        self.place(t, &q, &u);
+        most
+    }
+
+    /// The rows that close loops, motions left out.
+    fn geometric(&self) -> Vec<Row> {
+        let motion = |s: Source| matches!(s, Source::Drive(d) if !self.m.drives[d].coupling);
+        closing_rows(self.at(), None).into_iter().filter(|r| !motion(r.source)).collect()
     }
 
     fn geometric_rows(&self) -> usize {
@@ -86,13 +126,12 @@ impl Balance<'_> {
 
     /// Rank of the rows that close loops, motions left out.
     fn closing_rank(&self) -> (usize, bool) {
-        let motion = |s: Source| matches!(s, Source::Drive(d) if !self.m.drives[d].coupling);
-        let rows: Vec<_> = closing_rows(self.at(), None).into_iter().filter(|r| !motion(r.source)).collect();
+        let rows = self.geometric();
         if rows.is_empty() || self.m.freedom() == 0 {
             return (0, false);
         }
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), &rows, &mut g, &mut b);
+        rows_in_coordinates(self.at(), &rows, self.length, &mut g, &mut b);
         let columns = column_scales(self.at(), self.length);
         let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);

@@ -6,6 +6,7 @@ use crate::gauges::Placed;
 use crate::kinematics::{relative, JointView};
 use crate::mechanism::Mechanism;
 use crate::plane::{vec2, Vec2, Wrench};
+use crate::solve::{Matrix, Orthogonal};
 
 /// The reaction of a joint on its second body: force in fixed axes and couple about the joint's point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +65,10 @@ fn about(at: Placed<'_>, body: usize, load: Wrench, place: Vec2) -> Wrench {
 }
 
 impl JointLoad {
+    /// The load on the second body at its pin.
+    fn at_pin(&self, at: Placed<'_>, body: usize) -> Wrench {
+        Wrench { f: self.force, m: self.couple }.seen_from(self.point - at.k.pose[body].at)
+    }
     /// The pull along the line of the two markers: positive when it draws the second towards the first, N.
     pub fn tension(&self) -> f64 {
         -self.force.dot(self.span) / self.span.norm()
@@ -80,6 +85,23 @@ impl Balance<'_> {
     pub fn joint_loads(&self) -> Vec<JointLoad> {
         let s = &self.solved;
         (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &s.passed, &self.rows, &s.lambda)).collect()
+    }
+
+    /// The multipliers of a joint's own rows that add up to its reaction in the last solution.
+    pub fn row_loads(&self, joint: usize) -> Vec<f64> {
+        let at = self.at();
+        let load = joint_load(at, joint, &self.solved.passed, &self.rows, &self.solved.lambda);
+        let second = at.m.ends(&at.m.joints[joint])[1];
+        let on_second = load.at_pin(at, second).parts();
+        let mut rows = vec![];
+        super::rows::joint_rows(at, joint, None, &mut rows);
+        let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());
+        let unit = [1.0, 1.0, 1.0 / self.length];
+        let g = Matrix::from_fn(3, rows.len(), |i, j| of_second(&rows[j])[i] * unit[i]);
+        let side: Vec<f64> = on_second.iter().zip(unit).map(|(w, u)| w * u).collect();
+        let mut multipliers = vec![0.0; rows.len()];
+        Orthogonal::factor(&g).add_solution(&side, &mut multipliers);
+        multipliers
     }
 
     /// Force or torque of each drive in the last solution.

@@ -12,7 +12,7 @@ pub use names::{distance, unknown, Names, Reach, Scope};
 
 use crate::expr::{Interpolation, Table};
 use crate::gauges::Law;
-use crate::mechanism::{Mechanism, Parameter, Slot};
+use crate::mechanism::{Kink, Mechanism, Parameter, Slot};
 use crate::spec::{Number, Spec};
 use std::collections::HashSet;
 
@@ -173,23 +173,38 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// Laws that hold switches: the integrator must not step over them.
+    /// Where the laws of forces and drives, and the curves of joints, are not smooth.
     fn find_kinks(&mut self) {
         let m = &self.m;
         let forces = m.forces.iter().flat_map(|f| f.laws());
         let drives = m.drives.iter().flat_map(|d| [&d.of, &d.law].into_iter().chain(&d.by));
-        let laws: Vec<Law> = forces.chain(drives).filter(|l| l.kinks().next().is_some()).cloned().collect();
-        for law in laws {
-            let mut kinks: Vec<usize> = law.kinks().collect();
-            kinks.sort_unstable();
-            kinks.dedup();
-            for kink in kinks {
-                if !self.m.kinks.iter().any(|(known, _)| *known == kink) {
-                    self.m.kinks.push((kink, law.clone()));
+        let mut kinks: Vec<Kink> = vec![];
+        for law in forces.chain(drives) {
+            for switch in sorted(law.kinks()) {
+                if !kinks.iter().any(|k| matches!(k, Kink::Switch(known, _) if *known == switch)) {
+                    kinks.push(Kink::Switch(switch, law.clone()));
                 }
             }
+            for (table, argument) in law.lookups() {
+                let knots = m.tables[table].knots();
+                kinks.extend(knots.map(|x| Kink::Knot(argument.clone(), x)));
+            }
         }
+        for (j, joint) in m.joints.iter().enumerate() {
+            if let Some(curve) = joint.curve.map(|c| &m.curves[c]) {
+                let switches = sorted(curve.x.kinks().chain(curve.y.kinks()));
+                kinks.extend(switches.into_iter().map(|switch| Kink::Bend(j, switch)));
+            }
+        }
+        self.m.kinks = kinks;
     }
+}
+
+fn sorted(kinks: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut kinks: Vec<usize> = kinks.collect();
+    kinks.sort_unstable();
+    kinks.dedup();
+    kinks
 }
 
 /// The parameters that a number uses.

@@ -3,7 +3,7 @@
 use super::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
 use crate::gauges::{Axis, Law, Leaf, Reading};
-use crate::joints::Kind;
+use crate::joints::{Joint as _, Kind};
 use crate::mechanism::Marker;
 use std::collections::HashMap;
 
@@ -150,7 +150,8 @@ impl Scope<'_> {
                 ("Fs", _) => Axis::Along,
                 ("Fn", _) => Axis::Across,
                 ("tension", Kind::Link) => Axis::Tension,
-                _ => return Some(Err(parts(owner, "Fx, Fy, M, F, Fs, Fn (and tension for a link)"))),
+                ("F1" | "F2", _) if kind.card().rows.len() >= row_number(part) => Axis::Row(row_number(part) - 1),
+                _ => return Some(Err(parts(owner, "Fx, Fy, M, F, Fs, Fn, for each of its constraints F1, F2 (and tension for a link)"))),
             };
             Reading::Reaction(joint, axis)
         } else if let Some(&drive) = n.drives.get(owner) {
@@ -335,6 +336,11 @@ impl expr::Scope<Leaf> for Scope<'_> {
         *self.switches += 1;
         *self.switches - 1
     }
+}
+
+/// 2 for `F2`.
+fn row_number(part: &str) -> usize {
+    part[1..].parse().unwrap_or(usize::MAX)
 }
 
 fn parts(owner: &str, known: &str) -> Message {

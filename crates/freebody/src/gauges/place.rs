@@ -156,14 +156,30 @@ impl<S: Scalar> Moving<'_, S> {
     /// A coordinate by way of the bodies: right for any accelerations of the bodies.
     fn along_bodies(&self, joint: usize, k: usize) -> Jet<S> {
         let (m, n) = (self.at.m, self.at.n);
-        if let Some(i) = m.place_in_q(joint, k) {
-            if m.joints[joint].curve.is_some() {
-                // Without joint accelerations the parameter of a curve has none either.
-                return Jet::new(self.at.q[i], self.at.u[i], S::zero());
-            }
-        }
-        let measured = measured(m, n, self, joint, k, Jet::constant);
+        let measured = match m.joints[joint].curve {
+            Some(_) => self.along_curve(joint, k),
+            None => measured(m, n, self, joint, k, Jet::constant),
+        };
         Jet { d0: self.at.coordinate(joint, k), ..measured }
+    }
+
+    /// A coordinate of a joint on a curve r(s): the turn is read off the bodies; of the place r̈ = r′s̈ + r″ṡ² is told
+    /// along r′.
+    fn along_curve(&self, index: usize, k: usize) -> Jet<S> {
+        let (m, n) = (self.at.m, self.at.n);
+        let joint = &m.joints[index];
+        let c = &joint.coordinates[k];
+        let (axes, place) = relative(joint, m, self);
+        if c.dimension == "rad" {
+            return (if c.absolute { place.angle + axes.turn.angle } else { place.angle }).scale(c.sense);
+        }
+        let start = m.place_in_q(index, k).expect("a joint along a curve is in the tree");
+        let (q, u) = (self.at.q[start], self.at.u[start]);
+        let unit = [Jet::new(n.slots[c.zero] + q.scale(c.sense), S::one(), S::zero()), Jet::constant(S::zero())];
+        let run = JointView::new(m, n, joint, Jet::constant).pose(&unit[..joint.size], false);
+        let slope = Vec2 { x: run.x.d1, y: run.y.d1 };
+        let rest = Vec2 { x: place.x.d2 - run.x.d2 * u * u, y: place.y.d2 - run.y.d2 * u * u };
+        Jet::new(q, u, (slope.dot(rest) / slope.dot(slope)).scale(c.sense))
     }
 }
 
@@ -218,20 +234,26 @@ impl<S: Scalar> Poses<Dual<3, S>> for Seeded<'_, S> {
 }
 
 impl<S: Scalar> Seeded<'_, S> {
-    /// The gradient of a coordinate that has no formula: of all loads that do unit work on it and none on
-    /// the joint's other coordinates, the least (columns S, wrench S(SᵀS)⁻¹eₖ).
-    fn along_curve(&self, joint: usize, k: usize) -> [S; 3] {
+    /// The gradient of a coordinate of a joint on a curve: a couple for the turn; for the place a force along the curve at
+    /// the second body's point, which does no work on the turn.
+    fn along_curve(&self, index: usize, k: usize) -> [S; 3] {
         let (m, kin) = (self.at.m, self.at.k);
-        let child = m.joints[joint].child.expect("a joint along a curve is in the tree");
-        let branch = m.bodies[child].branch.expect("a body of the tree");
-        let column = kin.columns[child][k];
-        let sense = S::of(m.joints[joint].coordinates[k].sense);
-        let norm = column.v.dot(column.v) + column.w * column.w;
-        let load = Wrench { f: column.v * (sense / norm), m: column.w * (sense / norm) };
-        let on_parent = -load.seen_from(kin.arm[child]);
+        let joint = &m.joints[index];
+        let c = &joint.coordinates[k];
+        let child = joint.child.expect("a joint along a curve is in the tree");
+        let [first, second] = m.ends(joint);
+        let place = self.at.pose(second).place(self.at.arm(joint.second.site));
+        let load = if c.dimension == "rad" {
+            Wrench { f: Vec2::zero(), m: S::of(c.sense) }
+        } else {
+            let along = kin.columns[child][k].v;
+            let sense = if child == second { c.sense } else { -c.sense };
+            Wrench { f: along * (S::of(sense) / along.dot(along)), m: S::zero() }
+        };
+        let on = |body: usize| load.seen_from(place - kin.pose[body].at);
         match self.body {
-            b if b == child => load.parts(),
-            b if b == branch.parent => on_parent.parts(),
+            body if body == second => on(second).parts(),
+            body if body == first && !c.absolute => (-on(first)).parts(),
             _ => [S::zero(); 3],
         }
     }

@@ -50,6 +50,8 @@ pub enum Axis {
     Across,
     /// The pull of a link: the force on the second point towards the first.
     Tension,
+    /// The reaction along one row of the joint, in the order of its card: the force of one roller, of one tooth …
+    Row(usize),
 }
 
 /// A solved instant as an environment of expressions.

@@ -6,7 +6,7 @@
 
 mod relative;
 
-pub use relative::{relative, JointView};
+pub use relative::{curve_switch, relative, JointView};
 
 use crate::joints::Relative;
 use crate::mechanism::{Branch, Coordinate, Joint, Mechanism};

@@ -2,7 +2,7 @@
 //! seen from its first, read off the bodies.
 
 use crate::expr::Env;
-use crate::gauges::{Law, Leaf, Poses};
+use crate::gauges::{Law, Leaf, Placed, Poses};
 use crate::joints::{Curve as CurveOf, Joint as Formulas, Numbers as JointNumbers, Relative};
 use crate::mechanism::{Curve, Joint, Mechanism};
 use crate::numbers::Numbers;
@@ -81,6 +81,40 @@ impl<T: Scalar> CurveOf<T> for CurveView<'_, T> {
         let x: Dual<1, T> = self.curve.x.eval(&env);
         let y: Dual<1, T> = self.curve.y.eval(&env);
         (vec2(x.re, y.re), vec2(x.du[0], y.du[0]))
+    }
+}
+
+/// The switching function of a switch in the curve of a joint of the tree, at the pin's place on it.
+pub fn curve_switch(at: Placed<'_>, joint: usize, switch: usize) -> f64 {
+    let s = at.coordinate(joint, 0);
+    let curve = &at.m.curves[at.m.joints[joint].curve.expect("a joint along a curve")];
+    let env = Still { m: at.m, p: &at.n.p, s };
+    match curve.x.kinks().any(|k| k == switch) {
+        true => curve.x.switch(switch, &env),
+        false => curve.y.switch(switch, &env),
+    }
+}
+
+/// What the description of a curve may read, as plain numbers.
+struct Still<'a> {
+    m: &'a Mechanism,
+    p: &'a [f64],
+    s: f64,
+}
+
+impl Env<f64, Leaf> for Still<'_> {
+    fn leaf(&self, leaf: &Leaf) -> f64 {
+        let along: Dual<1> = Along { m: self.m, p: self.p, s: self.s }.leaf(leaf);
+        along.re
+    }
+    fn rate(&self, _: &Law) -> f64 {
+        0.0
+    }
+    fn accel(&self, _: &Law) -> f64 {
+        0.0
+    }
+    fn table(&self, table: usize, x: f64) -> f64 {
+        self.m.tables[table].eval(x)
     }
 }
 

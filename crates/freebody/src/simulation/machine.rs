@@ -2,7 +2,7 @@
 
 use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
-use crate::mechanism::Deed;
+use crate::mechanism::{Deed, Kink};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
 
@@ -93,11 +93,23 @@ impl<'m> Machine<'m> {
     pub fn freeze_arms(&mut self, t: f64, y: &[f64]) {
         self.place(t, y);
         let m = self.balance.m;
-        for (kink, law) in &m.kinks {
-            let value = law.switch(*kink, &State(self.balance.at()));
-            self.balance.mode.freeze(*kink, value >= 0.0);
+        for kink in &m.kinks {
+            let value = self.switching(kink);
+            if let Kink::Switch(switch, _) = kink {
+                self.balance.mode.freeze(*switch, value >= 0.0);
+            }
         }
         self.stretches[0].mode = self.balance.mode.clone();
+    }
+
+    /// The function whose zero is a kink, at the present state.
+    fn switching(&self, kink: &Kink) -> f64 {
+        let at = self.balance.at();
+        match kink {
+            Kink::Switch(switch, law) => law.switch(*switch, &State(at)),
+            Kink::Knot(argument, x) => argument.eval::<f64, _>(&State(at)) - x,
+            Kink::Bend(joint, switch) => crate::kinematics::curve_switch(at, *joint, *switch),
+        }
     }
 
     /// Learns the physical sizes of the state's components from the starting state.
@@ -248,8 +260,8 @@ impl System for Machine<'_> {
         out[..values.len()].copy_from_slice(&values);
         if !m.kinks.is_empty() {
             self.place(t, y);
-            for (i, (kink, law)) in m.kinks.iter().enumerate() {
-                out[m.events.len() + i] = law.switch(*kink, &State(self.balance.at()));
+            for (i, kink) in m.kinks.iter().enumerate() {
+                out[m.events.len() + i] = self.switching(kink);
             }
         }
         Ok(())
@@ -271,9 +283,10 @@ impl System for Machine<'_> {
     fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
         let m = self.balance.m;
         let Some(event) = m.events.get(i) else {
-            let kink = m.kinks[i - m.events.len()].0;
-            let arm = self.balance.mode.arm(kink).unwrap_or(true);
-            self.balance.mode.freeze(kink, !arm);
+            if let Kink::Switch(switch, _) = m.kinks[i - m.events.len()] {
+                let arm = self.balance.mode.arm(switch).unwrap_or(true);
+                self.balance.mode.freeze(switch, !arm);
+            }
             let p = self.balance.n.p.clone();
             self.stretches.push(Stretch { from: t, p, mode: self.balance.mode.clone(), jump: 0.0 });
             return Ok(After::Restart);

@@ -1,0 +1,15 @@
+//! The laws of mechanics, stated over the lists of joints, gauges, forces and integrators, and over mechanisms
+//! thrown together at random. What is new in a list is tested because it is there.
+
+mod closed_forms;
+mod gauges;
+mod joints;
+mod metamorphic;
+mod model;
+mod random;
+mod random_mechanisms;
+mod redundancy;
+mod rng;
+mod thrown;
+mod tree_choice;
+mod two_tellings;

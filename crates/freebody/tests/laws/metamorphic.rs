@@ -1,0 +1,120 @@
+//! What must happen to the answers when the whole world is moved, boosted or made heavier.
+
+use crate::model::*;
+use crate::random::*;
+use crate::random_mechanisms::{loads, motion, recipe, HOME, MECHANISMS};
+use crate::rng::Rng;
+use freebody::balance::{Instant, Route};
+
+/// Two solutions whose numbers all differ by round-off, through masses that differ by 1e4.
+const AGREE: f64 = 1e-9;
+
+/// Without actuators, which read the place of things in the world; and without particles in loops, from which a body may
+/// come to hang: an angle measured from a particle is measured from the world.
+fn ideal(seed: u64) -> Recipe {
+    let recipe = recipe(seed);
+    let particles = if recipe.loops > 0 { 0 } else { recipe.particles };
+    Recipe { motions: 0, odd: false, particles, ..recipe }
+}
+
+/// A state of the mechanism at home.
+fn state(seed: u64) -> (Bench, State) {
+    let bench = Bench::new(&ideal(seed).draw(seed, HOME));
+    let mut balance = bench.balance();
+    let found = bench.state(&mut balance, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
+    (bench, found)
+}
+
+/// The instant with `base` set on another footing: the coordinates of `base` come first and are `own`.
+fn solved(seed: u64, base: Base, own: &[[f64; 2]], s: &State) -> Instant {
+    let bench = Bench::new(&ideal(seed).draw(seed, base));
+    let join = |at: usize, rest: &[f64]| own.iter().map(|x| x[at]).chain(rest.iter().copied()).collect::<Vec<_>>();
+    let mut balance = bench.balance();
+    balance.place(s.t, &join(0, &s.q), &join(1, &s.u));
+    balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}, {base:?}: {e:?}"))
+}
+
+/// Forces and accelerations told in axes turned by `angle`.
+fn turned_back(now: &Instant, angle: f64) -> (Vec<f64>, Vec<f64>) {
+    let back = |x: f64, y: f64| turned(freebody::plane::vec2(x, y), -angle);
+    let bodies = now.bodies.iter().flat_map(|b| [back(b[0], b[1]).x, back(b[0], b[1]).y, b[2]]);
+    let joints = now.joints.iter().flat_map(|l| [back(l.force.x, l.force.y).x, back(l.force.x, l.force.y).y, l.couple]);
+    (bodies.collect(), joints.collect())
+}
+
+#[test]
+fn the_place_and_direction_of_the_world_do_not_matter() {
+    for seed in 0..MECHANISMS {
+        let (_, s) = state(seed);
+        let home = solved(seed, HOME, &[], &s);
+        // Reactions that are not determinate are the least of their kind, and that depends on the axes.
+        if !home.self_stress.is_empty() {
+            continue;
+        }
+        for (place, close) in [([0.0, 0.0, 2.0], AGREE), ([3.0, -40.0, 0.0], 10.0 * AGREE), ([-5.0, 2.0, -1.0], AGREE)]
+        {
+            let away = solved(seed, Base::At(place), &[], &s);
+            let ((a, f), (b, g)) = (turned_back(&home, 0.0), turned_back(&away, place[2]));
+            let (a, f) = (apart(&a, &b, 1.0), apart(&f, &g, 1e-300));
+            assert!(a < close && f < close, "seed {seed} at {place:?}: accelerations {a:e}, reactions {f:e}");
+        }
+    }
+}
+
+/// Galileo: a base in uniform motion is as good as one at rest. And Einstein: an accelerated base is a tilted gravity.
+#[test]
+fn a_moving_base_cannot_be_felt() {
+    for seed in 0..MECHANISMS {
+        let (bench, s) = state(seed);
+        // Forces that read absolute rates, and joints to ground, would feel the motion; all here are between bodies.
+        let home = solved(seed, HOME, &[], &s);
+        let boosted = solved(seed, Base::Sliding(0.0), &[[0.7, 5.0]], &s);
+        let told = bench.told();
+        let joints = 3..3 * bench.compiled.mechanism.joints.len();
+        let known = |now: &Instant| loads(now)[joints.clone()].to_vec();
+        let (a, f) = (apart(&motion_of(&home), &motion_of(&boosted), 1.0), apart(&known(&home), &known(&boosted), 1.0));
+        assert!(a < AGREE && f < AGREE, "seed {seed}: accelerations {a:e}, reactions {f:e}; {told}");
+
+        let push = 3.0;
+        let pushed = solved(seed, Base::Sliding(push), &[[0.7, 5.0]], &s);
+        let mut falling = ideal(seed).draw(seed, HOME);
+        let [gx, _] = falling.model.0.gravity.as_mut().expect("gravity is drawn");
+        let freebody::spec::Number::Literal(x) = gx else { panic!("gravity is drawn as a number") };
+        *gx = literal(*x - push);
+        let falling = Bench::new(&falling);
+        let mut balance = falling.balance();
+        balance.place(s.t, &s.q, &s.u);
+        let tilted = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        let relative: Vec<f64> = motion_of(&pushed).chunks(3).flat_map(|b| [b[0] - push, b[1], b[2]]).collect();
+        let (a, f) = (apart(&motion_of(&tilted), &relative, 1.0), apart(&known(&tilted), &known(&pushed), 1.0));
+        assert!(a < AGREE && f < AGREE, "seed {seed}, accelerated: accelerations {a:e}, reactions {f:e}; {told}");
+    }
+}
+
+fn motion_of(now: &Instant) -> Vec<f64> {
+    now.bodies.iter().flatten().copied().collect()
+}
+
+/// All masses and all forces twice (or a quarter) as large: the same motion to the last bit, reactions in proportion.
+#[test]
+fn a_power_of_two_in_the_masses_changes_no_bit_of_the_motion() {
+    for seed in 0..MECHANISMS {
+        let (bench, s) = state(seed);
+        let scale = bench.compiled.names.parameters["scale"];
+        let mut balance = bench.balance();
+        let mut solved = |factor: f64| {
+            let mut p = bench.p.clone();
+            p[scale] = factor;
+            balance.rebind(&p);
+            balance.place(s.t, &s.q, &s.u);
+            balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"))
+        };
+        let one = solved(1.0);
+        for factor in [2.0, 0.25] {
+            let other = solved(factor);
+            assert_eq!(motion(&one), motion(&other), "seed {seed}, factor {factor}; {}", bench.told());
+            let told: Vec<f64> = loads(&one).iter().map(|x| x * factor).collect();
+            assert_eq!(told, loads(&other), "seed {seed}, factor {factor}; {}", bench.told());
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Thirty random mechanisms at a thousand random states: what must hold of any mechanism.
+
+use crate::model::*;
+use crate::random::*;
+use crate::rng::Rng;
+use freebody::balance::{force_power, unaccounted_power, Balance, Instant, Route};
+use freebody::gauges::gradient;
+
+pub const MECHANISMS: u64 = 30;
+const STATES: usize = 34;
+/// How far states are from the pose thrown, m or rad.
+const REACH: f64 = 0.3;
+pub const HOME: Base = Base::At([0.0; 3]);
+
+/// Agreement asked of the routes, relative to the largest acceleration, or the largest load, of the instant.
+const AGREE: f64 = 1e-10;
+
+/// Trees and loops, every other one driven.
+pub fn recipe(seed: u64) -> Recipe {
+    let mut rng = Rng::new(1000 + seed);
+    let bodies = 1 + rng.below(12);
+    Recipe {
+        bodies,
+        particles: rng.below(3),
+        loops: (seed as usize % 4).min(bodies / 2),
+        forces: rng.below(8),
+        motions: rng.below(3),
+        own_directions: seed % 3 == 0,
+        odd: true,
+    }
+}
+
+/// Visits states of random mechanisms; a mechanism without states would be a hole in the test.
+fn every_state(
+    recipe: impl Fn(u64) -> Recipe,
+    states: usize,
+    mut visit: impl FnMut(&Bench, &mut Balance, &State, &str, &mut Rng),
+) {
+    for seed in 0..MECHANISMS {
+        let bench = Bench::new(&recipe(seed).draw(seed, HOME));
+        let mut balance = bench.balance();
+        let mut rng = Rng::new(seed);
+        for i in 0..states {
+            let told = format!("seed {seed}, state {i}, {}", bench.told());
+            let state = bench.state(&mut balance, &mut rng, REACH).unwrap_or_else(|| panic!("no state: {told}"));
+            balance.place(state.t, &state.q, &state.u);
+            visit(&bench, &mut balance, &state, &told, &mut rng);
+        }
+    }
+}
+
+/// The same without actuators: the joints do no work.
+fn ideal(seed: u64) -> Recipe {
+    Recipe { motions: 0, ..recipe(seed) }
+}
+
+/// Accelerations of all bodies and coordinates.
+pub fn motion(now: &Instant) -> Vec<f64> {
+    now.bodies.iter().flatten().chain(&now.accelerations).copied().collect()
+}
+
+/// Determinate reactions and forces of actuators, 0 for the others.
+pub fn loads(now: &Instant) -> Vec<f64> {
+    let known = |x: f64, sure: bool| if sure { x } else { 0.0 };
+    let joints = now
+        .joints
+        .iter()
+        .zip(&now.determinate)
+        .flat_map(|(l, sure)| [known(l.force.x, sure[0]), known(l.force.y, sure[1]), known(l.couple, sure[2])]);
+    joints.chain(now.drives.iter().zip(&now.drives_determinate).map(|(&x, &sure)| known(x, sure))).collect()
+}
+
+#[test]
+fn every_joint_holds_at_the_pose_thrown() {
+    for seed in 0..MECHANISMS {
+        let thrown = recipe(seed).draw(seed, HOME);
+        let bench = Bench::new(&thrown);
+        let mut balance = bench.balance();
+        balance.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+        for body in bench.compiled.mechanism.listed_bodies() {
+            let name = &bench.compiled.mechanism.bodies[body].name;
+            let off = apart(&balance.frame(body), &thrown.pose[name], 1.0);
+            assert!(off < 1e-13, "seed {seed}: {name} is {off:e} off; {}", bench.told());
+        }
+    }
+}
+
+#[test]
+fn the_three_routes_agree_and_every_body_balances() {
+    let mut states = 0;
+    every_state(recipe, STATES, |_, balance, _, told, _| {
+        let minimal = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}"));
+        for (word, route) in Route::ALL {
+            let now = balance.instant(*route).unwrap_or_else(|e| panic!("{told}: {word}: {e:?}"));
+            // Accelerations below 1 m/s² are nothing against gravity.
+            let (a, f) = (apart(&motion(&minimal), &motion(&now), 1.0), apart(&loads(&minimal), &loads(&now), 1e-300));
+            assert!(a < AGREE && f < AGREE, "{told}: {word}: accelerations {a:e}, reactions {f:e} apart");
+            assert!(now.residual < 1e-12, "{told}: {word}: residual {:e}", now.residual);
+            assert_eq!(now.determinate, minimal.determinate, "{told}: {word}");
+        }
+        states += 1;
+    });
+    assert!(states >= 1000);
+}
+
+/// Small masses in loops behind large ones: from 1e-4 to 1e4 kg in one linkage of six bars.
+#[test]
+fn light_links_between_heavy_ones_keep_their_digits() {
+    let mut rng = Rng::new(5);
+    for i in 0..100 {
+        let mut model = Model::new().gravity(0.0, -9.81);
+        let bars = 5;
+        let mut at = freebody::plane::vec2(0.0, 0.0);
+        let (mut before, mut q) = ("ground.O".to_string(), vec![]);
+        for b in 0..bars {
+            let (mass, angle) = (10f64.powf(rng.about(4.0)), rng.about(1.5));
+            let (body, pin, end) = (format!("b{b}"), format!("b{b}.A"), format!("b{b}.B"));
+            model = model.body(&body, mass, 0.1 * mass, [0.5, 0.1]).point(&pin, [0.0, 0.0]).point(&end, [1.0, 0.0]);
+            model = model.joint(&body, "hinge", &[("of", points(&[&before, &pin]))], &[&format!("q{b}")]);
+            model.0.joints.last_mut().expect("just joined").coordinates[0].absolute = true;
+            at += turned(freebody::plane::vec2(1.0, 0.0), angle);
+            before = end;
+            q.push(angle);
+        }
+        model = model.point("ground.E", [at.x, at.y]);
+        let compiled = model.joint("close", "hinge", &[("of", points(&[&before, "ground.E"]))], &[]).compile();
+        let mut balance = Balance::new(&compiled.mechanism, &[]);
+        let mut u = rng.vector(bars, 1.0);
+        balance.align(0.0, &q, &mut u).expect("closed as drawn");
+        balance.place(0.0, &q, &u);
+        let found: Vec<Instant> = Route::ALL.iter().map(|r| balance.instant(r.1).expect("moves")).collect();
+        for now in &found {
+            let off = apart(&motion(&found[0]), &motion(now), 1.0);
+            assert!(off < AGREE, "draw {i}: accelerations {off:e} apart");
+        }
+    }
+}
+
+/// d(kinetic + potential)/dt is the power of what has no potential, actuators included.
+#[test]
+fn energy_changes_by_the_power_put_in() {
+    every_state(recipe, 8, |bench, balance, _, told, _| {
+        balance.solve().unwrap_or_else(|e| panic!("{told}: {e:?}"));
+        let m = &bench.compiled.mechanism;
+        let (at, n) = (balance.at(), &balance.n);
+        let mut terms = vec![];
+        for b in 1..m.bodies.len() {
+            let (v, w) = (balance.centre(b).1, at.k.twist[b].w);
+            terms.push(n.mass[b] * v.dot(balance.centre_acceleration(b) - n.gravity));
+            terms.push(n.inertia[b] * w * balance.solved().bodies[b].w);
+        }
+        for force in &m.forces {
+            terms.push(-unaccounted_power(at, force));
+            let Some(potential) = &force.potential else { continue };
+            terms.extend(m.bodies_of(potential).into_iter().map(|b| gradient(at, potential, b).power(at.k.twist[b])));
+        }
+        terms.extend(balance.drive_powers().iter().map(|p| -p));
+        // Ideal joints transmit any power; what they take in at one body they give out at the other.
+        let left: f64 = terms.iter().sum();
+        let transmitted = balance.joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
+        let size = terms.iter().fold(transmitted, |m: f64, x| m.max(x.abs()));
+        assert!(left.abs() < AGREE * size, "{told}: {left:e} of {size:e} W is unaccounted for");
+    });
+}
+
+/// Where joints do no work, the acceleration of coordinate i for a unit load on j is that of j for a unit load on i.
+#[test]
+fn accelerations_are_reciprocal() {
+    for seed in 0..MECHANISMS {
+        let mut thrown = ideal(seed).draw(seed, HOME);
+        let first = Bench::new(&thrown);
+        let names: Vec<String> =
+            (0..first.q.len()).map(|i| first.compiled.mechanism.coordinate(i).name.clone()).collect();
+        for (i, name) in names.iter().enumerate() {
+            thrown.model = std::mem::take(&mut thrown.model).parameter(&format!("load{i}"), 0.0).force(
+                &format!("push{i}"),
+                "law",
+                &[("along", text(format!("'{name}'"))), ("value", text(format!("load{i}")))],
+            );
+        }
+        let bench = Bench::new(&thrown);
+        let mut balance = bench.balance();
+        let mut rng = Rng::new(seed);
+        let state = bench.state(&mut balance, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
+        let n = names.len();
+        let mut response = |loaded: Option<usize>| {
+            let mut p = bench.p.clone();
+            if let Some(i) = loaded {
+                let load = bench.compiled.names.parameters[&format!("load{i}")];
+                p[load] = 1.0;
+            }
+            balance.rebind(&p);
+            balance.place(state.t, &state.q, &state.u);
+            balance.solve().unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+            let mut a = vec![0.0; n];
+            balance.accelerations(&mut a);
+            a
+        };
+        let rest = response(None);
+        let columns: Vec<Vec<f64>> = (0..n).map(|i| response(Some(i))).collect();
+        for i in 0..n {
+            for j in 0..i {
+                let (a, b) = (columns[i][j] - rest[j], columns[j][i] - rest[i]);
+                // Both are small differences of accelerations as large as those at rest.
+                let size = rest[i]
+                    .abs()
+                    .max(rest[j].abs())
+                    .max(columns[i][j].abs())
+                    .max(columns[j][i].abs())
+                    .max(1.0)
+                    .max(columns[i][i].abs())
+                    .max(columns[j][j].abs());
+                assert!(
+                    (a - b).abs() < AGREE * size,
+                    "seed {seed}, {} and {}: {a} {b}; {}",
+                    names[i],
+                    names[j],
+                    bench.told()
+                );
+            }
+        }
+    }
+}
+
+/// A load found as the force that a motion takes gives that motion back, and nothing else changes.
+#[test]
+fn inverse_dynamics_undoes_forward_dynamics() {
+    for seed in 0..MECHANISMS {
+        let thrown = ideal(seed).draw(seed, HOME);
+        let plain = Bench::new(&thrown);
+        let name = plain.compiled.mechanism.coordinate(seed as usize % plain.q.len()).name.clone();
+        let load = 3.0;
+        let mut pushed = thrown.clone();
+        pushed.model =
+            pushed.model.force("push", "law", &[("along", text(format!("'{name}'"))), ("value", value(load))]);
+        let pushed = Bench::new(&pushed);
+        let mut balance = pushed.balance();
+        let mut rng = Rng::new(seed);
+        let state = pushed.state(&mut balance, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
+        balance.place(state.t, &state.q, &state.u);
+        let forward = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        let i = index_of(&pushed.compiled.mechanism, &name);
+        let law = format!("{:?}", forward.accelerations[i]);
+        let mut driven = thrown.clone();
+        driven.model = driven.model.motion("push", &format!("'{name}'"), &law, "acceleration", None);
+        let driven = Bench::new(&driven);
+        let mut balance = driven.balance();
+        balance.place(state.t, &state.q, &state.u);
+        let inverse = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        let told = format!("seed {seed}, {name}, {}", driven.told());
+        let (a, f) = (
+            apart(&motion(&forward), &motion(&inverse), 1.0),
+            apart(&loads(&forward), &loads(&inverse)[..loads(&forward).len()], load),
+        );
+        assert!(a < AGREE, "{told}: accelerations {a:e} apart");
+        if inverse.drives_determinate[0] {
+            let mass = pushed.compiled.mechanism.bind(&pushed.p).mass.iter().sum::<f64>();
+            let inertial = motion(&forward).iter().fold(0.0_f64, |m, x| m.max(x.abs())) * mass;
+            let most = loads(&forward).iter().fold(inertial.max(load), |m, x| m.max(x.abs()));
+            assert!((inverse.drives[0] - load).abs() < AGREE * most, "{told}: {} N for {load} N", inverse.drives[0]);
+            assert!(f < AGREE, "{told}: reactions {f:e} apart");
+        }
+    }
+}
+
+/// The power of every force is that of its loads on the bodies.
+#[test]
+fn power_is_load_times_velocity() {
+    every_state(recipe, 4, |bench, balance, _, told, _| {
+        let m = &bench.compiled.mechanism;
+        for force in &m.forces {
+            let at = balance.at();
+            let mut on = vec![freebody::plane::Wrench::zero(); m.bodies.len()];
+            freebody::balance::add_force(at, force, &mut on);
+            let terms: Vec<f64> = on.iter().zip(&at.k.twist).map(|(w, v)| w.power(*v)).collect();
+            let size = terms.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
+            let (power, told_by_law) = (terms.iter().sum::<f64>(), force_power(at, force));
+            assert!((power - told_by_law).abs() <= 1e-13 * size, "{told}: {}: {power} {told_by_law}", force.name);
+        }
+    });
+}
