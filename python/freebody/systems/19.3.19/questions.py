@@ -16,10 +16,11 @@ from functools import cache
 from math import cos, exp, pi, sin
 
 import numpy as np
-from freebody.catalogue import Answer, ask
-from freebody.catalogue.reference import motion
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
+
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
 
 L, M, W, B = 1.0, 1.0, 2 * pi, 0.1
 LAWS = {"−b sin θ": (-B, 0.0), "+b sin θ": (B, 0.0), "+b cos θ": (0.0, B), "−b cos θ": (0.0, -B)}
