@@ -17,6 +17,7 @@ mod project;
 mod rank;
 mod reactions;
 mod rows;
+mod sizes;
 mod sweep;
 
 pub use instant::{Instant, Observer};
@@ -25,6 +26,7 @@ pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};
+pub use sizes::Sizes;
 
 pub use crate::error::Trouble;
 use crate::gauges::Placed;
