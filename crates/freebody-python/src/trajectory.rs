@@ -54,6 +54,7 @@ impl Trajectory {
         })
         .to_string()
     }
+    #[allow(clippy::type_complexity)]
     fn sample<'py>(
         &self,
         py: Python<'py>,

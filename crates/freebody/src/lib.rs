@@ -8,6 +8,7 @@ pub mod balance;
 pub mod benchmark;
 pub mod compile;
 pub mod describe;
+pub mod error;
 pub mod expr;
 pub mod forces;
 pub mod gauges;

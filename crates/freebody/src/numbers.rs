@@ -104,7 +104,11 @@ impl Mechanism {
         let n = self.bind(p);
         let named = |i: usize| format!("parameters.{}", self.parameters[i].name);
         if let Some(i) = p.iter().position(|x| !x.is_finite()) {
-            return Err(CompileError::new(named(i), "this parameter has no finite value", "look for a division by 0 or a negative root"));
+            return Err(CompileError::new(
+                named(i),
+                "this parameter has no finite value",
+                "look for a division by 0 or a negative root",
+            ));
         }
         for (i, body) in self.bodies.iter().enumerate().skip(1) {
             let path = |field: &str| format!("bodies.{}.{field}", body.name);
@@ -112,12 +116,20 @@ impl Mechanism {
                 let (mass, inertia) = (n.slots[piece.mass], piece.inertia.map_or(0.0, |s| n.slots[s]));
                 for (field, x) in [("mass", mass), ("inertia", inertia)] {
                     if !x.is_finite() || x < 0.0 {
-                        return Err(CompileError::new(path(field), format!("the {field} is {x}"), "it must be 0 or more"));
+                        return Err(CompileError::new(
+                            path(field),
+                            format!("the {field} is {x}"),
+                            "it must be 0 or more",
+                        ));
                     }
                 }
             }
             if !(n.inertia[i].is_finite() && n.centre[i].norm().is_finite()) {
-                return Err(CompileError::new(path("shape"), "the shape has no finite mass centre and inertia", "look for sizes that are 0 or undefined"));
+                return Err(CompileError::new(
+                    path("shape"),
+                    "the shape has no finite mass centre and inertia",
+                    "look for sizes that are 0 or undefined",
+                ));
             }
         }
         Ok(())

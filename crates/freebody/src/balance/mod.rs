@@ -28,11 +28,11 @@ pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};
 pub use sizes::Sizes;
 
+pub use crate::error::Trouble;
 use crate::gauges::Placed;
 use crate::kinematics::Kinematics;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
-pub use crate::motion::Trouble;
 use crate::numbers::Numbers;
 use crate::plane::{Twist, Vec2, Wrench};
 use crate::scalar::Scalar;

@@ -94,8 +94,8 @@ impl Balance<'_> {
             unit[j] = 1.0;
             self.k.spread(m, &unit, false, &mut motion);
             unit[j] = 0.0;
-            for i in 1..m.bodies.len() {
-                enter(&mut a, i, j, self.momentum_rate(i, motion[i]), 1.0);
+            for (i, &motion) in motion.iter().enumerate().skip(1) {
+                enter(&mut a, i, j, self.momentum_rate(i, motion), 1.0);
             }
             for (r, row) in self.rows.iter().enumerate() {
                 a[(balances + r, j)] = told(row, &motion, self.length);

@@ -54,7 +54,10 @@ impl Freedom {
                     why.push(format!("{} of the {} constraints are redundant", self.always_redundant, self.rows));
                 }
                 if singular > 0 {
-                    why.push(format!("{singular} of the {} constraints say nothing new in this configuration, which is singular", self.rows));
+                    why.push(format!(
+                        "{singular} of the {} constraints say nothing new in this configuration, which is singular",
+                        self.rows
+                    ));
                 }
                 format!("{here} degrees of freedom, {more} more than the count of {count}: {}", why.join("; "))
             }

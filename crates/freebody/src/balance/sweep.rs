@@ -28,12 +28,14 @@ struct Resistance {
     size: f64,
 }
 
+type Square = [[f64; 3]; 3];
+
 /// Memory of the sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Sweep {
     full: Vec<Resistance>,
     /// U = A S and (SᵀAS)⁻¹ of joints that are no plain hinges.
-    general: Vec<([[f64; 3]; 3], [[f64; 3]; 3])>,
+    general: Vec<(Square, Square)>,
 }
 
 impl Resistance {
@@ -221,7 +223,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Inverse of the leading `n × n` block by Gauss–Jordan; None when a motion has no inertia.
-fn invert(d: [[f64; 3]; 3], n: usize, columns: &[Twist; 3], (mass, turn): (f64, f64)) -> Option<[[f64; 3]; 3]> {
+fn invert(d: Square, n: usize, columns: &[Twist; 3], (mass, turn): (f64, f64)) -> Option<Square> {
     let (mut a, mut inverse) = (d, [[0.0; 3]; 3]);
     for (k, row) in inverse.iter_mut().enumerate() {
         row[k] = 1.0;

@@ -128,7 +128,7 @@ impl Scope<'_> {
         Ok(())
     }
 
-    fn known<'s>(&'s self) -> impl Iterator<Item = &'s str> {
+    fn known(&self) -> impl Iterator<Item = &str> {
         let n = self.names;
         n.parameters.keys().chain(n.coordinates.keys()).chain(n.gauges.keys()).map(String::as_str)
     }
@@ -151,7 +151,12 @@ impl Scope<'_> {
                 ("Fn", _) => Axis::Across,
                 ("tension", Kind::Link) => Axis::Tension,
                 ("F1" | "F2", _) if kind.card().rows.len() >= row_number(part) => Axis::Row(row_number(part) - 1),
-                _ => return Some(Err(parts(owner, "Fx, Fy, M, F, Fs, Fn, for each of its constraints F1, F2 (and tension for a link)"))),
+                _ => {
+                    return Some(Err(parts(
+                        owner,
+                        "Fx, Fy, M, F, Fs, Fn, for each of its constraints F1, F2 (and tension for a link)",
+                    )))
+                }
             };
             Reading::Reaction(joint, axis)
         } else if let Some(&drive) = n.drives.get(owner) {

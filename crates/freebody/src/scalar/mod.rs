@@ -4,6 +4,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds, the quotient rule subtracts")]
 mod dual;
 mod jet;
 pub mod real;

@@ -5,7 +5,7 @@ use crate::model::*;
 use crate::random::*;
 use crate::random_mechanisms::{motion, recipe, HOME, MECHANISMS};
 use crate::rng::Rng;
-use freebody::balance::{Balance, Route};
+use freebody::balance::{Balance, Instant, Route};
 use freebody::joints::Kind;
 
 /// A link from a hinge's pin to another point of one of its bodies: its length cannot change, and it can be stressed
@@ -22,7 +22,6 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         let Some(hinge) = m.joints.iter().find(|j| j.kind == Kind::Hinge && m.ends(j).into_iter().all(rigid)) else {
             continue;
         };
-        planted += 1;
         let [a, b] = m.ends(hinge).map(|b| m.bodies[b].name.clone());
         let pin =
             |site: usize| m.points.iter().find(|(_, s)| *s == site).expect("a thrown joint has named points").0.clone();
@@ -38,9 +37,19 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         bound.model = model.joint("planted", "link", &[("of", of), ("length", value(length))], &[]);
         let bound = Bench::new(&bound);
         let mut balance = plain.balance();
-        let s = plain.state(&mut balance, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
-        balance.place(s.t, &s.q, &s.u);
-        let before = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        // Not where the mechanism is all but singular: there the sparse factorisation, which leans on a small shift of
+        // redundant rows, keeps fewer digits (4 at accelerations of 1e5 m/s²) than the tolerance below.
+        let mut rng = Rng::new(seed);
+        let drawn = std::iter::repeat_with(|| {
+            let s = plain.state(&mut balance, &mut rng, 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
+            balance.place(s.t, &s.q, &s.u);
+            let now = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+            (s, now)
+        });
+        let calm = |now: &Instant| motion(now).iter().all(|a| a.abs() < 1e4);
+        let found = drawn.take(10).find(|(_, now)| calm(now));
+        let Some((s, before)) = found else { continue };
+        planted += 1;
         let freedom = balance.freedom();
         let mut balance = bound.balance();
         balance.place(s.t, &s.q, &s.u);
