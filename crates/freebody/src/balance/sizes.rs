@@ -11,7 +11,7 @@ use crate::plane::Wrench;
 pub struct Sizes {
     /// Force (or couple over the characteristic length), N.
     pub load: f64,
-    /// Acceleration, m/s²: a part of a body's own, or what one of its loads alone would give it.
+    /// Acceleration, m/s²: a part of a body's own, or what the loads on it alone would give it.
     pub acceleration: f64,
 }
 
