@@ -2,6 +2,7 @@
 
 mod elements;
 mod fields;
+mod joints;
 mod names;
 mod places;
 mod tree;

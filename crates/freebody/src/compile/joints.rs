@@ -1,0 +1,299 @@
+//! Joints: their markers, numbers and coordinates, and which of them close loops.
+
+use super::tree::Pair;
+use super::{twice, CompileError, Compiler, Fields, Result};
+use crate::gauges::Law;
+use crate::graph::Branch as TreeBranch;
+use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
+use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker};
+use crate::spec::Coordinate as CoordinateSpec;
+
+/// What the fields of a joint give, side by side.
+#[derive(Default)]
+struct Sides {
+    first: Option<Marker>,
+    second: Option<Marker>,
+    curve: Option<usize>,
+    numbers: Vec<Law>,
+}
+
+impl Sides {
+    /// Reads one field into its marker, curve or numbers.
+    fn read(&mut self, fields: &mut Fields, field: &Field) -> Result<()> {
+        let name = field.name;
+        let straight = |fields: &mut Fields, site| Marker { site, angle: fields.c.slot(Law::constant(0.0)) };
+        let marker = match (field.role, field.kind) {
+            (Role::Number, FieldKind::Numbers) => {
+                self.numbers.extend(fields.numbers(name)?);
+                return Ok(());
+            }
+            (Role::Number, _) => {
+                self.numbers.push(fields.number(name)?);
+                return Ok(());
+            }
+            (_, FieldKind::Curve) => {
+                self.curve = Some(fields.curve(name)?);
+                return Ok(());
+            }
+            (Role::Both, _) => {
+                let [p, q] = fields.two_sites(name)?;
+                self.first = Some(straight(fields, p));
+                straight(fields, q)
+            }
+            (_, FieldKind::Line) => fields.line(name)?,
+            (_, FieldKind::Circle) => {
+                let (site, radius) = fields.circle(name)?;
+                self.numbers.push(radius);
+                straight(fields, site)
+            }
+            (_, FieldKind::Points) => self.two_points(fields, name)?,
+            _ => {
+                let site = fields.site(name)?;
+                straight(fields, site)
+            }
+        };
+        match field.role {
+            Role::First => self.first = Some(marker),
+            _ => self.second = Some(marker),
+        }
+        Ok(())
+    }
+
+    /// Two points of one body as a marker at the first that looks to the second, and their distance.
+    fn two_points(&mut self, fields: &mut Fields, name: &str) -> Result<Marker> {
+        let [p, q] = fields.two_sites(name)?;
+        let path = format!("{}.{name}", fields.path);
+        let [dx, dy] = fields.c.offset(&path, p, q)?;
+        self.numbers.push(dx.clone().hypot(dy.clone()));
+        Ok(Marker { site: p, angle: fields.c.slot(dy.atan2(dx)) })
+    }
+}
+
+impl Compiler<'_> {
+    pub(crate) fn joints(&mut self, pairs: &[Pair], tree: &[TreeBranch]) -> Result<()> {
+        for (i, pair) in pairs.iter().enumerate() {
+            let branch = tree.iter().find(|b| b.edge == i).copied();
+            let joint = self.joint(pair, branch)?;
+            self.name_joint(&pair.path, &joint)?;
+            self.m.joints.push(joint);
+        }
+        self.free_bodies(pairs.len(), tree)?;
+        for joint in 0..pairs.len() {
+            self.close(joint)?;
+        }
+        self.number_coordinates();
+        Ok(())
+    }
+
+    fn name_joint(&mut self, path: &str, joint: &Joint) -> Result<()> {
+        let index = self.m.joints.len();
+        if self.names.joints.insert(joint.name.clone(), (index, joint.kind)).is_some() {
+            return Err(twice(path, &joint.name));
+        }
+        for (k, c) in joint.coordinates.iter().enumerate() {
+            let taken = self.names.parameters.contains_key(&c.name);
+            if taken || self.names.coordinates.insert(c.name.clone(), (index, k)).is_some() {
+                return Err(twice(format!("{path}.coordinate"), &c.name));
+            }
+        }
+        Ok(())
+    }
+
+    fn joint(&mut self, pair: &Pair, branch: Option<TreeBranch>) -> Result<Joint> {
+        let card = pair.kind.card();
+        let mut fields = Fields { c: self, element: &pair.element, card: &card, path: pair.path.clone() };
+        fields.check()?;
+        let mut sides = Sides::default();
+        for field in &card.fields {
+            sides.read(&mut fields, field)?;
+        }
+        let Sides { first, second, curve, numbers } = sides;
+        let ends = pair.ends.each_ref().map(|name| self.names.bodies[name.as_str()]);
+        let particle = ends.map(|body| self.m.bodies[body].particle);
+        let first = first.unwrap_or_else(|| self.at_origin(ends[0]));
+        let second = second.expect("a joint has a second marker");
+        let reversed = branch.is_some_and(|b| b.reversed);
+        let child_is_particle = particle[if reversed { 0 } else { 1 }];
+        let has_turn = card.coordinates.iter().any(|c| c.turn);
+        if branch.is_some() && particle.contains(&true) && !child_is_particle && !has_turn {
+            let what = format!("a {} would have to pass a couple to a particle", card.word);
+            return Err(CompileError::new(&pair.path, what, "use a slot or a hinge, or make the body rigid"));
+        }
+        if particle.contains(&true) && !card.rows.iter().any(|r| r.turning) && !has_turn && !card.rows.is_empty() {
+            let what = format!("a {} needs bodies that can turn, and a particle cannot", card.word);
+            return Err(CompileError::new(&pair.path, what, "use a slot or a link, or make the particle a rigid body"));
+        }
+        let coordinates = self.coordinates(pair, &card, child_is_particle, reversed)?;
+        let numbers = numbers.into_iter().map(|law| self.slot(law)).collect();
+        let rows = card.rows.iter().enumerate().filter(|(_, row)| !(row.turning && particle.contains(&true)));
+        Ok(Joint {
+            name: pair.element.name.clone(),
+            kind: pair.kind,
+            first,
+            second,
+            numbers,
+            curve,
+            size: card.coordinates.len(),
+            coordinates,
+            rows: rows.map(|(i, _)| i).collect(),
+            phased: card.rows.iter().map(|row| row.phased).collect(),
+            child: branch.map(|b| b.child),
+        })
+    }
+
+    fn at_origin(&mut self, body: usize) -> Marker {
+        let name = &self.m.bodies[body].name;
+        Marker { site: self.names.sites[&format!("{name}.origin")], angle: self.slot(Law::constant(0.0)) }
+    }
+
+    /// The coordinates of a joint: named by the model in the order of the card, or after the joint.
+    fn coordinates(&mut self, pair: &Pair, card: &Card, particle: bool, reversed: bool) -> Result<Vec<Coordinate>> {
+        let present: Vec<usize> =
+            (0..card.coordinates.len()).filter(|&i| !(particle && card.coordinates[i].turn)).collect();
+        let given = &pair.element.coordinates;
+        let path = format!("{}.coordinate", pair.path);
+        if given.len() > present.len() {
+            let what = format!("{} coordinates are named, but this joint has {}", given.len(), present.len());
+            return Err(CompileError::new(path, what, "a particle has no angle"));
+        }
+        let mut coordinates = vec![];
+        for (k, &i) in present.iter().enumerate() {
+            let card = &card.coordinates[i];
+            let default = CoordinateSpec {
+                name: format!("{}.{}", pair.element.name, card.name),
+                zero: super::places::nought(),
+                sense: 1,
+                absolute: false,
+            };
+            let c = given.get(k).unwrap_or(&default);
+            if c.absolute && reversed {
+                let what =
+                    format!("`{}` cannot be absolute: this joint carries its first body, not its second", c.name);
+                return Err(CompileError::new(path, what, "name the body nearer to ground first"));
+            }
+            if c.absolute && card.dimension != "rad" {
+                return Err(CompileError::new(path, format!("`{}` is no angle, so it cannot be absolute", c.name), ""));
+            }
+            coordinates.push(Coordinate {
+                name: c.name.clone(),
+                card: i,
+                dimension: card.dimension,
+                zero: self.number_slot(&path, &c.zero)?,
+                sense: f64::from(c.sense),
+                absolute: c.absolute,
+            });
+        }
+        Ok(coordinates)
+    }
+
+    /// Bodies that nothing joins to ground are free from its origin.
+    fn free_bodies(&mut self, known: usize, tree: &[TreeBranch]) -> Result<()> {
+        for branch in tree.iter().filter(|b| b.edge >= known) {
+            let body = &self.m.bodies[branch.child];
+            let (name, particle) = (body.name.clone(), body.particle);
+            let (first, second) = (self.at_origin(0), self.at_origin(branch.child));
+            let card = Kind::Free.card();
+            let zero = self.slot(Law::constant(0.0));
+            let coordinates = card.coordinates.iter().enumerate().filter(|(_, c)| !(particle && c.turn));
+            let coordinates = coordinates.map(|(i, c)| Coordinate {
+                name: format!("{name}.{}", c.name),
+                card: i,
+                dimension: c.dimension,
+                zero,
+                sense: 1.0,
+                absolute: false,
+            });
+            let joint = Joint {
+                name: format!("{name} free"),
+                kind: Kind::Free,
+                first,
+                second,
+                numbers: vec![],
+                curve: None,
+                size: 3,
+                coordinates: coordinates.collect(),
+                rows: vec![],
+                phased: vec![],
+                child: Some(branch.child),
+            };
+            self.m.notes.push(format!("`{name}` is joined to nothing: it moves freely from ground.O."));
+            self.name_joint(&format!("bodies.{name}"), &joint)?;
+            self.m.joints.push(joint);
+        }
+        let first_free = self.m.joints.len() - tree.iter().filter(|b| b.edge >= known).count();
+        for branch in tree {
+            let joint = if branch.edge < known { branch.edge } else { first_free + branch.edge - known };
+            let j = &self.m.joints[joint];
+            let far = if branch.reversed { j.first } else { j.second };
+            let body = &mut self.m.bodies[branch.child];
+            body.pin = far.site;
+            body.branch = Some(Branch {
+                parent: branch.parent,
+                joint,
+                reversed: branch.reversed,
+                start: 0,
+                freedom: j.coordinates.len(),
+                hinge: j.kind == Kind::Hinge,
+            });
+        }
+        Ok(())
+    }
+
+    /// A joint outside the tree closes a loop; one along a curve does so by way of a massless particle.
+    fn close(&mut self, joint: usize) -> Result<()> {
+        if self.m.joints[joint].child.is_some() {
+            return Ok(());
+        }
+        if self.m.joints[joint].curve.is_none() {
+            self.m.closures.push(joint);
+            return Ok(());
+        }
+        let (old, name) = (self.m.joints[joint].second, self.m.joints[joint].name.clone());
+        let zero = self.slot(Law::constant(0.0));
+        let body = self.m.bodies.len();
+        let site = self.site(body, crate::mechanism::Spot::At([zero, zero]));
+        let pin = Marker { site, angle: zero };
+        let parent = self.m.body_of(self.m.joints[joint].first.site);
+        let j = &mut self.m.joints[joint];
+        j.second = pin;
+        j.child = Some(body);
+        for c in j.coordinates.iter().filter(|c| c.dimension == "rad") {
+            self.names.coordinates.remove(&c.name);
+        }
+        j.coordinates.retain(|c| c.dimension != "rad");
+        let branch = Branch { parent, joint, reversed: false, start: 0, freedom: 1, hinge: false };
+        self.m.bodies.push(Body {
+            name: format!("{name}.pin"),
+            listed: None,
+            particle: true,
+            pieces: vec![],
+            branch: Some(branch),
+            pin: site,
+        });
+        self.m.closures.push(self.m.joints.len());
+        self.m.joints.push(Joint {
+            name: format!("{name}.pin"),
+            kind: Kind::Hinge,
+            first: pin,
+            second: old,
+            numbers: vec![],
+            curve: None,
+            size: 1,
+            coordinates: vec![],
+            rows: vec![0, 1],
+            phased: vec![false, false],
+            child: None,
+        });
+        Ok(())
+    }
+
+    /// The coordinates of the tree in the order of the joints.
+    fn number_coordinates(&mut self) {
+        for joint in 0..self.m.joints.len() {
+            let Some(child) = self.m.joints[joint].child else { continue };
+            let branch = self.m.bodies[child].branch.as_mut().expect("a body of the tree");
+            branch.start = self.m.coordinates.len();
+            self.m.coordinates.extend((0..branch.freedom).map(|k| (joint, k)));
+        }
+    }
+}
