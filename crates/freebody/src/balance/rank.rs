@@ -39,14 +39,19 @@ pub struct SelfStress {
     pub drives: Vec<f64>,
 }
 
+fn degrees(number: usize) -> String {
+    if number == 1 { "1 degree".into() } else { format!("{number} degrees") }
+}
+
 impl Freedom {
     /// Why the count and the true number differ, or that they agree.
     pub fn explain(&self) -> String {
         let (count, here) = (self.count, self.here);
         let mut told = match (self.redundant, here as i64 - count) {
-            (0, 0) => format!("{here} degrees of freedom, as the count of coordinates less constraints says"),
+            (0, 0) => format!("{} of freedom, as the count of coordinates less constraints says", degrees(here)),
             (r, more) => format!(
-                "{here} degrees of freedom, {more} more than the count of {count}: {r} of the {} constraints say nothing new here",
+                "{} of freedom, {more} more than the count of {count}: {r} of the {} constraints say nothing new here",
+                degrees(here),
                 self.rows
             ),
         };
