@@ -57,10 +57,10 @@ class Comparison:
         from rich.table import Table
         from rich.text import Text
 
-        table = Table(box=box.SIMPLE_HEAD)
+        table = Table(box=box.SIMPLE_HEAD, show_edge=False)
         for head in ("column", "unit", "largest |a − b|", "at t / s", "rms", "relative"):
             table.add_column(head, justify="left" if head in ("column", "unit") else "right")
-        for d in self.differences:
+        for d in filter(lambda d: d.largest, self.differences):
             figures = (f"{d.largest:.3e}", f"{d.t:.6g}", f"{d.rms:.3e}", f"{d.relative:.1e}")
             table.add_row(Text(d.name), d.unit, *figures)
         return table

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +18,21 @@ if TYPE_CHECKING:
     from freebody import _core
 
 
+_THROUGH_POINT = {"force along x", "force along y", "normal force", "tension"}
+
+
+def passes_couple(joint: Mapping[str, Any]) -> bool:
+    """Whether the reaction of a joint, as the core describes it, can have a couple about the joint's point."""
+    return not set(joint["reaction"]) <= _THROUGH_POINT
+
+
+def without_couples(values: Array, joints: Sequence[Mapping[str, Any]]) -> Array:
+    """Reactions (…, nj, 3) with a plain 0, not round-off, for the couple of joints that pass none."""
+    clean = np.array(values)
+    clean[..., [not passes_couple(joint) for joint in joints], 2] = 0.0
+    return clean
+
+
 class Indeterminate(LookupError):
     """A reaction that the balance equations do not determine was asked for as if they did."""
 
@@ -28,6 +43,7 @@ class Reaction:
 
     ``values`` (…, 3): force components Fx, Fy in N in the fixed axes and the couple M in N·m, counter-clockwise,
     about the joint's point; ``determined`` (…, 3) says which of them the balance equations determine.
+    ``has_couple`` is False for a joint that passes none: its M is 0.
     A component that they do not determine is never given as a number; ``least`` is the way to opt in.
     """
 
@@ -39,6 +55,7 @@ class Reaction:
     determined: NDArray[np.bool_] = field(repr=False)
     smallest: Callable[[], Array] = field(repr=False)
     local: Callable[[], Array] = field(repr=False)
+    has_couple: bool = True
 
     @property
     def Fx(self) -> Any:
@@ -213,10 +230,11 @@ class Instant:
             first=joint["first"],
             second=joint["second"],
             body=joint["second"],
-            values=self._solved.reactions[i],
+            values=without_couples(self._solved.reactions, self._about["joints"])[i],
             determined=self._solved.determinate[i],
-            smallest=lambda: self._solved.least_reactions[i],
+            smallest=lambda: without_couples(self._solved.least_reactions, self._about["joints"])[i],
             local=lambda: self.core.evaluate(texts, s.p, s.t, s.q, s.u),
+            has_couple=passes_couple(joint),
         )
 
     def tables(self) -> list[Table]:
@@ -236,6 +254,7 @@ class Instant:
                 side = joint.on(body)
                 cells = zip(side.values.tolist(), side.determined.tolist(), strict=True)
                 figures = [_figure(value) if known else "indeterminate" for value, known in cells]
+                figures[2] = figures[2] if joint.has_couple else ""
                 _add(table, joint.name if body == joint.second else "", body, *figures)
         return table
 
@@ -271,7 +290,7 @@ def _table(title: str, *heads: str) -> Table:
     from rich import box
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, title_style="bold")
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, show_edge=False, title_style="bold")
     for head in heads:
         words = head in ("coordinate", "unit", "joint", "on", "body")
         table.add_column(head.replace("[", r"\["), justify="left" if words else "right")

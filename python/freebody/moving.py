@@ -88,7 +88,7 @@ class Moving:
         asked = self.run_numbers()
         end = asked.until if until is None else evaluate(until, {})
         if end is None:
-            raise ValueError("the run has no end: add `run: {until: 5 s}` to the model, or say until=5")
+            raise ValueError("the run has no end\n  add `run: {until: 5 s}` to the model, or say until=5 (--until 5)")
         plain = Settings(end, asked.method, asked.rtol, asked.step, asked.max_step, every=asked.every)
         numbers = {k: v if k in ("method", "route") or v is None else evaluate(v, {}) for k, v in overrules.items()}
         return replace(plain, **numbers)

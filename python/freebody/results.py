@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
 PARTS = ("Fx", "Fy", "M")
+_CHANGES = "work of parameter changes"
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
 _GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -126,6 +127,15 @@ class Energy:
         return self["balance"]
 
     @property
+    def entries(self) -> dict[str, Array]:
+        """What is worth showing, by words: what is stored and every work; changes of parameters where there were any."""
+        works = {f"work of {name.removesuffix('.work')}": work for name, work in self.works.items()}
+        if not works.get(_CHANGES, np.ones(1)).any():
+            del works[_CHANGES]
+        # + 0.0 turns -0 into 0.
+        return {name: values + 0.0 for name, values in {"kinetic": self.kinetic, "potential": self.potential, **works}.items()}
+
+    @property
     def works(self) -> dict[str, Array]:
         """Work (nt,) since the start of every force and motion that has no potential."""
         return {name: self[name] for name in self.names if name not in ("kinetic", "potential", "balance")}
@@ -218,12 +228,13 @@ def minimum(signal: Signal, window: Window) -> tuple[float, float]:
 
 def _zoom(signal: Signal, start: float, end: float) -> tuple[float, float]:
     """The largest value between two times, by narrowing a small grid about its best place; kinks do no harm."""
+    # A smooth peak is flat to round-off within the square root of the machine's epsilon.
+    least = 1e-9 * max(abs(start), abs(end))
     while True:
         t = np.linspace(start, end, 17)
         y = signal(t)
         i = int(np.argmax(y))
-        # A smooth peak is flat to round-off within the square root of the machine's epsilon.
-        if end - start <= 1e-9 * max(abs(start), abs(end)) or np.ptp(y) <= 1e-15 * np.abs(y).max():
+        if end - start <= least or np.ptp(y) <= 1e-15 * np.abs(y).max():
             return float(t[i]), float(y[i])
         start, end = t[max(i - 1, 0)], t[min(i + 1, 16)]
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from freebody.instant import Reaction, Reactions, State, refuse_indeterminate
+from freebody.instant import Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
 from freebody.results import (
     Array,
     Column,
@@ -355,7 +355,7 @@ class Run:
     def _reactions(self) -> Array:
         values, determinate = self.motion.instants(self.t)
         known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
-        return np.where(known, values, np.nan)
+        return without_couples(np.where(known, values, np.nan), self.about["joints"])
 
     def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
         texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
@@ -369,6 +369,7 @@ class Run:
             determined=~np.isnan(values),
             smallest=lambda: self._least(i),
             local=lambda: self.motion.evaluate(texts, self.t),
+            has_couple=passes_couple(joint),
         )
 
     def _least(self, i: int) -> Array:
@@ -376,7 +377,8 @@ class Run:
         if not np.array_equal(p, self.start.p):
             raise ValueError("an event changed parameters during this run: ask for the least reactions instant by instant")
         rows = zip(self.t, self.q, self.u, strict=True)
-        return np.array([self.source.core.instant(p, float(t), q, u).least_reactions[i] for t, q, u in rows])
+        least = [self.source.core.instant(p, float(t), q, u).least_reactions for t, q, u in rows]
+        return without_couples(np.array(least), self.about["joints"])[:, i]
 
     def _named(self, values: Sequence[float]) -> dict[str, float]:
         return dict(zip(self.coordinates, values, strict=True))

@@ -229,7 +229,7 @@ fn velocities(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Result<V
     match worst {
         Some((name, left)) if left.abs() > 1e-8 * speed * balance.length.max(1.0) => Err(Trouble::new(
             "inconsistent_velocities",
-            format!("the rates asked for exclude each other: {left:.3e} is left at {name}; give fewer rates, or rates that agree with the loops and motions"),
+            format!("the motions, loops and given rates contradict each other: at best {name} is off by {left:.3} (m/s or rad/s); remove one of them, or make them agree"),
         )),
         _ => Ok(u),
     }
@@ -253,6 +253,6 @@ fn cannot_assemble(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Tro
     let told: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
     Trouble::new(
         "cannot_assemble",
-        format!("the loops cannot be closed from here; at the nearest approach the gaps (m or rad) are {}; check the lengths, give values that agree under `initial`, or approximate ones under `guess`", told.join(", ")),
+        format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", told.join(", ")),
     )
 }

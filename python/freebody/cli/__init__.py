@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from freebody.run import Run
 
 BAD_END = 3
+HINT_AT_START = "look for laws without a value at the start, like 1/x at x = 0"
 
 app = typer.Typer(
     cls=Guarded,
@@ -195,7 +196,12 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
 
     given = {name: value for name, value in settings.items() if value is not None}
     with watched() as progress:
-        return opened(path, changes).simulate(progress=progress, **given)
+        done = opened(path, changes).simulate(progress=progress, **given)
+    if not done.outcome.ok and done.outcome.t == done.start.t:
+        # Nothing moved, so there is nothing to show.
+        what, _, hint = done.outcome.sentence.partition("; ")
+        raise Mistake(f"the run ends where it begins, t = {done.outcome.t:g} s: {what}", hint or HINT_AT_START)
+    return done
 
 
 def obtained(path: Path) -> Run:

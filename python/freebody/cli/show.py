@@ -41,14 +41,14 @@ def _plain(data: Any) -> Any:
 
 
 def table(title: str, heads: Sequence[str], rows: Iterable[Row]) -> Table:
-    """Words to the left, numbers to the right; names come from the model, so nothing is taken for markup."""
+    """Words to the left, numbers (-0 as 0) to the right; names come from the model, so nothing is taken for markup."""
     rows = list(rows)
     made = Table(title=Text(title, "bold"), title_justify="left", box=box.SIMPLE_HEAD, show_edge=False)
     for i, head in enumerate(heads):
         numbers = any(isinstance(row[i], float) for row in rows)
         made.add_column(escape(head), justify="right" if numbers else "left")
     for row in rows:
-        made.add_row(*(Text(f"{cell:.6g}" if isinstance(cell, float) else str(cell)) for cell in row))
+        made.add_row(*(Text(f"{cell + 0.0:.6g}" if isinstance(cell, float) else str(cell)) for cell in row))
     return made
 
 
@@ -72,7 +72,7 @@ def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
         print(dumped(_run_as_dict(done, peaks, files)))
         return
     put(
-        Text.assemble((done.name, "bold"), ": ", (done.outcome.sentence, "green" if done.outcome.ok else "bold red"), "\n"),
+        Text.assemble((done.name, "bold"), ": ", (_ending(done), "green" if done.outcome.ok else "bold red"), "\n"),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
         table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
         table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
@@ -80,6 +80,16 @@ def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
         table("largest reactions", ["joint", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks)),
     )
     written(files)
+
+
+def _ending(done: Run) -> str:
+    """How and when the run ended; a bad end also by its name and where the mechanism stood."""
+    outcome = done.outcome
+    told = f"{outcome.sentence}, t = {outcome.t:.6g} s"
+    if outcome.ok:
+        return told
+    place = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in list(zip(done.coordinates, done.end.q, strict=True))[:6])
+    return f"{outcome.name}: {told}, at {place}" if place else f"{outcome.name}: {told}"
 
 
 def closure(done: Run) -> float:
@@ -110,13 +120,14 @@ def _report_row(item: tuple[str, Any]) -> Row:
 
 
 def _ledger_rows(done: Run) -> list[Row]:
-    return [(name, float(done.energy[name][0]), float(done.energy[name][-1])) for name in done.energy.names]
+    return [(name, float(values[0]), float(values[-1])) for name, values in done.energy.entries.items()]
 
 
 def _peak_row(peak: Peak) -> Row:
     if not peak.determinate:
         return peak.joint, peak.body, "indeterminate", "", "", ""
-    return peak.joint, peak.body, peak.size, peak.t, peak.couple, peak.t_couple
+    couple = ("", "") if peak.couple is None else (peak.couple, peak.t_couple)
+    return peak.joint, peak.body, peak.size, peak.t, *couple
 
 
 # One instant
@@ -143,6 +154,8 @@ def reactions_along(instant: Instant) -> Table:
     """Reactions along and across the line of each joint's first body, on the second body."""
     rows = [(r.name, r.second, *_parts(r, True).values()) for r in instant.reactions.values()]
     shown = [["indeterminate" if cell is None else cell for cell in row] for row in rows]
+    for row, reaction in zip(shown, instant.reactions.values(), strict=True):
+        row[-1] = row[-1] if reaction.has_couple else ""
     return table("reactions in joint axes", ["joint", "on", "along [N]", "across [N]", "couple [N·m]"], shown)
 
 
@@ -213,7 +226,7 @@ def mechanism(about: Mapping[str, Any], as_json: bool) -> None:
         ),
         table("joints", ["joint", "type", "between", ""], joints),
         table("forces", ["force", "type"], [(f["name"], f["type"]) for f in about["forces"]]),
-        table("prescribed motions", ["motion", "of", "level"], [(m["name"], m["of"], m["level"]) for m in about["motions"]]),
+        table("prescribed motions", ["motion", "level", ""], [(m["name"], m["level"], "" if m["ideal"] else "does work of its own") for m in about["motions"]]),
         f"degrees of freedom: {about['freedom']['count']}",
         *(f"• {note}" for note in about["notes"]),
     )
@@ -224,7 +237,9 @@ def comparison(found: Comparison, as_json: bool) -> None:
     if as_json:
         print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only}))
         return
-    put(found, *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []))
+    same = sum(not d.largest for d in found.differences)
+    alike = f"{same} of {len(found.differences)} columns are the same at all {len(found.t)} common times"
+    put(*([found, ""] if same < len(found.differences) else []), alike, *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []))
 
 
 def written(files: Sequence[Path]) -> None:

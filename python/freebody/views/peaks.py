@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Peak:
     """The largest force of a joint on ``body``: its size and components (N) at time ``t`` (s), and the largest
-    couple (N·m) at ``t_couple``. An indeterminate reaction has no figures: they are None."""
+    couple (N·m) at ``t_couple``, None for a joint that passes none. An indeterminate reaction has no figures: they are None."""
 
     joint: str
     body: str
@@ -40,7 +40,9 @@ def _peak(run: Run, sampled: Run, i: int, name: str) -> Peak:
     if not reaction.determinate:
         return Peak(name, reaction.second, False)
     t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*_solved(run, i, t)[:, :2].T))
-    t_couple, couple = _largest(run, sampled.t, np.abs(reaction.M), lambda t: np.abs(_solved(run, i, t)[:, 2]))
+    couple = t_couple = None
+    if reaction.has_couple:
+        t_couple, couple = _largest(run, sampled.t, np.abs(reaction.M), lambda t: np.abs(_solved(run, i, t)[:, 2]))
     force_x, force_y, _ = _solved(run, i, np.array([t]))[0].tolist()
     return Peak(name, reaction.second, True, t, size, force_x, force_y, couple, t_couple)
 

@@ -108,10 +108,9 @@ def energy(run: Run, ax: Axes | None = None) -> Axes:
     """The energy ledger: what is stored, what was put in, and (in the legend) how well the books close."""
     ax = axes(ax)
     ledger = run.energy
-    curves = {"kinetic": ledger.kinetic, "potential": ledger.potential, "kinetic + potential": ledger.kinetic + ledger.potential}
-    curves |= {f"work of {name.removesuffix('.work')}": work for name, work in ledger.works.items()}
+    curves = {**ledger.entries, "kinetic + potential": ledger.kinetic + ledger.potential}
     for i, (name, values) in enumerate(curves.items()):
-        ax.plot(run.t, values, color=colour(i), ls="-" if i < 3 else "--", label=name)
+        ax.plot(run.t, values, color=colour(i), ls="--" if name.startswith("work of ") else "-", label=name)
     _mark_events(run, ax)
     ax.set(xlabel="t  [s]", ylabel="energy  [J]", xlim=(run.t[0], run.t[-1]))
     ax.set_title(f"balance within {np.abs(ledger.balance).max():.1e} J", fontsize=10, color=GROUND, pad=16)

@@ -41,25 +41,31 @@ pub struct SelfStress {
     pub drives: Vec<f64>,
 }
 
+fn degrees(number: usize) -> String {
+    if number == 1 { "1 degree".into() } else { format!("{number} degrees") }
+}
+
 impl Freedom {
     /// Why the count and the true number differ, or that they agree.
     pub fn explain(&self) -> String {
         let (count, here) = (self.count, self.here);
         let mut told = match (self.redundant, here as i64 - count) {
-            (0, 0) => format!("{here} degrees of freedom, as the count of coordinates less constraints says"),
+            (0, 0) => format!("{} of freedom, as the count of coordinates less constraints says", degrees(here)),
             (r, more) => {
                 let singular = r - self.always_redundant.min(r);
                 let mut why = vec![];
                 if self.always_redundant > 0 {
-                    why.push(format!("{} of the {} constraints are redundant", self.always_redundant, self.rows));
+                    let are = if self.always_redundant == 1 { "is" } else { "are" };
+                    why.push(format!("{} of the {} constraints {are} redundant", self.always_redundant, self.rows));
                 }
                 if singular > 0 {
+                    let say = if singular == 1 { "says" } else { "say" };
                     why.push(format!(
-                        "{singular} of the {} constraints say nothing new in this configuration, which is singular",
+                        "{singular} of the {} constraints {say} nothing new in this configuration, which is singular",
                         self.rows
                     ));
                 }
-                format!("{here} degrees of freedom, {more} more than the count of {count}: {}", why.join("; "))
+                format!("{} of freedom, {more} more than the count of {count}: {}", degrees(here), why.join("; "))
             }
         };
         if self.driven > 0 {

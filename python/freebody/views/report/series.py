@@ -93,12 +93,7 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
 
 def _energy(run: Run) -> list[dict[str, Any]]:
     ledger = run.energy
-    curves = [
-        ("kinetic", ledger.kinetic),
-        ("potential", ledger.potential),
-        ("kinetic + potential", ledger.kinetic + ledger.potential),
-    ]
-    curves += [(f"work of {name.removesuffix('.work')}", work) for name, work in ledger.works.items()]
+    curves = [*ledger.entries.items(), ("kinetic + potential", ledger.kinetic + ledger.potential)]
     return [
         _plot("Energy", "J", run.t, curves),
         _plot("Energy that does not add up", "J", run.t, [("balance", ledger.balance)]),

@@ -21,7 +21,7 @@ def headline(run: Run) -> str:
     """Name, outcome and its sentence."""
     mood = "ok" if run.outcome.ok else "not-ok"
     badge = f'<span class="badge {mood}">{escape(run.outcome.name)}</span>'
-    return f"<h1>{escape(run.name)}</h1><p>{badge} {escape(_sentence(run.outcome.sentence))}</p>"
+    return f"<h1>{escape(run.name)}</h1><p>{badge} {escape(_sentence(run.outcome.sentence))}, t = {_figure(run.outcome.t)} s</p>"
 
 
 def aside(run: Run) -> str:
@@ -92,12 +92,13 @@ def _events(run: Run, most: int = 100) -> str:
 
 def _peaks(run: Run) -> str:
     peaks = peak_reactions(run)
-    couples = any(peak.couple for peak in peaks)
-    heads = ["joint", "on", "force / N", "at t / s", "Fx / N", "Fy / N", *(["couple / N·m", "at t / s"] if couples else []), ""]
+    couples = any(peak.couple is not None for peak in peaks)
+    all_known = all(peak.determinate for peak in peaks)
+    heads = ["joint", "on", "force / N", "at t / s", "Fx / N", "Fy / N", *(["couple / N·m", "at t / s"] if couples else []), *([] if all_known else [""])]
     rows = []
     for p in peaks:
         figures = [_figure(x) for x in (p.size, p.t, p.Fx, p.Fy, *((p.couple, p.t_couple) if couples else ()))]
-        rows.append([p.joint, p.body, *figures, "determinate" if p.determinate else "indeterminate"])
+        rows.append([p.joint, p.body, *figures, *([] if all_known else ["" if p.determinate else "indeterminate"])])
     return _table(
         "Peak reactions",
         heads,
@@ -109,9 +110,7 @@ def _peaks(run: Run) -> str:
 
 def _ledger(run: Run) -> str:
     ledger = run.energy
-    entries = {"kinetic": ledger.kinetic, "potential": ledger.potential}
-    entries |= {f"work of {name.removesuffix('.work')}": work for name, work in ledger.works.items()}
-    rows = [(name, _figure(y[0]), _figure(y[-1]), _figure(y.min()), _figure(y.max())) for name, y in entries.items()]
+    rows = [(name, _figure(y[0]), _figure(y[-1]), _figure(y.min()), _figure(y.max())) for name, y in ledger.entries.items()]
     worst = float(np.abs(ledger.balance).max())
     return _table(
         "Energy ledger",
