@@ -93,6 +93,7 @@ class Instant:
     determinate: NDArray[np.bool_]  # (nj, 3)
     motions: Array  # (nmotions,) force or torque of each prescribed motion
     residual: float  # largest momentum-balance residual of a body, relative to the largest term
+    sizes: tuple[float, float]  # largest force (N) and acceleration (m/s²) among the terms that balance
     body_residuals: Array  # (nb, 3) N, N, N·m
     rank: str  # JSON {"freedom", "count", "rank", "rows", "redundant", "explanation", "self_stress": [str]}
 

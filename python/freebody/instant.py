@@ -174,6 +174,11 @@ class Instant:
         return float(self._solved.residual)
 
     @property
+    def sizes(self) -> tuple[float, float]:
+        """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
+        return self._solved.sizes
+
+    @property
     def residuals(self) -> dict[str, tuple[float, float, float]]:
         """What is left of each body's momentum balance: N, N, N·m."""
         names = (b["name"] for b in self._about["bodies"])

@@ -65,6 +65,11 @@ impl Instant {
     fn residual(&self) -> f64 {
         self.solved.residual
     }
+    /// Largest force (N) and acceleration (m/s²) among the terms that balance.
+    #[getter]
+    fn sizes(&self) -> (f64, f64) {
+        (self.solved.sizes.load, self.solved.sizes.acceleration)
+    }
     #[getter]
     fn rank(&self) -> &str {
         &self.rank

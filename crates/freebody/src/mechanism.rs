@@ -188,6 +188,18 @@ pub struct Joint {
     pub child: Option<usize>,
 }
 
+impl Joint {
+    /// The markers on the body nearer to ground and on the one that it carries.
+    #[inline(always)]
+    pub fn sides(&self, reversed: bool) -> (&Marker, &Marker) {
+        if reversed {
+            (&self.second, &self.first)
+        } else {
+            (&self.first, &self.second)
+        }
+    }
+}
+
 /// A joint coordinate, as its user reads it.
 #[derive(Clone, Debug)]
 pub struct Coordinate {

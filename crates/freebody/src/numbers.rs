@@ -3,7 +3,7 @@
 use crate::compile::CompileError;
 use crate::expr::{Env, Table};
 use crate::gauges::{Law, Leaf};
-use crate::mechanism::{Body, Mechanism, Slot, Spot};
+use crate::mechanism::{Body, Coordinate, Mechanism, Slot, Spot};
 use crate::plane::{Turn, Vec2};
 use crate::scalar::Scalar;
 
@@ -22,8 +22,34 @@ pub struct Numbers<S = f64> {
     pub centre: Vec<Vec2<S>>,
     /// Of each body, inertia about the mass centre, kg·m²; 1 for a particle, which nothing turns.
     pub inertia: Vec<S>,
+    /// Of each body on a plain hinge, the numbers of that hinge.
+    pub hinges: Vec<HingeNumbers<S>>,
     /// Acceleration of gravity.
     pub gravity: Vec2<S>,
+}
+
+/// All that a body on a plain hinge needs to know of it, side by side, for long chains outgrow the caches.
+#[derive(Clone, Copy, Debug)]
+pub struct HingeNumbers<S = f64> {
+    /// From the parent's pin to the own, in the parent's axes.
+    pub arm: Vec2<S>,
+    /// Direction of the parent's marker in the parent's axes.
+    pub near: S,
+    /// Direction of the own marker in the own axes.
+    pub far: S,
+    /// How the user reads the angle.
+    pub reading: Reading<S>,
+}
+
+/// How a user reads a joint coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<S = f64> {
+    /// The joint's measure where the user reads 0.
+    pub zero: S,
+    /// +1 or −1.
+    pub sense: f64,
+    /// From the fixed x axis instead of from the first body.
+    pub absolute: bool,
 }
 
 /// What an expression of parameters may read.
@@ -83,15 +109,60 @@ impl Mechanism {
             Spot::MassCentre => heavy[self.sites[site].body].1,
         };
         let pins: Vec<Vec2<S>> = self.bodies.iter().map(|body| place(body.pin)).collect();
+        let arms: Vec<Vec2<S>> = (0..self.sites.len()).map(|i| place(i) - pins[self.sites[i].body]).collect();
         Numbers {
             p: p.to_vec(),
             gravity: at(self.gravity),
-            arms: (0..self.sites.len()).map(|i| place(i) - pins[self.sites[i].body]).collect(),
+            hinges: self.bodies.iter().map(|body| self.hinge_numbers(body, &slots, &arms)).collect(),
+            arms,
             mass: heavy.iter().map(|h| h.0).collect(),
             centre: heavy.iter().zip(&pins).map(|(h, &pin)| h.1 - pin).collect(),
             inertia: heavy.iter().zip(&self.bodies).map(|(h, b)| if b.particle { S::one() } else { h.2 }).collect(),
             slots,
         }
+    }
+
+    fn hinge_numbers<S: Scalar>(&self, body: &Body, slots: &[S], arms: &[Vec2<S>]) -> HingeNumbers<S> {
+        let Some(branch) = body.branch.filter(|b| b.hinge) else { return HingeNumbers::none() };
+        let joint = &self.joints[branch.joint];
+        let (near, far) = joint.sides(branch.reversed);
+        let reading = joint.coordinates.first().map_or(Reading::plain(), |c| c.reading(slots));
+        HingeNumbers { arm: arms[near.site], near: slots[near.angle], far: slots[far.angle], reading }
+    }
+}
+
+impl Coordinate {
+    /// How its user reads it.
+    #[inline(always)]
+    pub fn reading<S: Scalar>(&self, slots: &[S]) -> Reading<S> {
+        Reading { zero: slots[self.zero], sense: self.sense, absolute: self.absolute }
+    }
+}
+
+impl<S: Scalar> HingeNumbers<S> {
+    fn none() -> Self {
+        HingeNumbers { arm: Vec2::zero(), near: S::zero(), far: S::zero(), reading: Reading::plain() }
+    }
+}
+
+impl<S: Scalar> Reading<S> {
+    fn plain() -> Self {
+        Reading { zero: S::zero(), sense: 1.0, absolute: false }
+    }
+    /// The joint's own coordinate and rate from the user's.
+    #[inline(always)]
+    pub fn to_joint(&self, q: S, u: S, base_angle: S, base_rate: S) -> (S, S) {
+        let (at, rate) = (self.zero + q.scale(self.sense), u.scale(self.sense));
+        if self.absolute {
+            (at - base_angle, rate - base_rate)
+        } else {
+            (at, rate)
+        }
+    }
+    /// The user's rate from the joint's own.
+    #[inline(always)]
+    pub fn to_user(&self, rate: S, base_rate: S) -> S {
+        (if self.absolute { rate + base_rate } else { rate }).scale(self.sense)
     }
 }
 

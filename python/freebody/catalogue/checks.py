@@ -37,8 +37,9 @@ def _routes(case: Case) -> Iterator[Answer]:
             one, *others = (Instant(core, state, route) for route in ROUTES)
             residuals += [one.residual, *(other.residual for other in others)]
             for other in others:
-                accelerations.append(_apart(_accelerations(one), _accelerations(other)))
-                reactions.append(_apart(*_determined(one, other)))
+                force, acceleration = one.sizes
+                accelerations.append(_apart(_accelerations(one), _accelerations(other), acceleration))
+                reactions.append(_apart(*_determined(one, other), force))
         against = "the other two routes"
         yield Answer(f"{name}: accelerations apart", max(accelerations), "", 0.0, against, 1e-10, 1.0)
         yield Answer(f"{name}: reactions apart", max(reactions), "", 0.0, against, 1e-10, 1.0)
@@ -79,7 +80,6 @@ def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([*left, []]), np.concatenate([*right, []])
 
 
-def _apart(a: np.ndarray, b: np.ndarray) -> float:
-    """Largest difference relative to the largest entry."""
-    size = max(np.abs(a).max(initial=0.0), np.abs(b).max(initial=0.0))
-    return float(np.abs(a - b).max(initial=0.0) / size) if size else 0.0
+def _apart(a: np.ndarray, b: np.ndarray, size: float) -> float:
+    """Largest difference relative to the largest entry, or to the terms that cancel in it."""
+    return float(np.abs(a - b).max(initial=0.0) / max(np.abs([a, b]).max(initial=0.0), size))

@@ -1,6 +1,6 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
-use super::{force_power, force_value, Balance, JointLoad, Route, Trouble};
+use super::{force_power, force_value, Balance, JointLoad, Route, Sizes, Trouble};
 use crate::gauges::{Axis, Law, Leaf, Observed, Reading};
 
 /// Everything about one instant.
@@ -22,6 +22,8 @@ pub struct Instant {
     pub residuals: Vec<[f64; 3]>,
     /// The largest of them relative to the largest load.
     pub residual: f64,
+    /// How large the terms are of which accelerations and reactions are made.
+    pub sizes: Sizes,
     /// Ways in which joints can load each other, in words.
     pub self_stress: Vec<String>,
 }
@@ -37,10 +39,10 @@ impl Balance<'_> {
         self.accelerations(&mut accelerations);
         let joints = self.joint_loads();
         let drives = self.drive_forces();
-        let (residuals, largest) = self.residuals();
+        let (residuals, sizes) = (self.residuals(), self.sizes());
         let length = self.length;
         let size = |r: &[f64; 3]| r[0].abs().max(r[1].abs()).max(r[2].abs() / length);
-        let residual = residuals.iter().map(size).fold(0.0, f64::max) / largest;
+        let residual = residuals.iter().map(size).fold(0.0, f64::max) / sizes.load;
         let bodies = (1..self.m.bodies.len())
             .map(|i| {
                 let a = self.centre_acceleration(i);
@@ -59,6 +61,7 @@ impl Balance<'_> {
             drives_determinate,
             residuals,
             residual,
+            sizes,
             self_stress,
         })
     }

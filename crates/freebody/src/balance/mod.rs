@@ -17,6 +17,7 @@ mod project;
 mod rank;
 mod reactions;
 mod rows;
+mod sizes;
 mod sweep;
 
 pub use instant::{Instant, Observer};
@@ -25,6 +26,7 @@ pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};
+pub use sizes::Sizes;
 
 pub use crate::error::Trouble;
 use crate::gauges::Placed;
@@ -216,14 +218,14 @@ impl<'m> Balance<'m> {
 
     /// Accelerations of the user's coordinates of the last solution.
     pub fn accelerations(&self, out: &mut [f64]) {
-        self.k.user_rates(self.m, &self.solved.bodies, &self.solved.nu_dot, out);
+        self.k.user_rates(self.m, &self.n, &self.solved.bodies, &self.solved.nu_dot, out);
     }
 
     /// A motion of the coordinates from joint rates (or displacements) `nu` of the tree.
     pub(crate) fn to_user(&self, nu: &[f64], out: &mut [f64]) {
         let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
         self.k.spread(self.m, nu, false, &mut bodies);
-        self.k.user_rates(self.m, &bodies, nu, out);
+        self.k.user_rates(self.m, &self.n, &bodies, nu, out);
     }
 }
 

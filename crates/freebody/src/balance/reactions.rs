@@ -127,20 +127,15 @@ impl Balance<'_> {
         powers
     }
 
-    /// What is left of the momentum balance of each body in the last solution (N, N, N·m at its mass centre), and
-    /// the largest force (or couple over the characteristic length) that entered it.
-    pub fn residuals(&self) -> (Vec<[f64; 3]>, f64) {
+    /// What is left of the momentum balance of each body in the last solution: N, N, N·m at its mass centre.
+    pub fn residuals(&self) -> Vec<[f64; 3]> {
         let at = self.at();
         let n = self.m.bodies.len();
         let mut left: Vec<Wrench> =
             (0..n).map(|i| self.loads[i] - super::effective(at, i, self.arms[i], self.solved.bodies[i])).collect();
-        let mut largest: f64 = 1e-300;
-        let mut note = |w: &Wrench| largest = largest.max(w.f.norm()).max(w.m.abs() / self.length);
-        self.loads.iter().for_each(&mut note);
         for joint in 0..self.m.joints.len() {
             let load = joint_load(at, joint, &self.solved.passed, &self.rows, &self.solved.lambda);
             let wrench = Wrench { f: load.force, m: load.couple };
-            note(&wrench);
             for (body, w) in super::rows::pair(at, &self.m.joints[joint], load.point, wrench) {
                 left[body] += w;
             }
@@ -148,7 +143,6 @@ impl Balance<'_> {
         for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
             if let Source::Drive(_) = row.source {
                 for &(body, load) in row.loads() {
-                    note(&(load * lambda));
                     left[body] += load * lambda;
                 }
             }
@@ -157,6 +151,6 @@ impl Balance<'_> {
             let w = left[i].seen_from(-self.arms[i]);
             [w.f.x, w.f.y, if self.m.bodies[i].particle { 0.0 } else { w.m }]
         };
-        ((1..n).map(at_centre).collect(), largest)
+        (1..n).map(at_centre).collect()
     }
 }

@@ -34,6 +34,8 @@ type Square = [[f64; 3]; 3];
 #[derive(Clone, Debug, Default)]
 pub struct Sweep {
     full: Vec<Resistance>,
+    /// 1 / turn of plain hinges: on the way back each acceleration waits for the one before, and not for a division.
+    eased: Vec<f64>,
     /// U = A S and (SᵀAS)⁻¹ of joints that are no plain hinges.
     general: Vec<(Square, Square)>,
 }
@@ -99,8 +101,8 @@ impl Sweep {
                 Twist { v: base.at(at.k.arm[i]) + drift.v, w: if body.particle { 0.0 } else { base.w + drift.w } };
             if branch.hinge && !body.particle {
                 let full = &self.full[i];
-                let alpha = -(full.pm + full.h.dot(a.v)) / full.turn;
-                let sense = at.k.columns[i][0].w;
+                let alpha = -(full.pm + full.h.dot(a.v)) * self.eased[i];
+                let sense = if branch.reversed { -1.0 } else { 1.0 };
                 nu_dot[branch.start] = (alpha - a.w) * sense;
                 a.w = alpha;
             } else if branch.freedom > 0 {
@@ -124,6 +126,7 @@ impl Sweep {
     fn start(&mut self, at: Placed<'_>, arms: &[Vec2], loads: &[Wrench]) {
         let n = at.m.bodies.len();
         self.full.resize(n, Resistance::default());
+        self.eased.resize(n, 0.0);
         self.general.resize(n, Default::default());
         for i in 0..n {
             let (m, arm, w) = (at.n.mass[i], arms[i], at.k.twist[i].w);
@@ -144,7 +147,7 @@ impl Sweep {
 
     /// What is left of body `i` when it may turn about its pin.
     #[inline]
-    fn free_hinge(&self, at: Placed<'_>, i: usize) -> Result<Resistance, Trouble> {
+    fn free_hinge(&mut self, at: Placed<'_>, i: usize) -> Result<Resistance, Trouble> {
         let c = &self.full[i];
         let only_force = Resistance { h: Vec2::zero(), turn: 0.0, pm: 0.0, size: 0.0, ..*c };
         if at.m.bodies[i].particle {
@@ -154,6 +157,7 @@ impl Sweep {
             return Err(Trouble::can_move_freely(at.m, i));
         }
         let (h, inverse) = (c.h, 1.0 / c.turn);
+        self.eased[i] = inverse;
         let rest = Resistance {
             xx: c.xx - h.x * h.x * inverse,
             xy: c.xy - h.x * h.y * inverse,

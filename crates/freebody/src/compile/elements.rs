@@ -77,6 +77,10 @@ impl Compiler<'_> {
             let what = format!("a {} would have to pass a couple to a particle", card.word);
             return Err(CompileError::new(&pair.path, what, "use a slot or a hinge, or make the body rigid"));
         }
+        if particle.contains(&true) && !card.rows.iter().any(|r| r.turning) && !has_turn && !card.rows.is_empty() {
+            let what = format!("a {} needs bodies that can turn, and a particle cannot", card.word);
+            return Err(CompileError::new(&pair.path, what, "use a slot or a link, or make the particle a rigid body"));
+        }
         let coordinates = self.coordinates(pair, &card, child_is_particle, reversed)?;
         let numbers = numbers.into_iter().map(|law| self.slot(law)).collect();
         let rows = card.rows.iter().enumerate().filter(|(_, row)| !(row.turning && particle.contains(&true)));

@@ -133,6 +133,19 @@ impl<'a, 's> Fields<'a, 's> {
         bodies.get(&name).copied().ok_or_else(unknown)
     }
 
+    /// A body that can take a couple.
+    pub fn turning_body(&mut self, field: &str) -> Result<usize> {
+        let body = self.body(field)?;
+        match self.c.m.bodies[body].particle {
+            true => Err(self.error(
+                field,
+                "a couple cannot act on a particle, which has no rotation",
+                "make it a rigid body",
+            )),
+            false => Ok(body),
+        }
+    }
+
     /// A line: its site and direction.
     pub fn line(&mut self, field: &str) -> Result<crate::mechanism::Marker> {
         let path = format!("{}.{field}", self.path);

@@ -36,8 +36,9 @@ impl Compiler<'_> {
 
     /// A name of the model takes the place of one that every body has.
     fn name_site(&mut self, name: String, site: usize) {
-        self.m.points.retain(|(known, _)| *known != name);
-        self.names.sites.insert(name.clone(), site);
+        if self.names.sites.insert(name.clone(), site).is_some() {
+            self.m.points.retain(|(known, _)| *known != name);
+        }
         self.m.points.push((name, site));
     }
 

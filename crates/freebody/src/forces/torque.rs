@@ -7,7 +7,7 @@ use crate::joints::{Card, FieldKind, Role};
 
 /// The turn of `on` against `from`.
 fn turn(fields: &mut Fields) -> Result<Law, CompileError> {
-    let (on, from) = (fields.body("on")?, fields.body("from")?);
+    let (on, from) = (fields.turning_body("on")?, fields.turning_body("from")?);
     Ok(Law::leaf(Leaf::Angle(on)) - Law::leaf(Leaf::Angle(from)))
 }
 

@@ -9,7 +9,7 @@ mod relative;
 pub use relative::{curve_switch, relative, JointView};
 
 use crate::joints::Relative;
-use crate::mechanism::{Branch, Coordinate, Joint, Mechanism};
+use crate::mechanism::{Body, Branch, Joint, Mechanism};
 use crate::numbers::Numbers;
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
 use crate::scalar::{Dual, Jet, Scalar};
@@ -41,7 +41,7 @@ impl<S: Scalar> Kinematics<S> {
             twist: vec![Twist::zero(); n],
             arm: vec![Vec2::zero(); n],
             drift: vec![Twist::zero(); n],
-            columns: vec![[Twist::zero(); 3]; n],
+            columns: mechanism.bodies.iter().map(still_columns).collect(),
             nu: vec![S::zero(); mechanism.freedom()],
         }
     }
@@ -51,7 +51,7 @@ impl<S: Scalar> Kinematics<S> {
         for body in 1..m.bodies.len() {
             let Some(branch) = m.bodies[body].branch else { continue };
             if branch.hinge {
-                self.hang_by_hinge(m, n, body, branch, q, u);
+                self.hang_by_hinge(n, body, m.bodies[body].particle, branch, q, u);
             } else {
                 self.hang(m, n, body, branch, q, u);
             }
@@ -60,24 +60,20 @@ impl<S: Scalar> Kinematics<S> {
 
     /// A body on a plain hinge between body axes: the general case, written short.
     #[inline]
-    fn hang_by_hinge(&mut self, m: &Mechanism, n: &Numbers<S>, body: usize, b: Branch, q: &[S], u: &[S]) {
-        let joint = &m.joints[b.joint];
-        let (near, far) = if b.reversed { (&joint.second, &joint.first) } else { (&joint.first, &joint.second) };
+    fn hang_by_hinge(&mut self, n: &Numbers<S>, body: usize, particle: bool, b: Branch, q: &[S], u: &[S]) {
+        let hinge = &n.hinges[body];
         let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
-        let arm = base.turn.apply(n.arms[near.site]);
+        let arm = base.turn.apply(hinge.arm);
         self.arm[body] = arm;
         let mut pose = Pose { at: base.at + arm, turn: Turn::none() };
         let mut twist = Twist { v: carrier.at(arm), w: S::zero() };
-        if !m.bodies[body].particle {
-            let c = &joint.coordinates[0];
-            let base_angle = base.turn.angle + n.slots[near.angle];
-            let (angle, rate) = joint_reading(c, n, q[b.start], u[b.start], base_angle, carrier.w);
+        if !particle {
+            let base_angle = base.turn.angle + hinge.near;
+            let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], base_angle, carrier.w);
             let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
-            pose.turn = Turn::by(base_angle + angle - n.slots[far.angle]);
+            pose.turn = Turn::by(base_angle + angle - hinge.far);
             twist.w = carrier.w + rate;
             self.nu[b.start] = if b.reversed { -rate } else { rate };
-            let sense = if b.reversed { -S::one() } else { S::one() };
-            self.columns[body][0] = Twist { v: Vec2::zero(), w: sense };
         }
         self.pose[body] = pose;
         self.twist[body] = twist;
@@ -87,13 +83,13 @@ impl<S: Scalar> Kinematics<S> {
     /// A body on any joint, from the joint's pose.
     fn hang(&mut self, m: &Mechanism, n: &Numbers<S>, body: usize, b: Branch, q: &[S], u: &[S]) {
         let joint = &m.joints[b.joint];
-        let (near, far) = if b.reversed { (&joint.second, &joint.first) } else { (&joint.first, &joint.second) };
+        let (near, far) = joint.sides(b.reversed);
         let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
         let axes = Turn::by(base.turn.angle + n.slots[near.angle]);
         let (mut at, mut rate) = ([S::zero(); 3], [S::zero(); 3]);
         for (k, c) in joint.coordinates.iter().enumerate() {
             let i = b.start + k;
-            (at[c.card], rate[c.card]) = joint_reading(c, n, q[i], u[i], axes.angle, carrier.w);
+            (at[c.card], rate[c.card]) = c.reading(&n.slots).to_joint(q[i], u[i], axes.angle, carrier.w);
             self.nu[i] = rate[c.card];
         }
         let motion = JointMotion::of(m, n, joint, b.reversed, &at[..joint.size], &rate[..joint.size]);
@@ -118,12 +114,16 @@ impl<S: Scalar> Kinematics<S> {
     }
 
     /// The user's accelerations from the bodies' accelerations (of the pins) and the joints' own `nu_dot`.
-    pub fn user_rates(&self, m: &Mechanism, bodies: &[Twist<S>], nu: &[S], out: &mut [S]) {
-        for body in m.bodies.iter() {
+    pub fn user_rates(&self, m: &Mechanism, n: &Numbers<S>, bodies: &[Twist<S>], nu: &[S], out: &mut [S]) {
+        for (body, hinge) in m.bodies.iter().zip(&n.hinges) {
             let Some(b) = body.branch else { continue };
-            for (k, c) in m.joints[b.joint].coordinates.iter().enumerate() {
-                let carried = if c.absolute { bodies[b.parent].w } else { S::zero() };
-                out[b.start + k] = (nu[b.start + k] + carried).scale(c.sense);
+            let carried = bodies[b.parent].w;
+            if b.hinge && b.freedom == 1 {
+                out[b.start] = hinge.reading.to_user(nu[b.start], carried);
+                continue;
+            }
+            for (c, i) in m.joints[b.joint].coordinates.iter().zip(b.start..) {
+                out[i] = c.reading(&n.slots).to_user(nu[i], carried);
             }
         }
     }
@@ -147,15 +147,13 @@ impl<S: Scalar> Kinematics<S> {
     }
 }
 
-/// The joint's own coordinate and rate from the user's.
-#[inline(always)]
-fn joint_reading<S: Scalar>(c: &Coordinate, n: &Numbers<S>, q: S, u: S, base_angle: S, base_rate: S) -> (S, S) {
-    let (at, rate) = (n.slots[c.zero] + q.scale(c.sense), u.scale(c.sense));
-    if c.absolute {
-        (at - base_angle, rate - base_rate)
-    } else {
-        (at, rate)
+/// The columns that no state changes: those of plain hinges.
+fn still_columns<S: Scalar>(body: &Body) -> [Twist<S>; 3] {
+    let mut columns = [Twist::zero(); 3];
+    if let Some(branch) = body.branch.filter(|b| b.hinge && b.freedom == 1) {
+        columns[0].w = if branch.reversed { -S::one() } else { S::one() };
     }
+    columns
 }
 
 /// A joint's relative pose with its derivatives, seen from the body nearer to ground.

@@ -10,9 +10,10 @@ with k² = I/(I + ma²) (put sinh u = tan φ): π/2 for I = 0, a straight line, 
 
 from math import acosh, atan, cosh, sqrt
 
-from freebody.catalogue import Answer, ask
 from scipy.integrate import quad
 from scipy.special import ellipk
+
+from freebody.catalogue import Answer, ask
 
 M, A, W = 1.0, 1.0, 1.0
 INERTIAS = (2.0, 0.0, 1.0)

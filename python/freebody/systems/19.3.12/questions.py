@@ -10,10 +10,11 @@ from itertools import pairwise
 from math import acosh, atan, cosh, exp, sinh, sqrt
 
 import numpy as np
-from freebody.catalogue import Answer, ask
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import ellipk
+
+from freebody.catalogue import Answer, ask
 
 I, M, A, W = 2.0, 1.0, 1.0, 1.0
 WHOLE = I + M * A**2

@@ -9,8 +9,9 @@ carries the weight and mcθ̇². Times are quadratures of √(J/(2mgc sin θ)); 
 
 from math import pi, sin, sqrt
 
-from freebody.catalogue import Answer, ask
 from scipy.integrate import quad
+
+from freebody.catalogue import Answer, ask
 
 FOOT, POUND = 0.3048, 0.45359237
 G, M, m, C = 9.80665, 10 * POUND, 10 * POUND, FOOT

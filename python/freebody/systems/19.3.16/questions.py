@@ -6,6 +6,7 @@ Rod from the downward vertical at θ: G = (x + (ℓ/2) sin θ, −(ℓ/2) cos θ
 from math import cos, pi, sin
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 
 L, M, G = 1.0, 2.0, 9.81

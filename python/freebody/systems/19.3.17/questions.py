@@ -9,6 +9,7 @@ Nothing acts along x from outside: the mass centre moves on a vertical line.
 from math import cos, pi, sin
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 

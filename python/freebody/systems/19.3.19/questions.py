@@ -10,18 +10,24 @@ p = −b speeds the mass up, p = +b slows it down. The cosine gives none: there 
 
 A hand that sweeps, x_s = b cos ψ with ψ̈ = α, is followed where the mean of −(b/ℓ)ψ̇² cos ψ sin θ can reach α. With
 θ = ψ + δ that mean is −(b/2ℓ)ψ̇² sin δ: the mass swings about a lag with sin δ = −2αℓ/bψ̇².
+
+Hanging under gravity, θ from the downward vertical, from a hand at height y: ℓθ̈ = −(g + ÿ) sin θ. With y = b cos νt, ν = 2ω,
+ω² = g/ℓ, a small swing obeys Mathieu's equation θ̈ = −ω²(1 − (4b/ℓ) cos 2ωt)θ; over a period of the hand it grows by the larger
+multiplier of its two basic solutions. The swing θ = A cos ωt + B sin ωt has on average Ȧ = (bω/ℓ)B and Ḃ = (bω/ℓ)A,
+up to b²: A + B grows at the rate bω/ℓ.
 """
 
 from functools import cache
-from math import cos, exp, pi, sin
+from math import cos, exp, pi, sin, sqrt
 
 import numpy as np
-from freebody.catalogue import Answer, ask
-from freebody.catalogue.reference import motion
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-L, M, W, B = 1.0, 1.0, 2 * pi, 0.1
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+
+L, M, W, B, G = 1.0, 1.0, 2 * pi, 0.1, 9.81
 LAWS = {"−b sin θ": (-B, 0.0), "+b sin θ": (B, 0.0), "+b cos θ": (0.0, B), "−b cos θ": (0.0, -B)}
 EQUATIONS = "other route: balances by hand, SciPy"
 
@@ -149,3 +155,30 @@ def constant(case):
     yield Answer("θ̇ then", run.evaluate("rate(theta)", times), "rad/s", check[:, 1], EQUATIONS, 1e-9)
     tension = [M * (L * s[1] ** 2 + 0.2 * W**2 * cos(W * t) * cos(s[0])) for t, s in zip(times, check, strict=True)]
     yield Answer("tension then", run.evaluate("string.tension", times), "N", tension, EQUATIONS, 1e-8)
+
+
+@ask("Hanging under gravity: growth rate of a small swing when the hand moves up and down")
+def grows(case):
+    """Two swings, one from an angle and one from a rate, tell what a period of the hand makes of any other."""
+    small, omega = 1e-5, sqrt(G / L)
+    period = pi / omega
+    for b in (0.05, 0.1):
+        ends = []
+        for start in ({"theta0": small, "omega0": 0.0}, {"theta0": 0.0, "omega0": small}):
+            run = case.run("shaken.yaml", parameters={"b": b, **start})
+            ends.append([run.evaluate(text, period) / small for text in ("theta", "rate(theta)")])
+        check = [motion(mathieu(b), start, [period])[0] for start in ([1.0, 0.0], [0.0, 1.0])]
+        rate = growth_rate(ends, period)
+        yield Answer(
+            f"growth rate, b = {b:g}", rate, "1/s", growth_rate(check, period), "other route: Mathieu's equation, SciPy", 1e-9
+        )
+        yield Answer(f"growth rate/b, b = {b:g}", rate / b, "1/m·s", omega / L, "closed form: bω/ℓ for small b", b**2)
+
+
+def mathieu(b):
+    omega = sqrt(G / L)
+    return lambda t, s: (s[1], -(G - 4 * omega**2 * b * cos(2 * omega * t)) / L * s[0])
+
+
+def growth_rate(ends, period):
+    return float(np.log(np.abs(np.linalg.eigvals(ends)).max()) / period)

@@ -12,9 +12,10 @@ w = y − ½gt², both P = (M + m)ẇ − mℓ sin θ θ̇ and ½mℓ²(1 − m 
 
 from math import cos, pi, sin, sqrt
 
+from scipy.integrate import quad
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
-from scipy.integrate import quad
 
 M, m, L, K, G = 2.0, 1.0, 0.5, 100.0, 9.81
 START = [0.1, 0.8, -0.3, 1.7]  # y, θ, ẏ, θ̇

@@ -9,6 +9,7 @@ three equations for θ̈₁, θ̈₂ and T.
 from math import cos, log10, sin
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 

@@ -9,6 +9,7 @@ so ℓθ̈ = r̈ cos θ − g sin θ for the particle, and 3/2 of that for the r
 from math import cos, sin
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 

@@ -12,6 +12,7 @@ from which the gains for given poles follow, one after another from the last coe
 from math import cos, exp, sin, sqrt
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 

@@ -10,6 +10,7 @@ Bar 2 then falls as if hinged at a fixed point, φ̈₂ = −3g/2ℓ; the forces
 from math import cos, pi, sin
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 

@@ -9,6 +9,7 @@ a circle where r₀ ⟂ v₀ and |v₀| = ω|r₀|.
 from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 

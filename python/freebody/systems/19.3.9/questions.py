@@ -10,8 +10,9 @@ For m_R = 0 the rod cannot push (its moment about the hinge must vanish): the co
 
 from math import acosh, cos, cosh, hypot, sin, sqrt
 
-from freebody.catalogue import Answer, ask
 from scipy.integrate import quad
+
+from freebody.catalogue import Answer, ask
 
 MC, A, L, W = 3.0, 1.0, 3.0, 1.0
 

@@ -1,0 +1,27 @@
+//! Named failures.
+
+use std::fmt;
+
+/// A named failure of a system, with a sentence for the reader.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trouble {
+    /// Short fixed name, e.g. `SingularMass`.
+    pub name: &'static str,
+    /// One sentence: what happened and what to do.
+    pub sentence: String,
+}
+
+impl Trouble {
+    /// A failure called `name`, explained by `sentence`.
+    pub fn new(name: &'static str, sentence: impl Into<String>) -> Self {
+        Self { name, sentence: sentence.into() }
+    }
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        write!(out, "{}: {}", self.name, self.sentence)
+    }
+}
+
+impl std::error::Error for Trouble {}
