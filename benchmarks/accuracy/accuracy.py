@@ -28,7 +28,7 @@ import freebody
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-ROUTES = ROOT / "crates" / "freebody" / "tests" / "random_mechanisms.rs"
+ROUTES = ROOT / "crates" / "freebody" / "tests" / "laws" / "random_mechanisms.rs"
 G = 9.81
 
 # Angles from the vertical and their rates at t = 10 s.
@@ -169,8 +169,8 @@ def four_bar() -> Iterator[Row]:
 
 
 def routes() -> Iterator[Row]:
-    """The three ways to an instant's solution agree at random states of random mechanisms: the Rust test of that name."""
-    command = ["cargo", "test", "--release", "-p", "freebody", "--test", ROUTES.stem]
+    """The three ways to an instant's solution agree at random states of random mechanisms: the Rust tests say."""
+    command = ["cargo", "test", "--release", "-p", "freebody", "--test", "laws", ROUTES.stem]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     found = re.search(r"[1-9]\d* passed; (\d+) failed", done.stdout)
     yield Row("three routes on random mechanisms: failed tests", int(found[1]) if found else math.inf, 0)
