@@ -42,7 +42,11 @@ pub struct SelfStress {
 }
 
 fn degrees(number: usize) -> String {
-    if number == 1 { "1 degree".into() } else { format!("{number} degrees") }
+    if number == 1 {
+        "1 degree".into()
+    } else {
+        format!("{number} degrees")
+    }
 }
 
 impl Freedom {
