@@ -15,7 +15,6 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-
 from freebody.instant import Indeterminate
 from freebody.views.peaks import Peak, peak_reactions
 
