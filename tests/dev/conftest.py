@@ -10,20 +10,21 @@ from freebody import cli
 DOOR = """\
 freebody: 1
 bodies:
-  "door [1]": {shape: rod, length: 1 m, mass: 2 kg}
+  door[1]: {shape: rod, length: 1 m, mass: 2 kg}
 joints:
-  upper: {type: hinge, of: [ground.O, "'door [1]'.start"]}
-  lower: {type: hinge, of: [ground.O, "'door [1]'.start"]}
+  upper: {type: hinge, of: [ground.O, "door[1].start"]}
+  lower: {type: hinge, of: [ground.O, "door[1].start"]}
 run: {until: 0.2 s}
 """
 BURSTING = """\
 freebody: 1
+parameters: {k: 1 N/m^2}
 gravity: none
 bodies:
-  body: {shape: particle, mass: 1 kg}
+  ball: {shape: particle, mass: 1 kg}
 forces:
-  blow: {type: force, at: body.centre, x: "x(body.centre)^2", y: 0}
-initial: {body.x: 1 m}
+  blow: {type: force, at: ball.centre, x: k*ball.x^2, y: 0}
+initial: {ball.x: 1 m}
 run: {until: 100 s}
 """
 

@@ -105,7 +105,7 @@ def validate(
     from freebody.cli import show
 
     mechanism = opened(model)
-    show.mechanism(json.loads(mechanism.compile().describe()), as_json)
+    show.mechanism(json.loads(mechanism.compile().describe()), mechanism.solve().explanation, as_json)
     if output:
         mechanism.drawing().figure.savefig(output)
         if not as_json:

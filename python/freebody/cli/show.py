@@ -15,7 +15,6 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-
 from freebody.instant import Indeterminate
 from freebody.views.peaks import Peak, peak_reactions
 
@@ -208,7 +207,7 @@ def _part(reaction: Reaction, name: str) -> float | None:
 # A mechanism, a comparison, files
 
 
-def mechanism(about: Mapping[str, Any], as_json: bool) -> None:
+def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
     """What is modelled: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
     if as_json:
         print(dumped(about))
@@ -226,8 +225,12 @@ def mechanism(about: Mapping[str, Any], as_json: bool) -> None:
         ),
         table("joints", ["joint", "type", "between", ""], joints),
         table("forces", ["force", "type"], [(f["name"], f["type"]) for f in about["forces"]]),
-        table("prescribed motions", ["motion", "level", ""], [(m["name"], m["level"], "" if m["ideal"] else "does work of its own") for m in about["motions"]]),
-        f"degrees of freedom: {about['freedom']['count']}",
+        table(
+            "prescribed motions",
+            ["motion", "level", ""],
+            [(m["name"], m["level"], "" if m["ideal"] else "does work of its own") for m in about["motions"]],
+        ),
+        freedom,
         *(f"• {note}" for note in about["notes"]),
     )
 
@@ -239,7 +242,11 @@ def comparison(found: Comparison, as_json: bool) -> None:
         return
     same = sum(not d.largest for d in found.differences)
     alike = f"{same} of {len(found.differences)} columns are the same at all {len(found.t)} common times"
-    put(*([found, ""] if same < len(found.differences) else []), alike, *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []))
+    put(
+        *([found, ""] if same < len(found.differences) else []),
+        alike,
+        *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []),
+    )
 
 
 def written(files: Sequence[Path]) -> None:

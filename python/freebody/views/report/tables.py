@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from freebody.instant import Instant
 from freebody.storage import versions
 from freebody.views.peaks import peak_reactions
 from freebody.views.plots import pretty_unit
@@ -94,7 +95,16 @@ def _peaks(run: Run) -> str:
     peaks = peak_reactions(run)
     couples = any(peak.couple is not None for peak in peaks)
     all_known = all(peak.determinate for peak in peaks)
-    heads = ["joint", "on", "force / N", "at t / s", "Fx / N", "Fy / N", *(["couple / N·m", "at t / s"] if couples else []), *([] if all_known else [""])]
+    heads = [
+        "joint",
+        "on",
+        "force / N",
+        "at t / s",
+        "Fx / N",
+        "Fy / N",
+        *(["couple / N·m", "at t / s"] if couples else []),
+        *([] if all_known else [""]),
+    ]
     rows = []
     for p in peaks:
         figures = [_figure(x) for x in (p.size, p.t, p.Fx, p.Fy, *((p.couple, p.t_couple) if couples else ()))]
@@ -121,9 +131,9 @@ def _ledger(run: Run) -> str:
 
 
 def _settings(run: Run) -> str:
-    s, stats, freedom = run.settings, run.stats, run.about["freedom"]
+    s, stats = run.settings, run.stats
     rows = [
-        ("degrees of freedom", _figure(freedom["count"])),
+        ("degrees of freedom", str(Instant(run.source.core, run.start).freedom)),
         ("from, to", f"{_figure(run.edges[0])} s to {_figure(run.edges[-1])} s"),
         ("method", s.method),
         ("relative tolerance", _figure(s.rtol)),
