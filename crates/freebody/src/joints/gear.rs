@@ -54,7 +54,13 @@ impl Joint for Gear {
                 "angle of the line of action to the common tangent",
             )
             .takes("internal", FieldKind::Flag, "", "false", "whether the second wheel is a ring around the first")
-            .takes("flank", FieldKind::Number, "", "1", "+1 or -1: the side of the teeth that is tried first; the other carries where it would have to pull")
+            .takes(
+                "flank",
+                FieldKind::Number,
+                "",
+                "1",
+                "+1 or -1: the side of the teeth that is tried first; the other carries where it would have to pull",
+            )
             .phased("tooth force")
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
