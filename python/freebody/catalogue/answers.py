@@ -50,7 +50,7 @@ class Answer:
     @property
     def ok(self) -> bool:
         """Whether the two agree within the tolerance."""
-        return self.error <= self.tolerance
+        return bool(self.error <= self.tolerance)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON: null stands for a figure that is missing."""

@@ -19,6 +19,7 @@ mod reactions;
 mod rows;
 mod sizes;
 mod sweep;
+mod teeth;
 
 pub use instant::{Instant, Observer};
 pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
@@ -186,6 +187,14 @@ impl<'m> Balance<'m> {
     /// # Errors
     /// As [`Balance::solve`].
     pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
+        self.solve_once(route)?;
+        if self.turn_teeth() {
+            self.solve_once(route)?;
+        }
+        Ok(())
+    }
+
+    fn solve_once(&mut self, route: Route) -> Result<(), Trouble> {
         let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         load::centre_arms(at, &mut self.arms);
         load::loads(at, &self.arms, &mut self.loads);

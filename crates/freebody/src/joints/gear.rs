@@ -7,27 +7,37 @@
 //!
 //! s(√(D² − b²) − b arccos(b/D)) + bψ − b₁θ₁ − b₂θ₂ = constant,
 //!
-//! the length of belt that has passed. It holds for moving centres too.
+//! the length of belt that has passed. It holds for moving centres too. Teeth push apart: a positive multiplier does
+//! so on the flank s = +1, a negative one on s = −1 (inside a ring the other way round).
 
 use super::*;
 use std::f64::consts::TAU;
 
 fn passed<S: Scalar>(r: &Relative<S>, b1: S, b2: S, side: S) -> S {
     let b = b1 + b2;
-    let d2 = r.at().dot(r.at());
+    side * strand(r.at().dot(r.at()), b) + b * r.y.atan2(r.x) - b2 * r.angle
+}
+
+/// What the strand gains by the distance of the centres, whose square is `d2`.
+fn strand<S: Scalar>(d2: S, b: S) -> S {
     let free = (d2 - b * b).sqrt();
-    let lag = free.atan2(b);
-    side * (free - b * lag) + b * r.y.atan2(r.x) - b2 * r.angle
+    free - b * free.atan2(b)
 }
 
 /// A gear pair. Numbers: pitch radii, pressure angle, 1 for an internal second wheel, flank (+1 or −1).
 pub struct Gear;
 
 impl Gear {
+    /// Which of its numbers is the flank.
+    pub const FLANK: usize = 4;
+
+    /// +1, or −1 inside a ring.
+    fn side<S: Scalar>(n: &Numbers<S>) -> S {
+        S::one() - n.of[3].scale(2.0)
+    }
     fn base<S: Scalar>(n: &Numbers<S>) -> (S, S) {
         let (_, cos) = n.of[2].sin_cos();
-        let side = S::one() - n.of[3].scale(2.0);
-        (n.of[0] * cos, side * n.of[1] * cos)
+        (n.of[0] * cos, Self::side(n) * n.of[1] * cos)
     }
 }
 
@@ -44,12 +54,21 @@ impl Joint for Gear {
                 "angle of the line of action to the common tangent",
             )
             .takes("internal", FieldKind::Flag, "", "false", "whether the second wheel is a ring around the first")
-            .takes("flank", FieldKind::Number, "", "1", "+1 or -1: which side of the teeth carries")
+            .takes(
+                "flank",
+                FieldKind::Number,
+                "",
+                "1",
+                "+1 or -1: the side of the teeth that is tried first; the other carries where it would have to pull",
+            )
             .phased("tooth force")
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         let (b1, b2) = Self::base(n);
-        Some(Few::of(&[passed(r, b1, b2, n.of[4])]))
+        let flank = Self::side(n) * n.of[Self::FLANK];
+        // At the distance of the pitch radii both flanks touch at once.
+        let pitch = n.of[0] + Self::side(n) * n.of[1];
+        Some(Few::of(&[passed(r, b1, b2, flank) - flank * strand(pitch * pitch, b1 + b2)]))
     }
     fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
         let (b1, b2) = Self::base(n);

@@ -16,6 +16,7 @@ mod slot;
 mod weld;
 
 pub use card::{Card, CoordinateCard, Field, FieldKind, Role, RowCard};
+pub use gear::Gear;
 
 use crate::plane::{vec2, Few, Turn, Vec2};
 use crate::scalar::{Dual, Scalar};

@@ -114,7 +114,12 @@ fn gears_and_belts_keep_their_ratio() {
         let force = now.joints[mesh].force;
         near(&told, force.norm(), (torque - 0.2 * alpha) / lever, 1e-12);
         if kind == "gear" {
-            near(&told, force.x.abs() / force.norm(), phi.sin(), 1e-13);
+            // On the second wheel: teeth push apart, whichever way the torque is.
+            for torque in [torque, -torque] {
+                let compiled = wheels(kind, fields, distance, torque);
+                let force = instant(&compiled, &[0.4, -0.3], &[1.0, sense * r1 / r2]).joints[mesh].force;
+                near(&told, force.x / force.norm(), -sense * phi.sin(), 1e-13);
+            }
         }
     }
 }

@@ -76,3 +76,19 @@ def falling(case):
     yield Answer(
         "energy", run.evaluate("energy()", times), "J", start + 0 * times, "conservation: no work but of the weights", 1e-10
     )
+
+
+@ask("a rod as long as the crank: its dead point, and both ways on")
+def dead_point(case):
+    """Crank and rod upright hold the slider's height between guide and axle twice; nothing holds it sideways.
+
+    From there the slider stands still, with the rod on the crank (β̇ = θ̇), or moves (β̇ = −θ̇): ẋ = r (β̇ − θ̇).
+    """
+    now, upright = case.instant("dead_point.yaml"), "closed form: crank, rod and guide along one line"
+    yield Answer("degrees of freedom", now.freedom, "", 2, upright, 0.0)
+    for name in ("O", "B", "C", "guide"):
+        known = now.reactions[name].determined[:2]
+        yield Answer(f"{name}: whether Fx, Fy are determinate", known, "", [1, 0], upright, 0.0)
+    for rate in (1.0, -1.0):
+        way = case.instant("dead_point.yaml", rates={"theta": 1.0, "beta": rate})
+        yield Answer(f"ẋ for θ̇ = 1, β̇ = {rate:g}", way["rate(x)"], "m/s", 0.1 * (rate - 1), "closed form: loop", 1e-13, scale=0.1)
