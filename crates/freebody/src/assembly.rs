@@ -36,7 +36,7 @@ pub struct Assembled {
 }
 
 /// Iterations of one attempt.
-const ITERATIONS: usize = 200;
+const ITERATIONS: usize = 300;
 /// Attempts from other starts.
 const ATTEMPTS: usize = 64;
 
@@ -107,8 +107,8 @@ fn descend(balance: &mut Balance, t: f64, held: &[(String, Law, f64)], q: &mut V
         let step = balance.damped_motion(&present, damping);
         let mut user = vec![0.0; q.len()];
         balance.to_user(&step, &mut user);
-        let short = |i: usize| user[i].clamp(-unit(balance, i), unit(balance, i));
-        let trial: Vec<f64> = (0..q.len()).map(|i| q[i] + short(i)).collect();
+        let longest = (0..q.len()).map(|i| (user[i] / unit(balance, i)).abs()).fold(1.0, f64::max);
+        let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
         balance.place(t, &trial, &still);
         let next = rows(balance, held);
         if norm(balance, &next) < size {

@@ -197,7 +197,7 @@ class Measure:
 
 def _product(a: Dimension | None, b: Dimension | None, operator: str, whole: bool) -> Dimension | None:
     """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides does not (``m2/3``)."""
-    if operator == "/" and whole:
+    if operator == "/" and whole and b is None:
         return a
     if a is None or b is None:
         return None

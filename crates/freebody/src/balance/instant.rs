@@ -112,8 +112,7 @@ impl<'b, 'm> Observer<'b, 'm> {
             joints = b.joint_loads();
             drives = b.drive_forces();
             powers = b.drive_powers();
-            let stresses = b.self_stresses();
-            (sure, drives_sure) = b.determinate(&stresses);
+            (sure, drives_sure) = b.labels();
         }
         let mut accelerations = vec![0.0; b.m.freedom()];
         if self.needs_solution {

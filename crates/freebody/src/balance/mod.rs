@@ -110,6 +110,7 @@ pub struct Balance<'m> {
     sparse: Option<constraints::Sparse>,
     many_loops: bool,
     preferred: Option<Route>,
+    labels: Option<rank::Labels>,
     /// Zero of each row of which only the change counts, by joint and row; none before a motion starts.
     phases: std::collections::HashMap<(usize, usize), f64>,
 }
@@ -143,6 +144,7 @@ impl<'m> Balance<'m> {
             sparse: None,
             many_loops: false,
             preferred: None,
+            labels: None,
             phases: Default::default(),
         };
         balance.many_loops = balance.prefers_sparse();

@@ -72,7 +72,7 @@ impl Balance<'_> {
         let turns = row.motion.iter().map(|(_, w)| w.m.abs()).fold(0.0, f64::max);
         let moves = row.motion.iter().map(|(_, w)| w.f.norm()).fold(0.0, f64::max);
         if moves * self.length >= 1e-9 * turns && moves > 0.0 {
-            self.length.max(turns)
+            self.length
         } else {
             1.0
         }
@@ -201,9 +201,12 @@ impl Balance<'_> {
         if damping == 0.0 {
             return self.least_motion(&rows, &asked);
         }
+        // Weighed by the units in which gaps are compared, so that a short enough step lessens them.
         let (g, scales, columns) = self.scaled(&rows);
+        let weights: Vec<f64> = rows.iter().zip(&scales).map(|(row, s)| 1.0 / (s * self.row_unit(row))).collect();
+        let g = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * weights[i]);
         let n = g.cols();
-        let side: Vec<f64> = asked.iter().zip(&scales).map(|(a, s)| a * s).collect();
+        let side: Vec<f64> = asked.iter().zip(&rows).map(|(a, row)| a / self.row_unit(row)).collect();
         let normal = Matrix::from_fn(n, n, |i, j| {
             let sum: f64 = (0..g.rows()).map(|r| g[(r, i)] * g[(r, j)]).sum();
             sum + if i == j { damping } else { 0.0 }

@@ -13,6 +13,12 @@ use crate::solve::{Matrix, Orthogonal};
 /// Relative size below which a self-stress does not touch a component.
 const UNTOUCHED: f64 = 1e-9;
 
+/// Coordinates up to which ranks are decided anew at every state.
+const FEW: usize = 60;
+
+/// Of each joint whether (Fx, Fy, M) are determinate, and of each drive whether its force is.
+pub type Labels = (Vec<[bool; 3]>, Vec<bool>);
+
 /// Degrees of freedom at a configuration, told in several ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Freedom {
@@ -192,8 +198,20 @@ impl Balance<'_> {
         SelfStress { joints: (0..self.m.joints.len()).map(joint).collect(), drives }
     }
 
+    /// As [`Balance::determinate`], at the present, solved state. In a mechanism with many coordinates, where the ranks cost
+    /// far more than the solution, they are decided once and kept.
+    pub fn labels(&mut self) -> Labels {
+        if let (Some(labels), true) = (&self.labels, self.m.freedom() > FEW) {
+            return labels.clone();
+        }
+        let stresses = self.self_stresses();
+        let labels = self.determinate(&stresses);
+        self.labels = Some(labels.clone());
+        labels
+    }
+
     /// Of each joint, which of (Fx, Fy, M) are determinate; and of each drive its force.
-    pub fn determinate(&self, stresses: &[SelfStress]) -> (Vec<[bool; 3]>, Vec<bool>) {
+    pub fn determinate(&self, stresses: &[SelfStress]) -> Labels {
         let mut joints = vec![[true; 3]; self.m.joints.len()];
         let mut drives = vec![true; self.m.drives.len()];
         for s in stresses {

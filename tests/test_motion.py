@@ -1,0 +1,110 @@
+"""Motions whose answers are known: kinks, tables, events that change parameters, assemblies."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import freebody as fb
+
+M, K, G = 2.0, 5000.0, 9.81
+
+
+def one_sided_spring() -> fb.Mechanism:
+    """A particle that falls 1 m on a spring which can only push."""
+    m = fb.Mechanism("one-sided spring", gravity=G)
+    ball = m.particle("ball", mass=M)
+    m.free("ground.O", ball.centre, coordinates=["x", "y"])
+    m.law(name="pad", along="y", value=f"max(0, -{K}*y)", potential=f"{K}/2*min(y, 0)^2")
+    m.initial(y=1)
+    return m
+
+
+def test_a_kink_is_not_stepped_over():
+    """Free fall, then m ÿ = −mg − ky from y = 0: the deepest point follows from energy, its time from the oscillation about
+    −mg/k. The energy is kept to the tolerance although the law has a corner."""
+    run = one_sided_spring().simulate(until=2, rtol=1e-11)
+    assert run.stats["kinks"] > 0
+    energy = run.energy["kinetic"] + run.energy["potential"]
+    assert np.ptp(energy) < 1e-9 * energy[0]
+    speed, omega, rest = math.sqrt(2 * G), math.sqrt(K / M), -M * G / K
+    contact = 2 * (math.pi - math.atan2(speed / omega, -rest)) / omega
+    deepest = rest - math.hypot(speed / omega, rest)
+    t = speed / G + contact / 2
+    assert run.evaluate("y", t) == pytest.approx(deepest, rel=1e-9)
+    assert run.evaluate("rate(y)", t) == pytest.approx(0, abs=1e-7)
+
+
+def test_a_table_of_straight_pieces_is_integrated_exactly():
+    """Torque 0, 2, 0 N·m at 0, 1, 2 s on a wheel of inertia 1 kg·m²: impulse 2 N·m·s, so 2 rad/s at the end."""
+    m = fb.Mechanism("table", gravity="none")
+    wheel = m.disk("wheel", radius=math.sqrt(2), mass=1)
+    m.hinge("ground.O", wheel.centre, coordinate="theta")
+    m.table("duty", [0, 1, 2], [0, 2, 0])
+    m.torque(on="wheel", value="duty(t)")
+    run = m.simulate(until=2, rtol=1e-10)
+    assert run.u[-1, 0] == pytest.approx(2, abs=1e-12)
+    assert run.q[-1, 0] == pytest.approx(2, abs=1e-12)
+
+
+def test_an_event_changes_a_parameter_and_the_ledger_knows():
+    """A mass on a spring whose stiffness is quartered where the spring is relaxed: the amplitude doubles, no energy enters."""
+    m = fb.Mechanism("softer", gravity="none")
+    block = m.particle("block", mass=1)
+    k = m.parameter("k", 4)
+    m.free("ground.O", block.centre, coordinates=["x", "y"])
+    m.spring(along="x", stiffness=k)
+    m.event("relaxed", "x", direction="falling", if_="k > 2", then={"set": {"k": 1}})
+    m.initial(x=1)
+    run = m.simulate(until=6, rtol=1e-11)
+    assert [event.t for event in run.events] == pytest.approx([math.pi / 4], abs=1e-10)
+    assert run.q[:, 0].min() == pytest.approx(-2, abs=1e-4)
+    assert np.abs(run.energy.balance).max() < 1e-9
+
+
+def four_bar() -> fb.Mechanism:
+    m = fb.Mechanism("four-bar")
+    m.mark("ground", "points", "D", (1.2, 0))
+    a, b, c = m.rod("a", length=0.4, mass=1), m.rod("b", length=0.5657, mass=1), m.rod("c", length=1.1314, mass=1)
+    m.hinge("ground.O", a.start, coordinate="theta")
+    m.hinge(a.end, b.start, coordinate={"name": "beta", "absolute": True})
+    m.hinge("ground.D", c.start, coordinate="phi")
+    m.hinge(b.end, c.end)
+    return m
+
+
+def test_the_assembly_can_be_chosen_and_the_other_one_is_told():
+    """The two assemblies are mirror images in the line from B to D."""
+    side = "(x(b.end) - x(a.end))*(y(ground.D) - y(a.end)) - (y(b.end) - y(a.end))*(x(ground.D) - x(a.end))"
+    found = {}
+    for sign in ("positive", "negative"):
+        state, notes = four_bar().start(initial={"theta": "90 deg", "guess": {"beta": 0.5, "phi": 2}, "branch": {side: sign}})
+        found[sign] = state.q
+        assert any("another assembly" in note for note in notes)
+    mirror = 2 * math.atan2(-0.4, 1.2)
+    turned = lambda angle: (angle + math.pi) % (2 * math.pi) - math.pi  # noqa: E731
+    assert turned(found["positive"][1] + found["negative"][1] - mirror) == pytest.approx(0, abs=1e-9)
+
+
+def test_loops_that_cannot_close_name_the_gap():
+    """Two bars of 1 m between pins 5 m apart come no nearer than 3 m."""
+    far = fb.Mechanism("too far")
+    far.mark("ground", "points", "D", (5, 0))
+    a, b = far.rod("a", length=1, mass=1), far.rod("b", length=1, mass=1)
+    far.hinge("ground.O", a.start, coordinate="p")
+    far.hinge(a.end, b.start, coordinate="q")
+    far.hinge("ground.D", b.end)
+    with pytest.raises(fb.MotionError, match=r"3\.0000"):
+        far.solve(guess={"p": 0.3, "q": 0.1})
+
+
+def test_prescribed_motions_that_exclude_each_other_are_refused():
+    m = fb.Mechanism("two wills")
+    bar = m.rod("bar", length=1, mass=1)
+    m.hinge("ground.O", bar.start, coordinate="theta")
+    m.motion("first", of="theta", is_="t")
+    m.motion("second", of="theta", is_="2*t")
+    with pytest.raises(fb.MotionError):
+        m.simulate(until=1)
