@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
+_POINT_TO_POINT = ("link", "rolling_circles", "polar")
 _UNTOLD = ("origin", "G", "centre", "start", "end")
 
 
@@ -60,6 +61,7 @@ def drawing(source: Source, state: State, ax: Axes | None = None, layers: Sequen
         paint(scene, ax)
         for layer in layers:
             _LAYERS[layer](sheet)
+        _make_room(sheet)
         _draw_axes_and_gravity(sheet)
         ax.set_title(scene.name.replace("$", r"\$"))
         place_labels(ax, sheet.labels, np.vstack([_ink_of(scene), *map(_dense, sheet.ink)]))
@@ -77,7 +79,18 @@ def _ink_of(scene: Scene) -> Array:
 
 def _dense(line: Array) -> Array:
     """A polyline with points enough to be felt everywhere."""
-    return np.vstack([np.linspace(a, b, 16) for a, b in pairwise(line)])
+    each = max(4, 96 // len(line))
+    return np.vstack([np.linspace(a, b, each) for a, b in pairwise(line)])
+
+
+def _make_room(sheet: _Drawing) -> None:
+    """Wider axes where an arrow begins or ends outside of them."""
+    if not sheet.ink:
+        return
+    ends, room = np.vstack(sheet.ink), 3.0 * sheet.scene.size
+    low, high = ends.min(axis=0) - room, ends.max(axis=0) + room
+    (x0, x1), (y0, y1) = sheet.ax.get_xlim(), sheet.ax.get_ylim()
+    sheet.ax.set(xlim=(min(x0, low[0]), max(x1, high[0])), ylim=(min(y0, low[1]), max(y1, high[1])))
 
 
 def _draw_bodies(sheet: _Drawing) -> None:
@@ -131,7 +144,7 @@ def _draw_coordinates(sheet: _Drawing) -> None:
 
 
 def _draw_angle(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: float, sense: int) -> None:
-    at, end = _where(sheet.sketch, joint), _direction(sheet.sketch, joint)
+    at, end = _vertex(sheet.sketch, joint), _direction(sheet.sketch, joint)
     if at is None or end is None:
         return
     angle = np.fmod(value, 2 * np.pi) if abs(value) > 0.1 else 0.35
@@ -146,9 +159,14 @@ def _figure(value: float) -> str:
     return f"{value + 0.0:.4g}".replace("-", "−")
 
 
+def _vertex(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
+    """Where the joint's angle is measured: at the first of two points, else at the joint."""
+    return sketch.place(_two_points(joint)[0]) if joint["type"] in _POINT_TO_POINT else _where(sketch, joint)
+
+
 def _direction(sketch: Sketch, joint: Mapping[str, Any]) -> float | None:
     """Where the joint's angle points to: along the second body's x axis, or from point to point."""
-    if joint["type"] in ("link", "rolling_circles", "polar"):
+    if joint["type"] in _POINT_TO_POINT:
         first, second = (sketch.place(name) for name in _two_points(joint))
         return float(np.arctan2(*(second - first)[::-1]))
     about = next(j for j in sketch.about["joints"] if j["name"] == joint["name"])

@@ -1,0 +1,85 @@
+"""A run of the real core, as everything that reads runs sees it."""
+
+import re
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from freebody.model import Mechanism
+from freebody.run import Run
+from freebody.views import plots
+from freebody.views.report import report_html
+
+matplotlib.use("Agg")
+
+MODEL = Path(__file__).parents[2] / "examples" / "four_bar.yaml"
+
+
+@pytest.fixture(scope="module")
+def mechanism():
+    return Mechanism.load(MODEL)
+
+
+@pytest.fixture(scope="module")
+def run(mechanism):
+    return mechanism.simulate(until=0.5)
+
+
+PLOTS = {
+    "series": lambda run: plots.series(run),
+    "two units": lambda run: plots.series(run, "theta", "rate(theta)"),
+    "phase": lambda run: plots.phase(run, "theta"),
+    "against": lambda run: plots.against(run, "theta", "phi"),
+    "polar": lambda run: plots.polar(run, "theta", "phi"),
+    "paths": lambda run: plots.paths(run),
+    "energy": lambda run: plots.energy(run),
+    "reactions": lambda run: plots.reactions(run),
+    "couples": lambda run: plots.reactions(run, "A", part="M"),
+    "overlay": lambda run: plots.overlay(run, run, ["theta"]),
+}
+
+
+@pytest.mark.parametrize("plot", PLOTS.values(), ids=PLOTS)
+def test_every_plot_is_drawn(plot, run):
+    ax = plot(run)
+    assert isinstance(ax, Axes) and ax.lines
+    ax.figure.canvas.draw()
+
+
+def test_the_drawing_shows_the_whole_mechanism(mechanism):
+    texts = {text.get_text() for text in mechanism.drawing().texts}
+    assert {"crank", "coupler", "rocker", "A", "B", "C", "D"} <= texts
+
+
+def test_the_report_needs_nothing_else(run):
+    page = report_html(run)
+    assert not re.search(r"<link|\bsrc=|\bhref=|@import|url\(|fetch\(", page)
+    assert set(re.findall(r"https?://[^\"' ]+", page)) <= {"http://www.w3.org/2000/svg"}
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".csv"])
+def test_a_saved_run_comes_back(suffix, run, tmp_path):
+    back = Run.load(run.save(tmp_path / f"run{suffix}"))
+    assert np.array_equal(back.t, run.t)
+    for kind, block in run.blocks.items():
+        assert np.array_equal(back.blocks[kind], block, equal_nan=True), kind
+    for part in ("columns", "events", "outcome", "report", "settings", "stats"):
+        assert getattr(back, part) == getattr(run, part), part
+
+
+def test_going_on_is_the_same_as_not_stopping(mechanism, run):
+    rest = mechanism.simulate(until=0.2).continue_(0.5)
+    assert rest.t[0] == 0.2 and rest.t[-1] == 0.5
+    assert rest.q[-1] == pytest.approx(run.q[-1], abs=1e-9)
+    assert rest.u[-1] == pytest.approx(run.u[-1], abs=1e-9)
+
+
+def test_tables(run):
+    data, table = run.to_xarray(), run.to_pandas()
+    assert dict(data.sizes) == {"time": len(run.t), "coordinate": 3, "joint": 4, "part": 3, "ledger": 4, "body": 3, "place": 3}
+    assert list(data["coordinate"].values) == run.coordinates
+    assert list(table.columns) == [column.name for column in run.columns]
+    assert np.array_equal(table["phi"], data["q"].sel(coordinate="phi"))
