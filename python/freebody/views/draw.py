@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
 _POINT_TO_POINT = ("link", "rolling_circles", "polar")
+_CORNER = 66.0  # points
 _UNTOLD = ("origin", "G", "centre", "start", "end")
 
 
@@ -43,6 +44,11 @@ class _Drawing:
         if arrow:
             head = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 11}
             self.ax.annotate("", points[-1], points[-2], arrowprops=head, zorder=4)
+
+    def everything(self) -> Array:
+        """Places (k, 2) all along what is drawn."""
+        lines = [*_lines_of(self.scene), *self.ink]
+        return np.vstack([_dense(line, 0.4 * self.scene.size) for line in lines] or [np.zeros((1, 2))])
 
     def say(self, text: str, anchor: Array, tone: str = INK, **look: Any) -> None:
         """A label, to be placed when everything is drawn."""
@@ -64,33 +70,39 @@ def drawing(source: Source, state: State, ax: Axes | None = None, layers: Sequen
         _make_room(sheet)
         _draw_axes_and_gravity(sheet)
         ax.set_title(scene.name.replace("$", r"\$"))
-        place_labels(ax, sheet.labels, np.vstack([_ink_of(scene), *map(_dense, sheet.ink)]))
+        place_labels(ax, sheet.labels, sheet.everything())
     return ax
 
 
-def _ink_of(scene: Scene) -> Array:
-    """Places all along the drawn lines."""
-    lines = [np.vstack([s.points, s.points[:1]]) if s.closed else s.points for f in scene.figures for s in f.strokes]
-    owners = [i for i, f in enumerate(scene.figures) for _ in f.strokes]
-    placed = [scene.place(i, line) for i, line in zip(owners, lines, strict=True)]
-    placed += [line for pair in scene.pairs for line in scene.pair_lines(pair)]
-    return np.vstack([_dense(line) for line in placed] or [np.zeros((1, 2))])
+def _lines_of(scene: Scene) -> list[Array]:
+    """All lines of a scene in the fixed axes; of what is filled with a strong colour, the inside as well."""
+    placed = [line for pair in scene.pairs for line in scene.pair_lines(pair)]
+    for i, figure in enumerate(scene.figures):
+        for stroke in figure.strokes:
+            line = scene.place(i, np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points)
+            middle = line.mean(axis=0)
+            placed += [middle + part * (line - middle) for part in ((1.0, 0.7, 0.4) if stroke.style == "mass" else (1.0,))]
+    return placed
 
 
-def _dense(line: Array) -> Array:
-    """A polyline with points enough to be felt everywhere."""
-    each = max(4, 96 // len(line))
-    return np.vstack([np.linspace(a, b, each) for a, b in pairwise(line)])
+def _dense(line: Array, step: float) -> Array:
+    """A polyline with a point at least every ``step``, up to 300 a side."""
+    sides = [(a, b, int(np.clip(np.hypot(*(b - a)) / step, 1, 300)) + 1) for a, b in pairwise(line)]
+    return np.vstack([np.linspace(*side) for side in sides])
 
 
 def _make_room(sheet: _Drawing) -> None:
-    """Wider axes where an arrow begins or ends outside of them."""
-    if not sheet.ink:
-        return
-    ends, room = np.vstack(sheet.ink), 3.0 * sheet.scene.size
-    low, high = ends.min(axis=0) - room, ends.max(axis=0) + room
-    (x0, x1), (y0, y1) = sheet.ax.get_xlim(), sheet.ax.get_ylim()
-    sheet.ax.set(xlim=(min(x0, low[0]), max(x1, high[0])), ylim=(min(y0, low[1]), max(y1, high[1])))
+    """Wider axes for arrows that leave them, and lower ones where something is drawn in the corners of axes and gravity."""
+    ax, ink, room = sheet.ax, sheet.everything(), 3.0 * sheet.scene.size
+    low, high = ink.min(axis=0) - room, ink.max(axis=0) + room
+    x0, x1 = min(ax.get_xlim()[0], low[0]), max(ax.get_xlim()[1], high[0])
+    y0, y1 = min(ax.get_ylim()[0], low[1]), max(ax.get_ylim()[1], high[1])
+    box = ax.get_position(original=True)
+    width, height = 72 * ax.figure.get_figwidth() * box.width, 72 * ax.figure.get_figheight() * box.height
+    corner = _CORNER * max((x1 - x0) / width, (y1 - y0) / height)
+    beside = (ink[:, 0] < x0 + corner) | (ink[:, 0] > x1 - corner)
+    y0 = min(y0, ink[beside, 1].min(initial=np.inf) - corner)
+    ax.set(xlim=(x0, x1), ylim=(y0, y1))
 
 
 def _draw_bodies(sheet: _Drawing) -> None:
@@ -179,18 +191,30 @@ def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
 
 
 def _draw_length(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: float, sense: int) -> None:
-    at, line = _where(sheet.sketch, joint), joint["with"].get("along") or joint["with"].get("on")
-    if at is None or not isinstance(line, Mapping) or "point" not in line:
+    at, along = _where(sheet.sketch, joint), _way(sheet.sketch, joint)
+    if at is None or along is None:
         return
-    body, _, along = sheet.sketch.line(line)
-    way = shapes.turn(along[None], float(sheet.sketch.poses[0, sheet.sketch.names.index(body), 2]))[0] * sense
-    aside = 2.6 * sheet.scene.size * np.array([way[1], -way[0]]) * sense
+    way = along * sense
+    aside = 2.6 * sheet.scene.size * np.array([along[1], -along[0]])
     shown = value if abs(value) > sheet.scene.size else 3 * sheet.scene.size
     start = at - value * way
     arrow = np.array([start, start + shown * way]) - aside
     sheet.line(arrow, _MEASURE, arrow=True)
     sheet.line(np.array([start, arrow[0] - 0.2 * aside]), _MEASURE, lw=0.7)
     sheet.say(f"{plain(name)} = {_figure(value)} m", arrow.mean(axis=0), _MEASURE)
+
+
+def _way(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
+    """Unit direction in which a length grows: along the joint's line, or from the first point to the second."""
+    if joint["type"] == "polar":
+        first, second = (sketch.place(name) for name in _two_points(joint))
+        gap = float(np.hypot(*(second - first)))
+        return (second - first) / gap if gap else None
+    line = joint["with"].get("along") or joint["with"].get("on")
+    if not isinstance(line, Mapping) or "point" not in line:
+        return None
+    body, _, along = sketch.line(line)
+    return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
 
 
 def _draw_forces(sheet: _Drawing) -> None:
@@ -247,6 +271,7 @@ def _draw_axes_and_gravity(sheet: _Drawing) -> None:
     """The fixed axes in the lower left corner, the direction of gravity in the lower right one."""
     ax, gravity = sheet.ax, sheet.sketch.spec.get("gravity")
     g = np.array([sheet.sketch.number(x) for x in gravity]) if gravity else np.zeros(2)
+    ax.apply_aspect()
     arrows = [((18, 18), (34, 0), "x", GREY), ((18, 18), (0, 34), "y", GREY)]
     if np.hypot(*g) > 0:
         way = 34 * g / np.hypot(*g)
@@ -256,6 +281,7 @@ def _draw_axes_and_gravity(sheet: _Drawing) -> None:
         look = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
         end = (start[0] + way[0], start[1] + way[1])
         transform = _offset(ax, corner)
+        sheet.ink.append(ax.transData.inverted().transform(transform.transform([start, np.array(start) + 1.3 * np.array(way)])))
         ax.annotate("", end, start, xycoords=transform, textcoords=transform, arrowprops=look, annotation_clip=False)
         beyond = np.array(end) + 8 * np.array(way) / np.hypot(*way)
         ax.annotate(text, tuple(beyond), xycoords=transform, color=tone, ha="center", va="center", fontsize=9.5, style="italic")

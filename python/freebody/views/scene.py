@@ -199,14 +199,16 @@ class Sketch:
         self.pairs.append(Pair(name, kind, ((index(first), a[0], a[1]), (index(second), b[0], b[1])), lines))
 
     def _size(self) -> float:
-        """A size for symbols that suits the mechanism: a small part of its extent at the start."""
+        """A size for symbols that suits the mechanism: a small part of its extent at the start, larger where it travels far."""
         seen = [self._moved(body, at) for body, at in self.at.values() if body != GROUND]
         for i, body in enumerate(self.spec["bodies"]):
             spans = [self.number(size) for piece in body["pieces"] for size in piece.get("sizes", {}).values()]
             half = max(spans, default=0.0) / 2
             seen += [self.poses[0, i + 1, :2] + half, self.poses[0, i + 1, :2] - half]
         extent = np.ptp(np.array(seen or [np.zeros(2)]), axis=0)
-        return 0.02 * float(np.hypot(*extent)) or 0.02
+        travel = np.ptp(self.poses[:, 1:, :2].reshape(-1, 2), axis=0) if len(self.poses[0]) > 1 else np.zeros(2)
+        own, far = float(np.hypot(*extent)), float(np.hypot(*travel))
+        return float(np.clip(0.006 * far, 0.02 * own, 0.05 * own)) or 0.02
 
     def place(self, point: str) -> Array:
         """Where a named point is at the start, in the fixed axes (2,)."""
