@@ -84,7 +84,7 @@ def test_the_assembly_can_be_chosen_and_the_other_one_is_told():
         found[sign] = state.q
         assert any("another assembly" in note for note in notes)
     mirror = 2 * math.atan2(-0.4, 1.2)
-    turned = lambda angle: (angle + math.pi) % (2 * math.pi) - math.pi  # noqa: E731
+    turned = lambda angle: (angle + math.pi) % (2 * math.pi) - math.pi
     assert turned(found["positive"][1] + found["negative"][1] - mirror) == pytest.approx(0, abs=1e-9)
 
 
