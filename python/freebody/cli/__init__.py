@@ -149,8 +149,12 @@ def systems(
     from freebody import catalogue
     from freebody.catalogue import show
 
-    if identity is None and not everything:
+    try:
         listed = catalogue.systems()
+    except ModuleNotFoundError as missing:
+        what = f"the catalogue checks its answers with other libraries, of which {missing.name} is missing"
+        raise Mistake(what, "pip install 'freebody[catalogue]'") from None
+    if identity is None and not everything:
         if as_json:
             typer.echo(json.dumps([{"id": system.id, "title": system.title} for system in listed], indent=1))
         else:
@@ -195,8 +199,10 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
     from freebody.cli.progress import watched
 
     given = {name: value for name, value in settings.items() if value is not None}
-    with watched() as progress:
-        done = opened(path, changes).simulate(progress=progress, **given)
+    mechanism = opened(path, changes)
+    end = mechanism.run_plan(given.pop("until", None), given).until
+    with watched(end) as progress:
+        done = mechanism.simulate(end, progress=progress, **given)
     if not done.outcome.ok and done.outcome.t == done.start.t:
         # Nothing moved, so there is nothing to show.
         what, _, hint = done.outcome.sentence.partition("; ")

@@ -8,18 +8,21 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 
 @contextmanager
-def watched() -> Iterator[Callable[[float], bool]]:
-    """A callback for the core: shows the time reached, and answers False once interrupted."""
+def watched(end: float) -> Iterator[Callable[[float], bool]]:
+    """A callback for the core: a bar of the time reached (s) on the way to ``end``; answers False once interrupted."""
     interrupted = threading.Event()
     before = signal.signal(signal.SIGINT, lambda *_: interrupted.set())
+    columns = TextColumn("simulating"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeRemainingColumn()
     try:
-        with Console(stderr=True).status("simulating") as status:
+        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+            task = bar.add_task("", total=end, reached="")
 
             def progress(t: float) -> bool:
-                status.update(f"simulating, t = {t:.4g} s")
+                bar.update(task, completed=t, reached=f"t = {t:.4g} of {end:.4g} s")
                 return not interrupted.is_set()
 
             yield progress

@@ -72,6 +72,7 @@ def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
         return
     put(
         Text.assemble((done.name, "bold"), ": ", (_ending(done), "green" if done.outcome.ok else "bold red"), "\n"),
+        *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
         table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
         table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
