@@ -280,17 +280,16 @@ fn a_ring_fills_as_little_as_it_can() {
 }
 
 #[test]
-fn twenty_thousand_nodes_are_ordered_quickly() {
+fn chains_hubs_and_ladders_of_twenty_thousand_nodes_are_ordered_whole() {
     let chain: Vec<_> = (1..20_000).map(|i| (i - 1, i)).collect();
     let hub: Vec<_> = (1..20_000).map(|i| (0, i)).collect();
     let rungs = (0..19_998).step_by(2).map(|i| (i, i + 1));
     let ladder: Vec<_> = (2..20_000).map(|i| (i - 2, i)).chain(rungs).collect();
     let both = [&chain[..], &hub].concat();
     for edges in [&chain, &hub, &ladder, &both] {
-        let start = std::time::Instant::now();
-        minimum_degree(&vec![3; 20_000], edges);
-        // Some 10 ms; the margin is for a busy machine.
-        assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
+        let mut order = minimum_degree(&vec![3; 20_000], edges);
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..20_000));
     }
 }
 
@@ -305,27 +304,4 @@ fn refactoring_repeats_to_the_bit() {
     truss.factor().solve(&rhs, &mut second).unwrap();
     assert_eq!(first, second);
     assert!(max_abs(&first) > 0.0);
-}
-
-#[test]
-#[ignore = "prints times and accuracies"]
-fn measure() {
-    for bays in [30, 300, 3000] {
-        let mut random = Random(1);
-        let (points, bars) = ladder(&mut random, bays, 0);
-        let truss = Truss::new(&points, &bars, 2, || 1.0);
-        let start = std::time::Instant::now();
-        let pattern = truss.pattern();
-        println!("{} unknowns, analysed in {:?}", pattern.unknowns(), start.elapsed());
-        let mut factor = truss.factor();
-        let masses: Vec<_> = truss.masses.iter().enumerate().map(|(i, m)| (i, i, &m[..])).collect();
-        let levers = truss.levers.iter().map(|(b, p, g)| (truss.bars() + p, *b, &g[..]));
-        let start = std::time::Instant::now();
-        factor.refactor(masses.into_iter().chain(levers));
-        println!("  L has {}, factored in {:?}", pattern.fill(), start.elapsed());
-        let rhs = truss.loads(&mut random);
-        let start = std::time::Instant::now();
-        let accuracy = factor.solve(&rhs, &mut vec![0.0; rhs.len()]);
-        println!("  {accuracy:?} in {:?}", start.elapsed());
-    }
 }
