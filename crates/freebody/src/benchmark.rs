@@ -33,6 +33,7 @@ pub fn chain_model(n: usize) -> Spec {
             kind: "hinge".into(),
             fields: BTreeMap::from([("of".into(), of)]),
             coordinates: vec![],
+            engaged: true,
         });
     }
     spec

@@ -3,6 +3,7 @@
 //! Every number of the model is a *slot*: an expression of the parameters `p`, evaluated once by
 //! [`Mechanism::bind`]. Bodies are numbered in the order of the tree, parents first; body 0 is ground.
 
+use crate::contact::{Group, Limit};
 use crate::expr::Table;
 use crate::forces::Force;
 use crate::gauges::{Law, Leaf};
@@ -49,6 +50,12 @@ pub struct Mechanism {
     pub drives: Vec<Drive>,
     /// The forces, gravity apart.
     pub forces: Vec<Force>,
+    /// Gauges that cannot fall below zero: contacts, stops, strings.
+    pub limits: Vec<Limit>,
+    /// The contacts, stops and strings of the model.
+    pub groups: Vec<Group>,
+    /// Parts that are not in place at the start.
+    pub idle: Vec<Part>,
     /// What to watch for.
     pub events: Vec<Event>,
     /// Where laws and curves are not smooth: the integrator must not step over these.
@@ -247,6 +254,19 @@ pub struct Drive {
     pub feedback: bool,
 }
 
+/// Something that can be released and engaged during a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A joint; one that closes a loop.
+    Joint(usize),
+    /// A coupling or a prescribed motion.
+    Drive(usize),
+    /// A force.
+    Force(usize),
+    /// A contact, stop or string.
+    Group(usize),
+}
+
 /// A place where a law or a curve is not smooth: the zero of a function of the state.
 #[derive(Clone, Debug)]
 pub enum Kink {
@@ -269,6 +289,10 @@ pub struct Event {
     pub direction: i8,
     /// Armed only while this holds.
     pub condition: Option<crate::expr::Condition<Leaf>>,
+    /// It happens at the start, before anything moves.
+    pub opening: bool,
+    /// A value below 0 is the event, too, where the motion starts or starts afresh.
+    pub guard: bool,
     /// What happens then, besides being recorded.
     pub then: Vec<Deed>,
 }
@@ -280,6 +304,12 @@ pub enum Deed {
     Stop,
     /// Give a parameter the value of an expression.
     Set(usize, Law),
+    /// Take a part away.
+    Release(Part),
+    /// Put a part in place; what does not fit at once comes together with a plastic impact.
+    Engage(Part),
+    /// Give a gauge a rate at once, with the least change of momentum.
+    Reset(Law, Law),
 }
 
 impl Mechanism {
@@ -304,6 +334,9 @@ impl Mechanism {
             coordinates: vec![],
             drives: vec![],
             forces: vec![],
+            limits: vec![],
+            groups: vec![],
+            idle: vec![],
             events: vec![],
             kinks: vec![],
             switches: 0,

@@ -44,6 +44,12 @@ pub struct Spec {
     pub forces: Vec<Element>,
     /// Prescribed motions.
     pub motions: Vec<Motion>,
+    /// Surfaces that can push each other.
+    pub contacts: Vec<Contact>,
+    /// Strings.
+    pub strings: Vec<Cord>,
+    /// Ends of the way of gauges.
+    pub stops: Vec<Stop>,
     /// What to watch for during a motion.
     pub events: Vec<Event>,
 }
@@ -196,6 +202,13 @@ pub struct Element {
     /// Joints: names and conventions of the coordinates, in the order of the card.
     #[serde(default)]
     pub coordinates: Vec<Coordinate>,
+    /// Whether it is in place from the start.
+    #[serde(default = "yes")]
+    pub engaged: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// What a field of a joint or force may hold; the card says which.
@@ -256,6 +269,136 @@ pub struct Motion {
     /// The gauge along which the actuator acts; `of` when absent.
     #[serde(default)]
     pub by: Option<String>,
+    /// Whether it acts from the start.
+    #[serde(default = "yes")]
+    pub engaged: bool,
+}
+
+/// Two surfaces that can push each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Name.
+    pub name: String,
+    /// The surfaces.
+    pub of: [Surface; 2],
+    /// Coefficient of sliding friction.
+    #[serde(default = "nought")]
+    pub friction: Number,
+    /// Coefficient of friction at rest; that of sliding when absent.
+    #[serde(default)]
+    pub static_friction: Option<Number>,
+    /// Never slides while it is closed.
+    #[serde(default)]
+    pub rough: bool,
+    /// Speed of parting over speed of approach.
+    #[serde(default = "nought")]
+    pub restitution: Number,
+    /// Whether it is there from the start.
+    #[serde(default = "yes")]
+    pub engaged: bool,
+}
+
+/// A surface of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Surface {
+    /// A point, by its full name.
+    Point(String),
+    /// A circle about a point.
+    Circle {
+        /// Full name of its centre.
+        centre: String,
+        /// Radius, m.
+        radius: Number,
+        /// Whether the free side is inside.
+        #[serde(default)]
+        hollow: bool,
+    },
+    /// A straight line without ends; the free side is on its left.
+    Line(Place),
+    /// A polyline by the full names of its corners; the free side is on its left.
+    Polyline(Vec<String>),
+    /// A convex polygon by the full names of its corners, in order, either way round.
+    Polygon(Vec<String>),
+}
+
+/// A string.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cord {
+    /// Name.
+    pub name: String,
+    /// Its ends.
+    pub ends: [CordEnd; 2],
+    /// What it passes without friction, in order from the first end.
+    #[serde(default)]
+    pub over: Vec<Guide>,
+    /// Its length, m; when absent it is just taut at the start.
+    #[serde(default)]
+    pub length: Option<Number>,
+    /// Speed of return over speed of stretching when it goes taut.
+    #[serde(default = "nought")]
+    pub restitution: Number,
+    /// Whether it is there from the start.
+    #[serde(default = "yes")]
+    pub engaged: bool,
+}
+
+/// Where a string ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum CordEnd {
+    /// At a point, by its full name.
+    Point(String),
+    /// On the rim of a drum on which it is wound.
+    Drum {
+        /// Full name of its centre.
+        centre: String,
+        /// Radius, m.
+        radius: Number,
+        /// +1 where the string, followed from its attachment, goes round the drum counter-clockwise.
+        sense: i8,
+        /// Direction of the attachment from the centre in the body's frame, rad.
+        #[serde(default)]
+        attached: Option<Number>,
+        /// Or the length that is wound at the start, m.
+        #[serde(default)]
+        wound: Option<Number>,
+    },
+}
+
+/// What a string passes without friction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Guide {
+    /// A small ring at a point.
+    Eyelet(String),
+    /// A pulley.
+    Pulley {
+        /// Full name of its centre.
+        centre: String,
+        /// Radius, m.
+        radius: Number,
+        /// +1 where the string goes round it counter-clockwise.
+        sense: i8,
+    },
+}
+
+/// An end of the way of a gauge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stop {
+    /// Name.
+    pub name: String,
+    /// An expression of the configuration that cannot fall below zero.
+    pub gap: String,
+    /// Speed of parting over speed of approach.
+    #[serde(default = "nought")]
+    pub restitution: Number,
+    /// Whether it is there from the start.
+    #[serde(default = "yes")]
+    pub engaged: bool,
 }
 
 /// Something to watch for.
@@ -272,6 +415,12 @@ pub struct Event {
     /// Armed only while this condition holds.
     #[serde(default)]
     pub condition: Option<String>,
+    /// It happens at the start, before anything moves; `when` is not asked.
+    #[serde(default)]
+    pub opening: bool,
+    /// The expression is above 0 until the event: one that is below 0 at once is the event too.
+    #[serde(default)]
+    pub guard: bool,
     /// What happens then.
     pub then: Vec<Action>,
 }
@@ -284,4 +433,14 @@ pub enum Action {
     Stop,
     /// Give parameters new values, computed at the event.
     Set(BTreeMap<String, String>),
+    /// Take joints, motions, forces, contacts, stops or strings away.
+    Release(Vec<String>),
+    /// Put them in place.
+    Engage(Vec<String>),
+    /// Hold gauges where they are from now on.
+    Lock(Vec<String>),
+    /// Let them go again.
+    Unlock(Vec<String>),
+    /// Give gauges rates at once.
+    Reset(BTreeMap<String, String>),
 }

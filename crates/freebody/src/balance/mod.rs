@@ -111,8 +111,6 @@ pub struct Balance<'m> {
     many_loops: bool,
     preferred: Option<Route>,
     labels: Option<rank::Labels>,
-    /// Zero of each row of which only the change counts, by joint and row; none before a motion starts.
-    phases: std::collections::HashMap<(usize, usize), f64>,
 }
 
 impl<'m> Balance<'m> {
@@ -124,7 +122,7 @@ impl<'m> Balance<'m> {
         let mut balance = Balance {
             m,
             n,
-            mode: Mode::free(m.switches),
+            mode: Mode::free(m),
             length,
             k: Kinematics::of(m),
             t: 0.0,
@@ -145,7 +143,6 @@ impl<'m> Balance<'m> {
             many_loops: false,
             preferred: None,
             labels: None,
-            phases: Default::default(),
         };
         balance.many_loops = balance.prefers_sparse();
         balance

@@ -6,7 +6,6 @@ use super::{Balance, Row, Source, Trouble};
 use crate::gauges::{Law, Placed};
 use crate::kinematics::JointView;
 use crate::solve::{Lu, Matrix, Orthogonal};
-use std::collections::HashMap;
 
 /// Corrections after which a position is given up.
 const TRIES: usize = 12;
@@ -18,24 +17,14 @@ pub(crate) const OPEN: f64 = 1e-9;
 impl Balance<'_> {
     /// Takes the present values of all rows of which only the change counts as their zeros.
     pub fn take_phases(&mut self) {
-        self.phases.clear();
+        self.mode.phases.clear();
         for row in closing_rows(self.at(), None) {
             if let Source::Joint(j, r) = row.source {
                 if self.m.joints[j].phased[r] {
-                    self.phases.insert((j, r), row.value.unwrap_or(0.0));
+                    self.mode.phases.insert((j, r), row.value.unwrap_or(0.0));
                 }
             }
         }
-    }
-
-    /// Zeros of the rows of which only the change counts.
-    pub(crate) fn phases(&self) -> &HashMap<(usize, usize), f64> {
-        &self.phases
-    }
-
-    /// Takes zeros as they were in an earlier motion.
-    pub(crate) fn set_phases(&mut self, phases: HashMap<(usize, usize), f64>) {
-        self.phases = phases;
     }
 
     /// What is open at a row: its value less its zero, angles brought to the nearest turn; None where nothing
@@ -44,7 +33,7 @@ impl Balance<'_> {
         let value = row.value?;
         let Source::Joint(j, r) = row.source else { return Some(value) };
         let joint = &self.m.joints[j];
-        let zero = match (joint.phased[r], self.phases.get(&(j, r))) {
+        let zero = match (joint.phased[r], self.mode.phases.get(&(j, r))) {
             (true, None) => return None,
             (true, Some(zero)) => *zero,
             _ => 0.0,

@@ -127,9 +127,19 @@ impl Compiler<'_> {
                             then.push(Deed::Set(p, self.law(&path, text, Reach::Instant)?));
                         }
                     }
+                    Action::Release(_) | Action::Engage(_) | Action::Lock(_) | Action::Unlock(_) | Action::Reset(_) => {
+                    }
                 }
             }
-            self.m.events.push(Event { name: event.name.clone(), when, direction: event.direction, condition, then });
+            self.m.events.push(Event {
+                name: event.name.clone(),
+                when,
+                direction: event.direction,
+                condition,
+                opening: event.opening,
+                guard: event.guard,
+                then,
+            });
         }
         Ok(())
     }

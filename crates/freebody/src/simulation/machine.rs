@@ -47,7 +47,7 @@ impl<'m> Machine<'m> {
         let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
         let size = 2 * m.freedom() + worked.len() + driven.len();
-        let first = Stretch { from: f64::NEG_INFINITY, p: p.to_vec(), mode: Mode::free(m.switches), jump: 0.0 };
+        let first = Stretch { from: f64::NEG_INFINITY, p: p.to_vec(), mode: balance.mode.clone(), jump: 0.0 };
         Machine {
             balance,
             worked,

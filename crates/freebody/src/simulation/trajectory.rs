@@ -6,7 +6,6 @@ use crate::balance::{Balance, Observer, Route, Trouble};
 use crate::gauges::Law;
 use crate::mechanism::Mechanism;
 use crate::motion::{Happening, Kind, Outcome, Run};
-use std::collections::HashMap;
 
 /// A finished run with dense output.
 pub struct Trajectory {
@@ -28,13 +27,10 @@ pub struct Trajectory {
     pub settings: Settings,
     run: Run,
     stretches: Vec<Stretch>,
-    phases: Phases,
     opening: [f64; 2],
     worked: Vec<usize>,
     driven: Vec<usize>,
 }
-
-type Phases = HashMap<(usize, usize), f64>;
 
 /// The energy ledger: columns and their values at each time, J.
 pub struct Ledger {
@@ -58,7 +54,6 @@ impl Trajectory {
             stiff_since: run.stiff_since,
             worst_gap: machine.worst_gap,
             settings,
-            phases: machine.balance.phases().clone(),
             stretches: machine.stretches,
             opening,
             worked: machine.worked,
@@ -87,7 +82,6 @@ impl Trajectory {
         }
         let mut balance = Balance::new(m, &stretch.p);
         balance.mode = stretch.mode.clone();
-        balance.set_phases(self.phases.clone());
         *last = Some((stretch.from, balance));
     }
 

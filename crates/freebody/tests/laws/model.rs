@@ -107,7 +107,14 @@ impl Model {
     }
     pub fn motion(mut self, name: &str, of: &str, law: &str, level: &str, by: Option<&str>) -> Self {
         let by = by.map(str::to_string);
-        self.0.motions.push(Motion { name: name.into(), of: of.into(), law: law.into(), level: level.into(), by });
+        self.0.motions.push(Motion {
+            name: name.into(),
+            of: of.into(),
+            law: law.into(),
+            level: level.into(),
+            by,
+            engaged: true,
+        });
         self
     }
     pub fn compile(&self) -> Compiled {
@@ -117,7 +124,7 @@ impl Model {
 
 pub fn element(name: &str, kind: &str, fields: &[(&str, Value)], coordinates: Vec<Coordinate>) -> Element {
     let fields = fields.iter().map(|(word, value)| (word.to_string(), value.clone())).collect();
-    Element { name: name.into(), kind: kind.into(), fields, coordinates }
+    Element { name: name.into(), kind: kind.into(), fields, coordinates, engaged: true }
 }
 
 pub fn joint_named(m: &Mechanism, name: &str) -> usize {
