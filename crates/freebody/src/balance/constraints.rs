@@ -4,6 +4,7 @@
 use super::rows::{closing_rows, joint_rows, pair};
 use super::{Balance, Row, Source, Trouble};
 use crate::gauges::Placed;
+use crate::mechanism::Part;
 use crate::kinematics::{relative, JointView};
 use crate::plane::{vec2, Twist, Wrench};
 use crate::scalar::Jet;
@@ -24,7 +25,8 @@ impl Balance<'_> {
     /// Whether the sparse solution costs less arithmetic than the dense one.
     pub(super) fn prefers_sparse(&mut self) -> bool {
         let n = self.m.freedom() as f64;
-        if !self.is_closed() || self.m.drives.iter().any(|d| d.by.is_some() || d.feedback) || n < MANY as f64 {
+        let own_way = self.m.drives.iter().any(|d| d.by.is_some() || d.feedback);
+        if !self.is_closed() || self.m.changes() || own_way || n < MANY as f64 {
             return false;
         }
         let rows = self.m.closures.iter().map(|&j| self.m.joints[j].rows.len()).sum::<usize>() + self.m.drives.len();
@@ -62,7 +64,7 @@ impl Balance<'_> {
     fn all_rows(&self) -> Vec<Row> {
         let at = self.at();
         let mut rows = vec![];
-        for (j, joint) in self.m.joints.iter().enumerate() {
+        for (j, joint) in self.m.joints.iter().enumerate().filter(|(j, _)| at.mode.has(Part::Joint(*j))) {
             match (joint.rows.is_empty(), joint.curve.is_some()) {
                 (true, _) => {}
                 (_, true) => rows.push(curve_row(at, j)),
@@ -70,7 +72,7 @@ impl Balance<'_> {
             }
         }
         let closing = closing_rows(at, None);
-        rows.extend(closing.into_iter().filter(|row| matches!(row.source, Source::Drive(_))));
+        rows.extend(closing.into_iter().filter(|row| !matches!(row.source, Source::Joint(..))));
         rows
     }
 
@@ -81,7 +83,8 @@ impl Balance<'_> {
         let mut rhs = self.momentum_side(&starts);
         rhs.extend(rows.iter().map(|row| -row.bias));
         let mut x = vec![0.0; unknowns];
-        if rows.iter().any(|row| row.force.is_some()) {
+        // The sparse pattern is that of the whole mechanism, which parts and limits leave.
+        if self.m.changes() || rows.iter().any(|row| row.force.is_some()) {
             self.solve_dense(&rows, &starts, &rhs, &mut x)?;
         } else {
             self.solve_sparse(&rows, &rhs, &mut x)?;
@@ -155,7 +158,7 @@ impl Balance<'_> {
         for (g, source) in sparse.groups.iter().enumerate() {
             let size = match source {
                 Source::Joint(j, _) => self.m.joints[*j].rows.len(),
-                Source::Drive(_) => 1,
+                _ => 1,
             };
             for &(body, _) in &rows[row].motion {
                 let width = if self.m.bodies[body].particle { 2 } else { 3 };
@@ -242,7 +245,7 @@ impl Balance<'_> {
         for (row, &lambda) in rows.iter().zip(&x[n..]) {
             let child = match row.source {
                 Source::Joint(j, _) => self.m.joints[j].child,
-                Source::Drive(_) => None,
+                _ => None,
             };
             match child {
                 Some(child) => {
@@ -279,6 +282,8 @@ impl Balance<'_> {
         let place = |row: &Row| match row.source {
             Source::Joint(j, r) => (0, self.m.closures.iter().position(|&c| c == j).unwrap_or(0), r),
             Source::Drive(d) => (1, d, 0),
+            Source::Limit(l) => (2, l, 0),
+            Source::Friction(l) => (2, l, 1),
         };
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         order.sort_by_key(|&i| place(&self.rows[i]));

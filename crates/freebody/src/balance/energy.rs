@@ -3,6 +3,7 @@
 use super::{load, Balance};
 use crate::expr::Env;
 use crate::gauges::{Config, Leaf};
+use crate::mechanism::Part;
 use crate::plane::{vec2, Vec2};
 
 impl Balance<'_> {
@@ -41,7 +42,8 @@ impl Balance<'_> {
         let weight = |i: usize| -self.n.mass[i] * self.n.gravity.dot(self.centre(i).0);
         let gravity: f64 = (1..self.m.bodies.len()).map(weight).sum();
         let env = Config { poses: &at, m: self.m, mode: &self.mode };
-        let elastic = self.m.forces.iter().filter_map(|f| f.potential.as_ref());
+        let acting = self.m.forces.iter().enumerate().filter(|(f, _)| self.mode.has(Part::Force(*f)));
+        let elastic = acting.filter_map(|(_, f)| f.potential.as_ref());
         gravity + elastic.map(|p| p.eval::<f64, dyn Env<f64, Leaf>>(&env)).sum::<f64>()
     }
 

@@ -2,6 +2,7 @@
 
 use crate::forces::{Force, Pull, Push};
 use crate::gauges::{gradient, Placed, State};
+use crate::mechanism::Part;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
 
@@ -17,7 +18,7 @@ pub fn loads<S: Scalar>(at: Placed<'_, S>, arms: &[Vec2<S>], out: &mut [Wrench<S
     for (i, load) in out.iter_mut().enumerate() {
         *load = Wrench::force(at.n.gravity * at.n.mass[i], arms[i]);
     }
-    for force in &at.m.forces {
+    for (_, force) in at.m.forces.iter().enumerate().filter(|(f, _)| at.mode.has(Part::Force(*f))) {
         add_force(at, force, out);
     }
 }

@@ -153,22 +153,27 @@ impl Balance<'_> {
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.
     pub(super) fn pass_loads(&mut self) {
-        let n = self.m.bodies.len();
-        let mut needed = vec![Wrench::zero(); n];
+        let mut needed = vec![Wrench::zero(); self.m.bodies.len()];
         for (i, load) in self.net_loads() {
             needed[i] = -load;
         }
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+        self.solved.passed = self.passed(needed, &self.solved.lambda);
+    }
+
+    /// The load that each body's joint passes, for what each body needs and the present rows with their multipliers.
+    pub(super) fn passed(&self, mut needed: Vec<Wrench>, lambda: &[f64]) -> Vec<Wrench> {
+        for (row, &lambda) in self.rows.iter().zip(lambda) {
             for &(body, load) in row.loads() {
                 needed[body] = needed[body] - load * lambda;
             }
         }
-        for i in (1..n).rev() {
+        let mut passed = vec![Wrench::zero(); needed.len()];
+        for i in (1..needed.len()).rev() {
             let b = self.m.bodies[i].branch.expect("every body hangs in the tree");
-            let passed = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
-            self.solved.passed[i] = passed;
-            needed[b.parent] += passed.seen_from(self.k.arm[i]);
+            passed[i] = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
+            needed[b.parent] += passed[i].seen_from(self.k.arm[i]);
         }
+        passed
     }
 }
 

@@ -9,7 +9,9 @@
 
 mod constraints;
 mod energy;
+mod gaps;
 mod instant;
+mod limits;
 mod load;
 mod minimal;
 mod newton_euler;
@@ -22,6 +24,7 @@ mod sweep;
 mod teeth;
 
 pub use instant::{Instant, Observer};
+pub use limits::{Blow, Holding, Reached};
 pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, SelfStress};
@@ -211,7 +214,7 @@ impl<'m> Balance<'m> {
 
     /// Whether anything but the tree constrains the motion.
     pub fn is_closed(&self) -> bool {
-        !self.m.closures.is_empty() || !self.m.drives.is_empty()
+        !self.m.closures.is_empty() || !self.m.drives.is_empty() || !self.m.limits.is_empty()
     }
 
     /// What the last solution found.

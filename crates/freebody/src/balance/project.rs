@@ -15,28 +15,16 @@ pub(crate) const CLOSED: f64 = 1e-14;
 pub(crate) const OPEN: f64 = 1e-9;
 
 impl Balance<'_> {
-    /// Takes the present values of all rows of which only the change counts as their zeros.
-    pub fn take_phases(&mut self) {
-        self.mode.phases.clear();
-        for row in closing_rows(self.at(), None) {
-            if let Source::Joint(j, r) = row.source {
-                if self.m.joints[j].phased[r] {
-                    self.mode.phases.insert((j, r), row.value.unwrap_or(0.0));
-                }
-            }
-        }
-    }
-
     /// What is open at a row: its value less its zero, angles brought to the nearest turn; None where nothing
     /// is prescribed at the level of positions.
     pub(crate) fn gap(&self, row: &Row) -> Option<f64> {
         let value = row.value?;
         let Source::Joint(j, r) = row.source else { return Some(value) };
         let joint = &self.m.joints[j];
-        let zero = match (joint.phased[r], self.mode.phases.get(&(j, r))) {
-            (true, None) => return None,
-            (true, Some(zero)) => *zero,
-            _ => 0.0,
+        let zero = match self.mode.phases.get(&(j, r)) {
+            Some(zero) => *zero,
+            None if joint.phased[r] => return None,
+            None => 0.0,
         };
         let period = JointView::new(self.m, &self.n, joint, |x: f64| x).period(r);
         let open = value - zero;

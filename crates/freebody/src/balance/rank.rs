@@ -96,8 +96,9 @@ impl Balance<'_> {
         let couplings = m.drives.iter().filter(|d| d.coupling).count();
         let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
         let (rank, uncertain) = self.closing_rank();
-        let redundant = self.geometric_rows() - rank;
-        let always_redundant = if redundant == 0 { 0 } else { self.geometric_rows() - self.nearby_rank(rank) };
+        let closing = self.geometric().len();
+        let redundant = closing - rank;
+        let always_redundant = if redundant == 0 { 0 } else { closing - self.nearby_rank(rank) };
         Freedom {
             count: bodies as i64 - rows as i64,
             here: m.freedom() - rank,
@@ -132,15 +133,14 @@ impl Balance<'_> {
         most
     }
 
-    /// The rows that close loops, motions left out.
+    /// The rows that close loops, motions and limits left out.
     fn geometric(&self) -> Vec<Row> {
-        let motion = |s: Source| matches!(s, Source::Drive(d) if !self.m.drives[d].coupling);
-        closing_rows(self.at(), None).into_iter().filter(|r| !motion(r.source)).collect()
-    }
-
-    fn geometric_rows(&self) -> usize {
-        let closures: usize = self.m.closures.iter().map(|&j| self.m.joints[j].rows.len()).sum();
-        closures + self.m.drives.iter().filter(|d| d.coupling).count()
+        let closes = |s: Source| match s {
+            Source::Joint(..) => true,
+            Source::Drive(d) => self.m.drives[d].coupling,
+            Source::Limit(_) | Source::Friction(_) => false,
+        };
+        closing_rows(self.at(), None).into_iter().filter(|r| closes(r.source)).collect()
     }
 
     /// Rank of the rows that close loops, motions left out.
@@ -171,20 +171,8 @@ impl Balance<'_> {
     }
 
     fn self_stress(&self, multipliers: &Matrix, k: usize) -> SelfStress {
-        let n = self.m.bodies.len();
         let lambda: Vec<f64> = (0..self.rows.len()).map(|i| multipliers[(i, k)]).collect();
-        let mut needed = vec![Wrench::zero(); n];
-        for (row, &l) in self.rows.iter().zip(&lambda) {
-            for &(body, load) in row.loads() {
-                needed[body] = needed[body] - load * l;
-            }
-        }
-        let mut passed = vec![Wrench::zero(); n];
-        for i in (1..n).rev() {
-            let parent = self.m.bodies[i].branch.expect("every body hangs in the tree").parent;
-            passed[i] = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
-            needed[parent] += passed[i].seen_from(self.k.arm[i]);
-        }
+        let passed = self.passed(vec![Wrench::zero(); self.m.bodies.len()], &lambda);
         let joint = |j| {
             let load = joint_load(self.at(), j, &passed, &self.rows, &lambda);
             [load.force.x, load.force.y, load.couple]

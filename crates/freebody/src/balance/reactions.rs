@@ -29,6 +29,7 @@ impl Source {
         match self {
             Source::Joint(joint, _) => &m.joints[joint].name,
             Source::Drive(drive) => &m.drives[drive].name,
+            Source::Limit(limit) | Source::Friction(limit) => &m.groups[m.limits[limit].group].name,
         }
     }
 }
@@ -141,7 +142,7 @@ impl Balance<'_> {
             }
         }
         for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
-            if let Source::Drive(_) = row.source {
+            if !matches!(row.source, Source::Joint(..)) {
                 for &(body, load) in row.loads() {
                     left[body] += load * lambda;
                 }

@@ -4,10 +4,12 @@
 //! no joint of the tree accelerated (or no body, see [`Base`]), the loads that a unit multiplier puts on the bodies (which are
 //! also its gradient), and, for an actuator that acts along another gauge, the loads of that one.
 
+use crate::contact::Friction;
 use crate::expr::Env;
-use crate::gauges::{gradient, jet, Law, Moving, Placed, State};
+use crate::gauges::{gradient, jet, Law, Moving, Placed, Seeded, State};
 use crate::kinematics::{relative, JointView};
-use crate::mechanism::{Drive, Joint, Level};
+use crate::mechanism::{Drive, Joint, Level, Part};
+use crate::mode::Hold;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Scalar};
 
@@ -21,6 +23,10 @@ pub enum Source {
     Joint(usize, usize),
     /// A coupling or prescribed motion.
     Drive(usize),
+    /// A limit that carries load: its gap.
+    Limit(usize),
+    /// A limit that does not slide: its slide.
+    Friction(usize),
 }
 
 /// One row.
@@ -50,16 +56,59 @@ impl<S: Scalar> Row<S> {
 /// The accelerations of the bodies at which biases are told.
 pub type Base<'a, S> = Option<&'a [Twist<S>]>;
 
-/// All rows outside the tree.
+/// All rows outside the tree that hold in the present mode.
 pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> {
     let mut rows = vec![];
-    for &joint in &at.m.closures {
+    for &joint in at.m.closures.iter().filter(|&&j| at.mode.has(Part::Joint(j))) {
         joint_rows(at, joint, base, &mut rows);
     }
-    for drive in 0..at.m.drives.len() {
+    for drive in (0..at.m.drives.len()).filter(|&d| at.mode.has(Part::Drive(d))) {
         rows.push(drive_row(at, drive, base));
     }
+    for (limit, held) in at.mode.limits.iter().enumerate() {
+        match held.hold {
+            Hold::Smooth | Hold::Sliding(_) => rows.push(gap_row(at, limit, base)),
+            Hold::Stuck => {
+                rows.push(gap_row(at, limit, base));
+                rows.extend(slide_row(at, limit, base));
+            }
+            Hold::Off | Hold::Open | Hold::Idle => {}
+        }
+    }
     rows
+}
+
+/// The row that keeps the gap of a limit closed; one that slides rubs as it presses.
+pub fn gap_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let (limit, held) = (&at.m.limits[index], at.mode.limits[index]);
+    let jet = limit.gap.gap(at.m, at.mode, &Moving { at, bodies: base, accelerations: None }, held.piece);
+    let load = |body| limit.gap.gap(at.m, at.mode, &Seeded { at, body }, held.piece).du;
+    let motion: Spread<S> = limit.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect();
+    let force = match (held.hold, limit.friction) {
+        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => {
+            let rub = -at.n.slots[kinetic].scale(sense);
+            let along = slide_loads(at, index);
+            Some(motion.iter().zip(along).map(|(n, t)| (n.0, n.1 + t.1 * rub)).collect())
+        }
+        _ => None,
+    };
+    let (value, rate) = (Some(jet.d0), Some(jet.d1));
+    Row { source: Source::Limit(index), value, rate, bias: jet.d2, motion, force }
+}
+
+/// The row that keeps a limit from sliding; None where it cannot rub.
+pub fn slide_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Option<Row<S>> {
+    let (limit, held) = (&at.m.limits[index], at.mode.limits[index]);
+    let jet = limit.gap.slide(at.m, &Moving { at, bodies: base, accelerations: None }, held.piece)?;
+    let motion = slide_loads(at, index);
+    Some(Row { source: Source::Friction(index), value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None })
+}
+
+/// The loads of a unit force along the slide of a limit.
+fn slide_loads<S: Scalar>(at: Placed<'_, S>, index: usize) -> Spread<S> {
+    let (limit, held) = (&at.m.limits[index], at.mode.limits[index]);
+    let load = |body| limit.gap.slide(at.m, &Seeded { at, body }, held.piece).map_or([S::zero(); 3], |s| s.du);
+    limit.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect()
 }
 
 /// The rows of one joint told as a constraint.

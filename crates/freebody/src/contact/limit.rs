@@ -129,6 +129,14 @@ impl Gap {
         }
     }
 
+    /// Whether the gap can close on a piece: a point does not stay on a corner.
+    pub fn can_close(&self, piece: usize) -> bool {
+        match self {
+            Gap::Touch(touch) => touch.can_close(piece),
+            Gap::Gauge(_) | Gap::Cord(_) => true,
+        }
+    }
+
     /// Where a touch acts.
     pub fn contact(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: Piece) -> Option<Contact> {
         match self {

@@ -65,6 +65,10 @@ impl Touch {
     pub fn borders(&self, _m: &Mechanism, _poses: &impl Poses<f64>, _piece: usize) -> Vec<Border> {
         todo!()
     }
+    /// Whether the gap can close on a piece: a point does not stay on a corner.
+    pub fn can_close(&self, piece: usize) -> bool {
+        self.disk.radius.is_some() || !matches!(self.against, Profile::Chain { .. }) || piece % 2 == 0
+    }
     /// The point of contact with its directions.
     pub fn contact(&self, _m: &Mechanism, _poses: &impl Poses<f64>, _piece: usize) -> Contact {
         todo!()

@@ -2,7 +2,7 @@
 
 use super::dense::Segment;
 use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, SAMPLES};
-use super::system::{System, Trouble};
+use super::system::{Role, System, Trouble};
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -47,6 +47,7 @@ struct Memory {
     size: f64,
     /// It acted where the next segment starts: that zero is used up.
     is_spent: bool,
+    is_guard: bool,
     last_touch: f64,
 }
 
@@ -71,8 +72,17 @@ pub(super) struct Watcher {
 
 impl Watcher {
     pub fn new(system: &dyn System) -> Self {
-        let memory =
-            |i| Memory { side: 0, side_ahead: 0, size: system.switch(i).scale, is_spent: false, last_touch: f64::NAN };
+        let memory = |i| {
+            let watch = system.switch(i);
+            Memory {
+                side: i8::from(watch.is_positive),
+                side_ahead: 0,
+                size: watch.scale,
+                is_spent: false,
+                is_guard: watch.role == Role::Guard,
+                last_touch: f64::NAN,
+            }
+        };
         Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
     }
 
@@ -104,6 +114,9 @@ impl Watcher {
     fn nodes(&self, i: usize, values: &[f64; SAMPLES], probe: &mut Probe) -> Result<Vec<Node>, Trouble> {
         let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
         let mut nodes: Vec<Node> = self.points.iter().zip(values).map(sample).collect();
+        if values.iter().all(|value| *value == values[0]) {
+            return Ok(nodes);
+        }
         let coefficients = chebyshev(values);
         let swing: f64 = coefficients[1..].iter().map(|c| c.abs()).sum();
         // |Tₖ| ≤ 1: the polynomial cannot reach zero.
@@ -163,6 +176,7 @@ impl Watcher {
         for (memory, &value) in self.memory.iter_mut().zip(values) {
             memory.is_spent = false;
             memory.side = match memory.sign(value) {
+                _ if memory.is_guard => 1,
                 _ if has_jumped => 0,
                 0 => memory.side,
                 sign => sign,

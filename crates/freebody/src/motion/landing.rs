@@ -5,7 +5,7 @@ use super::events::{Kind, Mark, Probe};
 use super::method::all_finite;
 use super::outcome::{Happening, Outcome};
 use super::run::{ending, Runner};
-use super::system::After;
+use super::system::{After, Role};
 
 impl Runner<'_> {
     /// The zeros on a segment that count, in order.
@@ -18,7 +18,7 @@ impl Runner<'_> {
         let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
         for mark in marks {
             let watch = system.switch(mark.index);
-            let is_passing = mark.kind == Kind::Touch && watch.is_kink;
+            let is_passing = mark.kind == Kind::Touch && watch.role != Role::Event;
             if is_passing || watch.direction * mark.direction < 0 {
                 continue;
             }
@@ -52,11 +52,12 @@ impl Runner<'_> {
         let values = self.switch_values(0.0)?;
         self.watcher.stop_at(&values, has_jumped);
         for hit in hits {
-            let is_kink = self.system.system.switch(hit.index).is_kink;
-            // A kink has changed to the arm beyond; other actions may have turned the motion.
-            let side = match has_jumped && !is_kink {
-                true => self.heading(hit.index, values[hit.index])?,
-                false => hit.direction * self.sign() as i8,
+            let side = match self.system.system.switch(hit.index).role {
+                Role::Guard => 1,
+                // An action may have turned the motion.
+                Role::Event if has_jumped => self.heading(hit.index, values[hit.index])?,
+                // A kink has changed to the arm beyond.
+                Role::Event | Role::Kink => hit.direction * self.sign() as i8,
             };
             self.watcher.spend(hit.index, side);
         }
@@ -106,16 +107,17 @@ impl Runner<'_> {
     fn act(&mut self, hits: &[Mark]) -> Result<bool, Outcome> {
         let (before, mut has_jumped, mut stop) = (self.now.y.clone(), false, None);
         for hit in hits {
-            self.chatter.note(hit.index, self.now.t)?;
             let system = &mut *self.system.system;
-            let is_kink = system.switch(hit.index).is_kink;
+            let role = system.switch(hit.index).role;
+            self.chatter.note(hit.index, role, self.now.t)?;
             let after = system.act(hit.index, self.now.t, &mut self.now.y);
             let after = after.map_err(Outcome::Trouble)?;
-            match is_kink {
-                true => self.run.kinks += 1,
-                false => self.run.events.push(happening(hit, self.now.t, &before)),
+            match role {
+                Role::Kink => self.run.kinks += 1,
+                Role::Event => self.run.events.push(happening(hit, self.now.t, &before)),
+                Role::Guard => {}
             }
-            has_jumped |= is_kink || after == After::Restart;
+            has_jumped |= role != Role::Event || after == After::Restart;
             if after == After::Stop {
                 stop.get_or_insert(hit.index);
             }
@@ -158,6 +160,9 @@ fn is_tie(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * (1.0 + b.abs())
 }
 
+/// How often one guard may act in one instant: an impact may call for others.
+const GUARDS: usize = 8;
+
 /// Guards against events that come ever more densely.
 pub(super) struct Chatter {
     since: f64,
@@ -171,8 +176,9 @@ impl Chatter {
         Self { since: t, instant: (t, Vec::new()), count: 0 }
     }
 
-    /// Refuses an event that happens twice in one instant, or too many in a short time.
-    fn note(&mut self, index: usize, t: f64) -> Result<(), Outcome> {
+    /// Refuses an event that happens twice in one instant, a guard that does so again and again, or too many in a short
+    /// time.
+    fn note(&mut self, index: usize, role: Role, t: f64) -> Result<(), Outcome> {
         if !is_tie(t, self.instant.0) {
             self.instant = (t, Vec::new());
         }
@@ -180,7 +186,8 @@ impl Chatter {
             (self.since, self.count) = (t, 0);
         }
         self.count += 1;
-        if self.count > 10_000 || self.instant.1.contains(&index) {
+        let before = self.instant.1.iter().filter(|&&i| i == index).count();
+        if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
             return Err(Outcome::TooManyEvents);
         }
         self.instant.1.push(index);

@@ -28,4 +28,4 @@ pub use events::Kind;
 pub use method::{method, Method, METHODS};
 pub use outcome::{Happening, Outcome, Run};
 pub use run::{run, Options};
-pub use system::{After, Canonical, System, Trouble, Watch};
+pub use system::{After, Canonical, Role, System, Trouble, Watch};

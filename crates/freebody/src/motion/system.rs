@@ -7,11 +7,40 @@ pub use crate::error::Trouble;
 pub struct Watch {
     /// +1: only when rising through zero as time grows; −1: only when falling; 0: either.
     pub direction: i8,
-    /// A kink of a force law: always acted on and followed by a restart, never reported.
-    pub is_kink: bool,
+    /// What its zero is.
+    pub role: Role,
+    /// It is positive where the run starts: a value below zero there is its zero.
+    pub is_positive: bool,
     /// Physical size of the function: what is below 16 ε of it is zero. 0 when unknown; the
     /// largest value met stands in for it.
     pub scale: f64,
+}
+
+/// What the zero of a switching function is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// An event: reported, and acted on.
+    Event,
+    /// A kink of a force law: always acted on and followed by a restart, never reported.
+    Kink,
+    /// Positive as long as the law in force holds: a value below zero, also at once after a restart, makes it act. Never
+    /// reported.
+    Guard,
+}
+
+impl Watch {
+    /// An event that counts in a direction.
+    pub fn event(direction: i8) -> Self {
+        Watch { direction, role: Role::Event, is_positive: false, scale: 0.0 }
+    }
+    /// A kink.
+    pub fn kink() -> Self {
+        Watch { direction: 0, role: Role::Kink, is_positive: false, scale: 0.0 }
+    }
+    /// A guard of given physical size.
+    pub fn guard(scale: f64) -> Self {
+        Watch { direction: -1, role: Role::Guard, is_positive: true, scale }
+    }
 }
 
 /// What follows an event.
@@ -77,7 +106,7 @@ pub trait System {
 
     /// How switching function `i` is watched.
     fn switch(&self, _i: usize) -> Watch {
-        Watch { direction: 0, is_kink: false, scale: 0.0 }
+        Watch::event(0)
     }
 
     /// Whether event `i` counts at (t, y).

@@ -2,7 +2,8 @@
 
 use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
-use crate::mechanism::{Deed, Kink};
+use super::switching::{Change, Rule, GUARDS};
+use crate::mechanism::{Deed, Event, Kink};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
 
@@ -20,6 +21,8 @@ pub struct Stretch {
     pub mode: Mode,
     /// Energy that the change of parameters at its beginning put in, J.
     pub jump: f64,
+    /// Energy that impacts and jumps of the velocities at its beginning put in, J: less than nothing for impacts.
+    pub blow: f64,
 }
 
 /// A mechanism in motion.
@@ -29,6 +32,15 @@ pub struct Machine<'m> {
     pub(super) worked: Vec<usize>,
     /// Prescribed motions, whose work is integrated.
     pub(super) driven: Vec<usize>,
+    /// Whether the work of friction is integrated.
+    pub(super) rubs: bool,
+    /// What is done about impacts that the laws leave open.
+    pub(super) rule: Rule,
+    /// What has switched.
+    pub(super) changes: Vec<Change>,
+    /// Sizes of forces, N, and of speeds, m/s.
+    pub(super) strength: f64,
+    pub(super) speed: f64,
     /// Parameters that events have set.
     set: Vec<(usize, f64)>,
     pub(super) stretches: Vec<Stretch>,
@@ -46,14 +58,19 @@ impl<'m> Machine<'m> {
         let worked = (0..m.forces.len()).filter(|&f| m.forces[f].potential.is_none() || m.forces[f].pulls.len() > 1);
         let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
-        let size = 2 * m.freedom() + worked.len() + driven.len();
-        let first = Stretch { from: f64::NEG_INFINITY, p: p.to_vec(), mode: balance.mode.clone(), jump: 0.0 };
+        let rubs = m.limits.iter().any(|limit| limit.friction.is_some());
+        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(rubs);
         Machine {
             balance,
             worked,
             driven,
+            rubs,
+            rule: Rule::Stop,
+            changes: vec![],
+            strength: 1.0,
+            speed: 1.0,
             set: m.overruled(p),
-            stretches: vec![first],
+            stretches: vec![],
             worst_gap: 0.0,
             delicate: false,
             independence: 1.0,
@@ -73,7 +90,7 @@ impl<'m> Machine<'m> {
         (&y[..n], &y[n..2 * n])
     }
 
-    fn place(&mut self, t: f64, y: &[f64]) {
+    pub(super) fn place(&mut self, t: f64, y: &[f64]) {
         let (q, u) = self.split(y);
         self.balance.place(t, q, u);
     }
@@ -99,7 +116,17 @@ impl<'m> Machine<'m> {
                 self.balance.mode.freeze(*switch, value >= 0.0);
             }
         }
-        self.stretches[0].mode = self.balance.mode.clone();
+    }
+
+    /// Begins the first stretch of the motion, in the present mode.
+    pub fn open(&mut self) {
+        self.stretches.clear();
+        self.begin_stretch(f64::NEG_INFINITY, 0.0, 0.0);
+    }
+
+    pub(super) fn begin_stretch(&mut self, from: f64, jump: f64, blow: f64) {
+        let (p, mode) = (self.balance.n.p.clone(), self.balance.mode.clone());
+        self.stretches.push(Stretch { from, p, mode, jump, blow });
     }
 
     /// The function whose zero is a kink, at the present state.
@@ -128,6 +155,8 @@ impl<'m> Machine<'m> {
         let energy = (mass.max(1e-300) * (length * pace).powi(2)).max(self.balance.kinetic_energy());
         scales.resize(self.scales.len(), energy);
         self.scales = scales;
+        self.speed = length * pace;
+        self.strength = energy / length;
     }
 
     /// Kinetic and potential energy at a state.
@@ -137,7 +166,7 @@ impl<'m> Machine<'m> {
     }
 
     /// Values of laws at a state.
-    fn read(&mut self, laws: &[&Law], t: f64, y: &[f64]) -> Result<Vec<f64>, Trouble> {
+    pub(super) fn read(&mut self, laws: &[&Law], t: f64, y: &[f64]) -> Result<Vec<f64>, Trouble> {
         let works = self.works(y);
         let (q, u) = (y[..self.balance.m.freedom()].to_vec(), self.split(y).1.to_vec());
         let mut observer = Observer::new(&mut self.balance, laws.iter().copied());
@@ -159,6 +188,33 @@ impl<'m> Machine<'m> {
         works
     }
 
+    /// Takes the other arm of a switch.
+    fn turn(&mut self, kink: &Kink, t: f64) {
+        if let Kink::Switch(switch, _) = kink {
+            let arm = self.balance.mode.arm(*switch).unwrap_or(true);
+            self.balance.mode.freeze(*switch, !arm);
+        }
+        self.begin_stretch(t, 0.0, 0.0);
+    }
+
+    /// Does what an event asks for; answers whether the motion changes by it.
+    pub(super) fn happen(&mut self, event: &Event, t: f64, y: &mut [f64]) -> Result<bool, Trouble> {
+        let mut values = vec![];
+        for deed in &event.then {
+            if let Deed::Set(p, law) = deed {
+                values.push((*p, self.read(&[law], t, y)?[0]));
+            }
+        }
+        if !values.is_empty() {
+            self.change(t, y, &values);
+            if !self.balance.m.limits.is_empty() {
+                self.settle(t, y)?;
+            }
+        }
+        let switched = self.switch_parts(t, y, &event.then)?;
+        Ok(switched || !values.is_empty())
+    }
+
     /// Sets parameters, lets the others follow, and notes the energy that the change put in.
     fn change(&mut self, t: f64, y: &[f64], values: &[(usize, f64)]) {
         let before: f64 = self.energy(t, y).iter().sum();
@@ -169,7 +225,7 @@ impl<'m> Machine<'m> {
         let p = self.balance.m.parameters_with(&self.set);
         self.balance.rebind(&p);
         let jump = self.energy(t, y).iter().sum::<f64>() - before;
-        self.stretches.push(Stretch { from: t, p, mode: self.balance.mode.clone(), jump });
+        self.begin_stretch(t, jump, 0.0);
     }
 }
 
@@ -180,6 +236,10 @@ impl System for Machine<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
+        if self.balance.mode.resting {
+            dy.fill(0.0);
+            return Ok(());
+        }
         if self.delicate {
             self.place_closed(t, y)?;
         } else {
@@ -197,6 +257,9 @@ impl System for Machine<'_> {
             for (i, &d) in self.driven.iter().enumerate() {
                 dy[2 * n + self.worked.len() + i] = powers[d];
             }
+        }
+        if self.rubs {
+            dy[2 * n + self.worked.len() + self.driven.len()] = self.balance.friction_power();
         }
         Ok(())
     }
@@ -250,7 +313,7 @@ impl System for Machine<'_> {
     }
 
     fn switches(&self) -> usize {
-        self.balance.m.events.len() + self.balance.m.kinks.len()
+        self.balance.m.events.len() + self.balance.m.kinks.len() + GUARDS * self.balance.m.limits.len()
     }
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
@@ -264,13 +327,18 @@ impl System for Machine<'_> {
                 out[m.events.len() + i] = self.switching(kink);
             }
         }
+        if !m.limits.is_empty() {
+            self.guard_values(t, y, &mut out[m.events.len() + m.kinks.len()..])?;
+        }
         Ok(())
     }
 
     fn switch(&self, i: usize) -> Watch {
-        match self.balance.m.events.get(i) {
-            Some(event) => Watch { direction: event.direction, is_kink: false, scale: 0.0 },
-            None => Watch { direction: 0, is_kink: true, scale: 0.0 },
+        let m = self.balance.m;
+        match m.events.get(i) {
+            Some(event) => Watch { is_positive: event.guard, ..Watch::event(event.direction) },
+            None if i < m.events.len() + m.kinks.len() => Watch::kink(),
+            None => Watch::guard(1.0),
         }
     }
 
@@ -283,27 +351,20 @@ impl System for Machine<'_> {
     fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
         let m = self.balance.m;
         let Some(event) = m.events.get(i) else {
-            if let Kink::Switch(switch, _) = m.kinks[i - m.events.len()] {
-                let arm = self.balance.mode.arm(switch).unwrap_or(true);
-                self.balance.mode.freeze(switch, !arm);
+            match m.kinks.get(i - m.events.len()) {
+                Some(kink) => self.turn(kink, t),
+                None => {
+                    let guard = i - m.events.len() - m.kinks.len();
+                    self.switch_limit(guard / GUARDS, guard % GUARDS, t, y)?;
+                }
             }
-            let p = self.balance.n.p.clone();
-            self.stretches.push(Stretch { from: t, p, mode: self.balance.mode.clone(), jump: 0.0 });
             return Ok(After::Restart);
         };
-        let mut values = vec![];
-        for deed in &event.then {
-            if let Deed::Set(p, law) = deed {
-                values.push((*p, self.read(&[law], t, y)?[0]));
-            }
-        }
-        if !values.is_empty() {
-            self.change(t, y, &values);
-        }
+        let changed = self.happen(event, t, y)?;
         let stops = event.then.iter().any(|d| matches!(d, Deed::Stop));
-        Ok(match (stops, values.is_empty()) {
+        Ok(match (stops, changed) {
             (true, _) => After::Stop,
-            (_, true) => After::Continue,
+            (_, false) => After::Continue,
             _ => After::Restart,
         })
     }

@@ -5,10 +5,12 @@
 
 mod canonical;
 mod machine;
+mod switching;
 mod trajectory;
 
 pub use canonical::mass_matrix;
 pub use machine::Machine;
+pub use switching::{Change, Impulses, Rule};
 pub use trajectory::{Ledger, Trajectory};
 
 use crate::balance::{Balance, Route, Trouble};
@@ -24,6 +26,8 @@ pub struct Settings {
     pub options: Options,
     /// How each instant is solved; None for the cheapest way.
     pub route: Option<Route>,
+    /// What is done about impacts that the laws leave open.
+    pub impacts: Rule,
 }
 
 impl Settings {
@@ -72,10 +76,12 @@ pub fn simulate(
     balance.place(start.t, start.q, start.u);
     balance.take_phases();
     let mut machine = Machine::new(balance, start.p);
+    machine.rule = settings.impacts;
     let mut y = machine.pack(start.q, start.u);
     machine.freeze_arms(start.t, &y);
     machine.size_up(start.t, &y);
     crate::motion::System::project(&mut machine, start.t, &mut y)?;
+    machine.begin(start.t, until, &mut y)?;
     let opening = machine.energy(start.t, &y);
     let run = run(&mut machine, integrator, (start.t, &y), until, &settings.options, progress);
     Ok(Trajectory::new(machine, run, opening, settings.clone()))

@@ -1,6 +1,7 @@
 //! What is kept of a run, and how it is read.
 
 use super::machine::Stretch;
+use super::switching::Change;
 use super::{Machine, Settings};
 use crate::balance::{Balance, Observer, Route, Trouble};
 use crate::gauges::Law;
@@ -25,6 +26,9 @@ pub struct Trajectory {
     pub worst_gap: f64,
     /// What was chosen.
     pub settings: Settings,
+    /// What switched on the way.
+    pub changes: Vec<Change>,
+    rubs: bool,
     run: Run,
     stretches: Vec<Stretch>,
     opening: [f64; 2],
@@ -56,6 +60,8 @@ impl Trajectory {
             settings,
             stretches: machine.stretches,
             opening,
+            rubs: machine.rubs,
+            changes: machine.changes,
             worked: machine.worked,
             driven: machine.driven,
             run,
@@ -198,17 +204,19 @@ impl Trajectory {
         let mut names: Vec<String> = vec!["kinetic".into(), "potential".into()];
         names.extend(self.worked.iter().map(|&f| m.forces[f].name.clone()));
         names.extend(self.driven.iter().map(|&d| m.drives[d].name.clone()));
-        names.extend(["parameter changes".into(), "balance".into()]);
+        names.extend(self.rubs.then(|| "friction".to_string()));
+        names.extend(["parameter changes".into(), "impacts".into(), "balance".into()]);
         let start: f64 = self.opening.iter().sum();
         let mut rows = vec![];
         self.each(m, times, |balance, t, y| {
             let (kinetic, potential) = (balance.kinetic_energy(), balance.potential_energy());
             let works = &y[2 * m.freedom()..];
             let jumps: f64 = self.stretches.iter().filter(|s| s.from < t).map(|s| s.jump).sum();
-            let left = kinetic + potential - start - works.iter().sum::<f64>() - jumps;
+            let blows: f64 = self.stretches.iter().filter(|s| s.from < t).map(|s| s.blow).sum();
+            let left = kinetic + potential - start - works.iter().sum::<f64>() - jumps - blows;
             let mut row = vec![kinetic, potential];
             row.extend_from_slice(works);
-            row.extend([jumps, left]);
+            row.extend([jumps, blows, left]);
             rows.push(row);
             Ok(())
         })?;

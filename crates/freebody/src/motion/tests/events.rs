@@ -191,7 +191,7 @@ fn kinks_are_passed_exactly() {
             side.set(-side.get());
             After::Continue
         });
-    system.watches[0].is_kink = true;
+    system.watches[0].role = Role::Kink;
     let run = system.run("dop853", (0.0, &[0.0, 1.0]), 41.0, &rtol(1e-10));
     println!("{:?}, {} kinks, {} steps", run.y, run.kinks, run.accepted);
     assert_eq!((run.kinks, run.events.len()), (20, 0));
@@ -234,7 +234,7 @@ fn sliding_on_a_kink_is_named() {
             side.set(-side.get());
             After::Continue
         });
-    system.watches[0].is_kink = true;
+    system.watches[0].role = Role::Kink;
     let run = system.run("dop853", (0.0, &[0.7]), 3.0, &rtol(1e-9));
     assert_eq!(run.outcome, Outcome::TooManyEvents);
     assert!((run.t - 1.0).abs() < 1e-12);

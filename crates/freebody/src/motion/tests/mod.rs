@@ -34,7 +34,7 @@ impl<'a> Plain<'a> {
     }
 
     fn watching(mut self, directions: &[i8], switches: impl FnMut(f64, &[f64], &mut [f64]) + 'a) -> Self {
-        let watch = |&direction| Watch { direction, is_kink: false, scale: 0.0 };
+        let watch = |&direction| Watch::event(direction);
         self.watches = directions.iter().map(watch).collect();
         self.switches = Box::new(switches);
         self

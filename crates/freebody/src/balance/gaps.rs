@@ -1,0 +1,143 @@
+//! Gaps at one state: their pieces and borders, which are closed, and parts put in place.
+
+use super::rows::{closing_rows, joint_rows};
+use super::{Balance, Source, Trouble};
+use crate::contact::{Gap, Piece};
+use crate::mechanism::{Mechanism, Part};
+use crate::mode::{Held, Hold};
+
+/// Depth, over the characteristic length, to which a limit may be violated at the start.
+const SHALLOW: f64 = 1e-8;
+
+impl Mechanism {
+    /// The name of a part.
+    pub fn name_of(&self, part: Part) -> &str {
+        match part {
+            Part::Joint(j) => &self.joints[j].name,
+            Part::Drive(d) => &self.drives[d].name,
+            Part::Force(f) => &self.forces[f].name,
+            Part::Group(g) => &self.groups[g].name,
+        }
+    }
+}
+
+impl Balance<'_> {
+    /// Finds what only the start tells of limits: how strings are attached, and on which piece every gap is.
+    ///
+    /// # Errors
+    /// `penetration`, where a limit is violated.
+    pub fn start_limits(&mut self) -> Result<(), Trouble> {
+        for l in 0..self.m.limits.len() {
+            self.start_limit(l);
+            let gap = self.limit_gap(l);
+            if self.mode.limits[l].hold != Hold::Off && gap < -SHALLOW * self.length {
+                let group = &self.m.groups[self.m.limits[l].group];
+                let what = match group.word {
+                    "string" => format!("the string `{}` is stretched by {:.6e} m", group.name, -gap),
+                    word => format!("the {word} `{}` is violated by {:.6e}", group.name, -gap),
+                };
+                return Err(Trouble::new("penetration", what + " at the start; move the parts, or change its size"));
+            }
+        }
+        Ok(())
+    }
+
+    fn start_limit(&mut self, l: usize) {
+        let limit = &self.m.limits[l];
+        let mut piece = Piece::default();
+        if let Gap::Cord(cord) = &limit.gap {
+            piece.phase = cord.phases(self.m, &self.at());
+        }
+        self.mode.limits[l].piece = limit.gap.piece(self.m, &self.at(), piece);
+    }
+
+    /// The gap of a limit at the present state, on its piece.
+    pub fn limit_gap(&self, l: usize) -> f64 {
+        self.m.limits[l].gap.gap(self.m, &self.mode, &self.at(), self.mode.limits[l].piece)
+    }
+
+    /// The gap of an open limit at the present state, on whichever piece it now is.
+    pub fn open_gap(&self, l: usize) -> f64 {
+        let (gap, at) = (&self.m.limits[l].gap, self.at());
+        gap.gap(self.m, &self.mode, &at, gap.piece(self.m, &at, self.mode.limits[l].piece))
+    }
+
+    /// Takes the present pieces of all open limits.
+    pub fn find_pieces(&mut self) {
+        for l in 0..self.m.limits.len() {
+            if self.mode.limits[l].hold == Hold::Open {
+                let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
+                self.mode.limits[l].piece = piece;
+            }
+        }
+    }
+
+    /// The limits whose gap is closed, or open by less than `most`.
+    pub fn touching(&self, most: f64) -> Vec<usize> {
+        let touches = |l: &usize| {
+            let held = self.mode.limits[*l];
+            let can = || self.m.limits[*l].gap.can_close(held.piece.index);
+            held.hold.is_closed() || (held.hold == Hold::Open && can() && self.limit_gap(*l) <= most)
+        };
+        (0..self.m.limits.len()).filter(touches).collect()
+    }
+
+    /// The nearest border of a limit's piece, and the piece beyond.
+    pub fn border(&self, l: usize) -> Option<(f64, usize)> {
+        let borders = self.m.limits[l].gap.borders(self.m, &self.at(), self.mode.limits[l].piece);
+        borders.iter().map(|b| (b.value, b.beyond)).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Takes a part away or puts it in place, joints as they are now; answers whether that changed anything.
+    pub fn put(&mut self, part: Part, there: bool) -> bool {
+        let changed = match part {
+            Part::Group(g) => self.put_limits(g, there),
+            _ => self.mode.put(part, there),
+        };
+        if let (true, true, Part::Joint(j)) = (changed, there, part) {
+            let mut rows = vec![];
+            joint_rows(self.at(), j, None, &mut rows);
+            for row in rows {
+                if let (Source::Joint(j, r), Some(value)) = (row.source, row.value) {
+                    self.mode.phases.insert((j, r), value);
+                }
+            }
+        }
+        changed
+    }
+
+    fn put_limits(&mut self, g: usize, there: bool) -> bool {
+        let mut changed = false;
+        for l in self.m.groups[g].limits.clone() {
+            let is_there = self.mode.limits[l].hold != Hold::Off;
+            if is_there == there {
+                continue;
+            }
+            changed = true;
+            let hold = if there { Hold::Open } else { Hold::Off };
+            self.mode.limits[l] = Held { hold, ..self.mode.limits[l] };
+            if there {
+                self.start_limit(l);
+            }
+        }
+        changed
+    }
+
+    /// Whether the rows of the last solution leave nothing free, and no motion drives it.
+    pub fn is_locked(&self) -> bool {
+        let driven = self.m.drives.iter().enumerate().any(|(d, drive)| !drive.coupling && self.mode.has(Part::Drive(d)));
+        !driven && self.dense.saddle.dof() == 0
+    }
+
+    /// Takes the values of all rows of which only the change counts as their zeros.
+    pub fn take_phases(&mut self) {
+        self.mode.phases.clear();
+        for row in closing_rows(self.at(), None) {
+            if let Source::Joint(j, r) = row.source {
+                if self.m.joints[j].phased[r] {
+                    self.mode.phases.insert((j, r), row.value.unwrap_or(0.0));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! Limits that are reached: which of them hold, and what a blow does.
+//!
+//! All other constraints are eliminated first, by the null space of their rows; what is left is a problem of the limits
+//! alone, with the Delassus matrix of accelerations by unit contact forces. An impact is the same problem with velocities
+//! and impulses (Pfeiffer & Glocker 1996, *Multibody Dynamics with Unilateral Contacts*).
+
+use super::minimal::Force;
+use super::reactions::joint_load;
+use super::rows::{closing_rows, gap_row, slide_row};
+use super::{project, Balance, JointLoad, Row, Source, Trouble};
+use crate::contact::complementarity::{self, Answer, Grip, Problem, Status, Strike, Verdict};
+use crate::contact::Friction;
+use crate::mode::Hold;
+use crate::plane::{Twist, Vec2, Wrench};
+use crate::solve::Matrix;
+
+/// Part of the largest force or acceleration below which one is too small to decide by.
+const CLOSE: f64 = 1e-8;
+
+/// Limits whose gaps are closed at one state, k of them.
+pub struct Reached {
+    /// Which.
+    pub limits: Vec<usize>,
+    gaps: Vec<Row>,
+    slides: Vec<Option<Row>>,
+    /// Joint accelerations for a unit force: of the k gaps, then of the k slides.
+    columns: Vec<Vec<f64>>,
+    /// Accelerations of gaps, then slides, by unit forces along them, 2k × 2k.
+    g: Matrix,
+    /// Rates of the k gaps, then of the k slides, m/s.
+    pub rates: Vec<f64>,
+}
+
+/// How limits go on.
+pub struct Holding {
+    /// Of each limit reached.
+    pub holds: Vec<Hold>,
+    /// Whether something that decides was too small to be sure of.
+    pub close: bool,
+}
+
+/// A blow: what impulses through limits did.
+#[derive(Clone, Debug)]
+pub struct Blow {
+    /// Change of the user's rates.
+    pub change: Vec<f64>,
+    /// Impulses along each reached gap, N·s.
+    pub normal: Vec<f64>,
+    /// Impulses along each slide, N·s.
+    pub tangent: Vec<f64>,
+    /// The impulse of each limit on its contact's first body, N·s, fixed axes.
+    pub on_first: Vec<Vec2>,
+    /// Impulsive reaction of every joint, N·s and N·m·s.
+    pub joints: Vec<JointLoad>,
+    /// What was to be said of the law.
+    pub note: Option<String>,
+}
+
+impl Reached {
+    fn len(&self) -> usize {
+        self.limits.len()
+    }
+
+    /// Speeds of sliding, m/s.
+    pub fn slips(&self) -> Vec<f64> {
+        self.rates[self.len()..].to_vec()
+    }
+
+    /// Row i of gaps and slides together; None for a slide that cannot rub.
+    fn row(&self, i: usize) -> Option<&Row> {
+        let k = self.len();
+        if i < k {
+            Some(&self.gaps[i])
+        } else {
+            self.slides[i - k].as_ref()
+        }
+    }
+}
+
+impl Balance<'_> {
+    /// Frees `limits` and finds how they act on one another at the present state.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`]: the mechanism without them must have a motion.
+    pub fn reach(&mut self, limits: Vec<usize>) -> Result<Reached, Trouble> {
+        for &limit in &limits {
+            self.mode.limits[limit].hold = Hold::Open;
+        }
+        let at = self.at();
+        let gaps: Vec<Row> = limits.iter().map(|&l| gap_row(at, l, None)).collect();
+        let slides: Vec<Option<Row>> = limits
+            .iter()
+            .map(|&l| self.m.limits[l].friction.and_then(|_| slide_row(at, l, None)))
+            .collect();
+        self.rows = closing_rows(at, None);
+        let mut arms = std::mem::take(&mut self.arms);
+        super::load::centre_arms(self.at(), &mut arms);
+        self.arms = arms;
+        self.factor(Force::OwnWay)?;
+        let k = limits.len();
+        let rates = gaps.iter().map(|r| r.rate.unwrap_or(0.0));
+        let rates = rates.chain(slides.iter().map(|s| s.as_ref().and_then(|r| r.rate).unwrap_or(0.0))).collect();
+        let mut reached = Reached { limits, gaps, slides, columns: vec![], g: Matrix::zeros(2 * k, 2 * k), rates };
+        let along: Vec<Vec<f64>> = (0..2 * k).map(|i| self.along(reached.row(i))).collect();
+        let still = vec![0.0; self.rows.len()];
+        reached.columns = along.iter().map(|f| self.dense.saddle.solve(f, &still).a).collect();
+        reached.g = Matrix::from_fn(2 * k, 2 * k, |i, j| dot(&along[i], &reached.columns[j]));
+        Ok(reached)
+    }
+
+    /// What a unit force along a row does on each joint coordinate.
+    fn along(&self, row: Option<&Row>) -> Vec<f64> {
+        let mut force = vec![0.0; self.m.freedom()];
+        if let Some(row) = row {
+            project(self.at(), &row.motion, &mut force);
+        }
+        force
+    }
+
+    /// Accelerations of gaps, then slides, that the limits reached would have without force, m/s².
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn free_accelerations(&mut self, reached: &Reached) -> Result<Vec<f64>, Trouble> {
+        self.solve_by(super::Route::Minimal)?;
+        let at = self.at();
+        let bodies = Some(self.solved.bodies.as_slice());
+        let gaps = reached.limits.iter().map(|&l| gap_row(at, l, bodies).bias);
+        let slides = reached.limits.iter().zip(&reached.slides).map(|(&l, slide)| {
+            slide.as_ref().and_then(|_| slide_row(at, l, bodies)).map_or(0.0, |row| row.bias)
+        });
+        Ok(gaps.chain(slides).collect())
+    }
+
+    /// How the limits reached go on from the present state: what parts, what sticks, what slides, for given speeds of
+    /// sliding; one below `still` is none.
+    ///
+    /// # Errors
+    /// `painleve_inconsistent`, `painleve_indeterminate`; as [`Balance::solve`].
+    pub fn hold(&mut self, reached: &Reached, slips: &[f64], still: f64) -> Result<Holding, Trouble> {
+        let free = self.free_accelerations(reached)?;
+        let grips: Vec<Grip> =
+            reached.limits.iter().zip(slips).map(|(&l, &slip)| self.grip(l, slip, still)).collect();
+        let problem = Problem { g: &reached.g, free: &free, grips: &grips };
+        match complementarity::solve(&problem) {
+            Verdict::Solved(answer) => Ok(holding(&answer, &free, &grips)),
+            verdict => Err(self.paradox(reached, &free, &grips, &verdict)),
+        }
+    }
+
+    /// Takes the holds found.
+    pub fn take(&mut self, reached: &Reached, holding: &Holding) {
+        for (&l, &hold) in reached.limits.iter().zip(&holding.holds) {
+            self.mode.limits[l].hold = hold;
+        }
+    }
+
+    /// The impulses by which the present closing rows come to rest, limits apart from those that carry.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn joining_blow(&mut self) -> Result<Blow, Trouble> {
+        let nothing = self.reach(vec![])?;
+        let asked: Vec<f64> = self.rows.iter().map(|row| -row.rate.unwrap_or(0.0)).collect();
+        let solution = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked);
+        let mut change = vec![0.0; self.m.freedom()];
+        self.to_user(&solution.a, &mut change);
+        let joints = self.impulsive_loads(&nothing, &[], &solution.a, &solution.lambda);
+        Ok(Blow { change, normal: vec![], tangent: vec![], on_first: vec![], joints, note: None })
+    }
+
+    fn grip(&self, limit: usize, slip: f64, still: f64) -> Grip {
+        match self.m.limits[limit].friction {
+            None => Grip::Smooth,
+            Some(Friction::Rough) => Grip::Rough,
+            Some(Friction::Coulomb { fixed, kinetic }) => {
+                let (fixed, kinetic) = (self.n.slots[fixed], self.n.slots[kinetic]);
+                match slip.abs() <= still {
+                    true => Grip::Resting { fixed, kinetic },
+                    false => Grip::Sliding { sense: slip.signum(), kinetic },
+                }
+            }
+        }
+    }
+
+    /// Says by name that Coulomb's law and rigid bodies contradict each other here.
+    fn paradox(&self, reached: &Reached, free: &[f64], grips: &[Grip], verdict: &Verdict) -> Trouble {
+        let names = self.names_of(&reached.limits);
+        let mut told = match verdict {
+            Verdict::Indeterminate(answers) => {
+                format!("at {names} {} different motions satisfy Coulomb's law and the balance equations", answers.len())
+            }
+            _ => format!("at {names} no motion satisfies both Coulomb's law and the balance equations: the contact jams"),
+        };
+        let sliding = (0..reached.len()).find_map(|i| match grips[i] {
+            Grip::Sliding { sense, kinetic } => Some((i, sense, kinetic)),
+            _ => None,
+        });
+        if let Some((i, sense, kinetic)) = sliding {
+            let (normal, parting, critical) = complementarity::painleve(&reached.g, free, i, sense, kinetic);
+            told += &format!("; A = {normal:.4e} 1/kg, b = {parting:.4e} m/s²");
+            if let Some(critical) = critical {
+                told += &format!(", and the paradox begins at a friction of {critical:.6}");
+            }
+        }
+        let name = match verdict {
+            Verdict::Indeterminate(_) => "painleve_indeterminate",
+            _ => "painleve_inconsistent",
+        };
+        Trouble::new(name, told + "; lower the friction, or let a spring stand for the contact")
+    }
+
+    /// The names of the contacts, stops and strings of limits, each once.
+    pub fn names_of(&self, limits: &[usize]) -> String {
+        let mut names: Vec<String> =
+            limits.iter().map(|&l| format!("`{}`", self.m.groups[self.m.limits[l].group].name)).collect();
+        names.dedup();
+        names.join(" and ")
+    }
+
+    /// What impulses along the limits reached would do, by `settle` of the strike that it is given.
+    ///
+    /// # Errors
+    /// What `settle` finds.
+    pub fn blow(
+        &mut self,
+        reached: &Reached,
+        restitution: &[f64],
+        settle: impl FnOnce(&Strike) -> Result<(complementarity::Impulses, Option<String>), Trouble>,
+    ) -> Result<Blow, Trouble> {
+        let friction: Vec<f64> = reached.limits.iter().map(|&l| self.friction_of(l)).collect();
+        let strike = Strike { g: &reached.g, before: &reached.rates, restitution, friction: &friction };
+        let (impulses, note) = settle(&strike)?;
+        let p: Vec<f64> = impulses.normal.iter().chain(&impulses.tangent).copied().collect();
+        let mut force = vec![0.0; self.m.freedom()];
+        for (i, &p) in p.iter().enumerate() {
+            self.along(reached.row(i)).iter().zip(&mut force).for_each(|(f, sum)| *sum += p * f);
+        }
+        let solution = self.dense.saddle.solve(&force, &vec![0.0; self.rows.len()]);
+        let mut change = vec![0.0; self.m.freedom()];
+        self.to_user(&solution.a, &mut change);
+        let joints = self.impulsive_loads(reached, &p, &solution.a, &solution.lambda);
+        let k = reached.len();
+        let on_first = (0..k).map(|i| self.on_first(reached, i, p[i], p[k + i])).collect();
+        let (normal, tangent) = (impulses.normal, impulses.tangent);
+        Ok(Blow { change, normal, tangent, on_first, joints, note })
+    }
+
+    fn friction_of(&self, limit: usize) -> f64 {
+        match self.m.limits[limit].friction {
+            None => 0.0,
+            Some(Friction::Rough) => f64::INFINITY,
+            Some(Friction::Coulomb { kinetic, .. }) => self.n.slots[kinetic],
+        }
+    }
+
+    /// The force on the first body of a limit's contact (of a string, on its first end), for forces along gap and slide.
+    fn on_first(&self, reached: &Reached, i: usize, normal: f64, tangent: f64) -> Vec2 {
+        let mut sum = Vec2::zero();
+        let parts = [(Some(&reached.gaps[i]), normal), (reached.slides[i].as_ref(), tangent)];
+        for (row, p) in parts.into_iter().filter_map(|(row, p)| row.map(|row| (row, p))) {
+            sum += force_on_first(self.m, reached.limits[i], &row.motion) * p;
+        }
+        sum
+    }
+
+    /// Reactions of all joints to impulses: the balance of momentum of all that hangs on them.
+    fn impulsive_loads(&self, reached: &Reached, p: &[f64], change: &[f64], lambda: &[f64]) -> Vec<JointLoad> {
+        let n = self.m.bodies.len();
+        let mut bodies = vec![Twist::zero(); n];
+        self.k.spread(self.m, change, false, &mut bodies);
+        let mut needed: Vec<Wrench> = (0..n)
+            .map(|i| {
+                let momentum = bodies[i].at(self.arms[i]) * self.n.mass[i];
+                Wrench { f: momentum, m: self.arms[i].cross(momentum) + self.n.inertia[i] * bodies[i].w }
+            })
+            .collect();
+        for (i, &p) in p.iter().enumerate() {
+            for &(body, load) in reached.row(i).map_or(&[][..], |row| &row.motion) {
+                needed[body] = needed[body] - load * p;
+            }
+        }
+        let passed = self.passed(needed, lambda);
+        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &passed, &self.rows, lambda)).collect()
+    }
+
+    /// Of every limit the force along its gap and its slide in the last solution, N.
+    pub fn limit_forces(&self) -> Vec<[f64; 2]> {
+        let mut forces = vec![[0.0; 2]; self.m.limits.len()];
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            match row.source {
+                Source::Limit(l) => {
+                    let rub = match (self.mode.limits[l].hold, self.m.limits[l].friction) {
+                        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => -sense * self.n.slots[kinetic],
+                        _ => 0.0,
+                    };
+                    forces[l] = [lambda, forces[l][1] + rub * lambda];
+                }
+                Source::Friction(l) => forces[l][1] = lambda,
+                _ => {}
+            }
+        }
+        forces
+    }
+
+    /// Power of all friction in the last solution, W; never positive.
+    pub fn friction_power(&self) -> f64 {
+        let rubs = self.rows.iter().zip(&self.solved.lambda).filter(|(row, _)| matches!(row.source, Source::Limit(_)));
+        let power = |loads: &super::Spread<f64>| -> f64 { loads.iter().map(|(b, w)| w.power(self.k.twist[*b])).sum() };
+        rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum()
+    }
+
+    /// The speed of sliding of a limit at the present state, m/s; 0 where it cannot rub.
+    pub fn slide_rate(&self, limit: usize) -> f64 {
+        slide_row(self.at(), limit, None).and_then(|row| row.rate).unwrap_or(0.0)
+    }
+}
+
+/// The force that loads put on the first body of a limit's group; ground takes the opposite of what the others get.
+pub(super) fn force_on_first(m: &crate::mechanism::Mechanism, limit: usize, loads: &[(usize, Wrench)]) -> Vec2 {
+    let first = m.groups[m.limits[limit].group].ends[0];
+    match loads.iter().find(|(body, _)| *body == first) {
+        Some((_, load)) => load.f,
+        None => -loads.iter().fold(Vec2::zero(), |sum, (_, load)| sum + load.f),
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The holds of an answer, and whether it was a close thing.
+fn holding(answer: &Answer, free: &[f64], grips: &[Grip]) -> Holding {
+    let k = answer.status.len();
+    let force = answer.normal.iter().chain(&answer.tangent).fold(0.0_f64, |most, x| most.max(x.abs()));
+    let pace = free.iter().chain(&answer.acceleration).fold(0.0_f64, |most, x| most.max(x.abs()));
+    let weak = |i: usize| answer.normal[i].abs() <= CLOSE * force;
+    let slow = |x: f64| x.abs() <= CLOSE * pace;
+    let hold = |i: usize| match answer.status[i] {
+        Status::Open if slow(answer.acceleration[i]) => Hold::Idle,
+        Status::Open => Hold::Open,
+        Status::Closed => Hold::Smooth,
+        Status::Stick => Hold::Stuck,
+        Status::Slip(sense) => Hold::Sliding(sense),
+    };
+    let close = |i: usize| match (answer.status[i], grips[i]) {
+        (Status::Open, _) => slow(answer.acceleration[i]),
+        (Status::Stick, Grip::Resting { fixed, .. }) => {
+            weak(i) || fixed * answer.normal[i] - answer.tangent[i].abs() <= CLOSE * force
+        }
+        (Status::Slip(_), Grip::Resting { .. }) => weak(i) || slow(answer.acceleration[k + i]),
+        _ => weak(i),
+    };
+    Holding { holds: (0..k).map(hold).collect(), close: (0..k).any(close) }
+}
