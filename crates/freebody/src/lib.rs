@@ -7,6 +7,7 @@ pub mod assembly;
 pub mod balance;
 pub mod benchmark;
 pub mod compile;
+pub mod contact;
 pub mod describe;
 pub mod error;
 pub mod expr;

@@ -1,0 +1,3 @@
+//! Touches that push and rub but do not pull.
+
+pub mod complementarity;
