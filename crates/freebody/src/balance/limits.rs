@@ -190,6 +190,7 @@ impl Balance<'_> {
             Verdict::Indeterminate(answers) => {
                 format!("at {names} {} different motions satisfy Coulomb's law and the balance equations", answers.len())
             }
+            Verdict::Unknown => format!("at {names} no motion was found that satisfies Coulomb's law"),
             _ => format!("at {names} no motion satisfies both Coulomb's law and the balance equations: the contact jams"),
         };
         let sliding = (0..reached.len()).find_map(|i| match grips[i] {
@@ -197,14 +198,15 @@ impl Balance<'_> {
             _ => None,
         });
         if let Some((i, sense, kinetic)) = sliding {
-            let (normal, parting, critical) = complementarity::painleve(&reached.g, free, i, sense, kinetic);
-            told += &format!("; A = {normal:.4e} 1/kg, b = {parting:.4e} m/s²");
-            if let Some(critical) = critical {
+            let p = complementarity::painleve(&reached.g, free, i, sense, kinetic);
+            told += &format!("; A = {:.4e} 1/kg, b = {:.4e} m/s²", p.leading, p.free);
+            if let Some(critical) = p.critical {
                 told += &format!(", and the paradox begins at a friction of {critical:.6}");
             }
         }
         let name = match verdict {
             Verdict::Indeterminate(_) => "painleve_indeterminate",
+            Verdict::Unknown => "contact_unsolved",
             _ => "painleve_inconsistent",
         };
         Trouble::new(name, told + "; lower the friction, or let a spring stand for the contact")

@@ -7,6 +7,7 @@
 //! Gaps are told piece by piece: an edge or a corner of a polygon, a string wound on its drum or hanging from its
 //! attachment. On one piece they are smooth; what leads from one piece to the next is a border.
 
+pub mod complementarity;
 mod limit;
 mod touch;
 

@@ -42,6 +42,10 @@ impl Rule {
     pub fn named(word: &str) -> Option<Rule> {
         Rule::ALL.iter().find(|r| r.0 == word).map(|r| r.1)
     }
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        Rule::ALL.iter().find(|r| r.1 == self).map_or("", |r| r.0)
+    }
 }
 
 /// Something that switched.
@@ -432,7 +436,8 @@ fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::
     let settled = complementarity::settle(strike, law).map_err(|e| {
         Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}"))
     })?;
-    Ok((settled.impulses, settled.note))
+    let note = (!settled.notes.is_empty()).then(|| settled.notes.join("; "));
+    Ok((settled.impulses, note))
 }
 
 fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> Trouble {
@@ -441,7 +446,7 @@ fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> 
         .map(|(law, impulses)| {
             let speeds: Vec<String> =
                 impulses.after[..impulses.normal.len()].iter().map(|v| format!("{v:.6}")).collect();
-            format!("by {} they part at {} m/s", law.name(), speeds.join(", "))
+            format!("by {} they part at {} m/s", Rule::Law(*law).word(), speeds.join(", "))
         })
         .collect();
     Trouble::new(

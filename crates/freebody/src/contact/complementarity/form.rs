@@ -1,0 +1,148 @@
+//! Touches with friction as a linear complementarity problem, and back.
+//!
+//! A touch that may stick has four variables: λN, β₊, β₋ and γ, with λT = β₊ − β₋, and γ the size of the
+//! tangential acceleration where it slides:
+//!
+//!   0 ≤ λN ⟂ aN ≥ 0,  0 ≤ β± ⟂ γ ± aT ≥ 0,  0 ≤ γ ⟂ μ λN − β₊ − β₋ ≥ 0
+//!
+//! (Stewart & Trinkle, *Int. J. Numer. Methods Eng.* 39, 1996; Anitescu & Potra 1997). Its matrix is
+//! copositive, so without sliding touches Lemke's method finds a solution where the normal conditions can
+//! be met at all; the smaller form of Pfeiffer & Glocker (1996) does not promise that.
+
+use super::lemke::{lemke, End};
+use super::modes::{Mode, Tangent};
+use super::task::{Hold, Task};
+use super::Grip;
+use crate::solve::Matrix;
+
+/// A ray proves that touches cannot be closed if its forces, of size 1, accelerate less than this…
+const SELF_STRESS: f64 = 1e-9;
+/// … and oppose the free acceleration by more than this.
+const OPPOSED: f64 = 1e-8;
+
+/// What pivoting makes of a task.
+pub(super) enum Proposal {
+    /// The modes of a complementary basis.
+    Modes(Vec<Mode>),
+    /// Normal forces in balance with themselves whose work on the free acceleration is negative: no
+    /// motion opens or closes all touches.
+    Impossible,
+    /// Nothing.
+    None,
+}
+
+/// A variable of the complementarity problem, of a touch.
+#[derive(Clone, Copy, PartialEq)]
+enum Variable {
+    /// λN.
+    Normal(usize),
+    /// β with its sign.
+    Rub(usize, f64),
+    /// γ.
+    Speed(usize),
+}
+
+/// Follows Lemke's path.
+pub(super) fn propose(task: &Task) -> Proposal {
+    let variables = variables(task);
+    let (m, q) = assemble(task, &variables);
+    match lemke(&m, &q) {
+        End::Solution { basic, slack } => Proposal::Modes(modes(task, &variables, &basic, &slack)),
+        End::Ray(z) if self_stressed(task, &variables, &z) => Proposal::Impossible,
+        End::Ray(_) | End::Lost => Proposal::None,
+    }
+}
+
+fn variables(task: &Task) -> Vec<Variable> {
+    let of = |i: usize| match task.holds[i] {
+        Hold::Grip(Grip::Resting { .. } | Grip::Rough) => {
+            vec![Variable::Normal(i), Variable::Rub(i, 1.0), Variable::Rub(i, -1.0), Variable::Speed(i)]
+        }
+        _ => vec![Variable::Normal(i)],
+    };
+    (0..task.len()).flat_map(of).collect()
+}
+
+/// λT/λN of a touch that slides.
+fn drag(hold: Hold) -> f64 {
+    match hold {
+        Hold::Grip(Grip::Sliding { sense, kinetic }) | Hold::Starting(sense, kinetic) => -sense * kinetic,
+        Hold::Grip(_) => 0.0,
+    }
+}
+
+/// The cone as ratio · λN − share · (β₊ + β₋) ≥ 0.
+fn cone(hold: Hold) -> (f64, f64) {
+    match hold {
+        Hold::Grip(Grip::Resting { fixed, .. }) => (fixed, 1.0),
+        _ => (1.0, 0.0),
+    }
+}
+
+fn assemble(task: &Task, variables: &[Variable]) -> (Matrix, Vec<f64>) {
+    let n = task.len();
+    let moved = |row: usize, v: Variable| match v {
+        Variable::Normal(j) => task.g[(row, j)] + drag(task.holds[j]) * task.g[(row, n + j)],
+        Variable::Rub(j, sign) => sign * task.g[(row, n + j)],
+        Variable::Speed(_) => 0.0,
+    };
+    let entry = |row: Variable, column: Variable| match (row, column) {
+        (Variable::Normal(i), v) => moved(i, v),
+        (Variable::Rub(i, _), Variable::Speed(j)) => f64::from(i == j),
+        (Variable::Rub(i, sign), v) => sign * moved(n + i, v),
+        (Variable::Speed(i), Variable::Normal(j)) if i == j => cone(task.holds[i]).0,
+        (Variable::Speed(i), Variable::Rub(j, _)) if i == j => -cone(task.holds[i]).1,
+        (Variable::Speed(_), _) => 0.0,
+    };
+    let pressed = |row: usize| (0..n).map(|j| task.pressed[j] * moved(row, Variable::Normal(j))).sum::<f64>();
+    let free = |row: usize| task.free[row] + pressed(row);
+    let constant = |row: Variable| match row {
+        Variable::Normal(i) => free(i),
+        Variable::Rub(i, sign) => sign * free(n + i),
+        Variable::Speed(i) => cone(task.holds[i]).0 * task.pressed[i],
+    };
+    let size = variables.len();
+    let m = Matrix::from_fn(size, size, |i, j| entry(variables[i], variables[j]));
+    (m, variables.iter().map(|&v| constant(v)).collect())
+}
+
+fn modes(task: &Task, variables: &[Variable], basic: &[bool], slack: &[f64]) -> Vec<Mode> {
+    let at = |v: Variable| variables.iter().position(|&w| w == v);
+    let is_basic = |v: Variable| at(v).is_some_and(|p| basic[p]);
+    let slack = |v: Variable| at(v).map_or(0.0, |p| slack[p]);
+    let tangent = |i: usize| {
+        let (up, down) = (Variable::Rub(i, 1.0), Variable::Rub(i, -1.0));
+        match task.holds[i] {
+            Hold::Grip(Grip::Smooth) => Tangent::Free,
+            Hold::Grip(Grip::Sliding { sense, .. }) | Hold::Starting(sense, _) => Tangent::Slip(sense),
+            Hold::Grip(Grip::Rough) => Tangent::Stick,
+            Hold::Grip(Grip::Resting { .. }) => match (is_basic(Variable::Speed(i)), is_basic(up), is_basic(down)) {
+                (false, false, false) => Tangent::Lean,
+                (false, _, _) | (true, true, true) => Tangent::Stick,
+                (true, true, false) => Tangent::Slip(-1.0),
+                (true, false, true) => Tangent::Slip(1.0),
+                // Without friction no β need be basic; γ + aT then exceeds γ − aT where aT > 0.
+                (true, false, false) => Tangent::Slip(if slack(up) >= slack(down) { 1.0 } else { -1.0 }),
+            },
+        }
+    };
+    let mode = |i: usize| match is_basic(Variable::Normal(i)) {
+        false if task.pressed[i] == 0.0 => Mode::OPEN,
+        closed => Mode { closed, tangent: tangent(i) },
+    };
+    (0..task.len()).map(mode).collect()
+}
+
+/// Normal forces v ≥ 0 with G v = 0 and v·f < 0 would have v·a = v·f < 0, against a ≥ 0.
+fn self_stressed(task: &Task, variables: &[Variable], z: &[f64]) -> bool {
+    let mut v = vec![0.0; 2 * task.len()];
+    for (variable, value) in variables.iter().zip(z) {
+        if let Variable::Normal(i) = variable {
+            v[*i] = value.max(0.0);
+        }
+    }
+    let size = v.iter().copied().fold(0.0, f64::max);
+    let moved = task.g.mul_vec(&v).iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    let work: f64 = v.iter().zip(&task.free).map(|(v, f)| v * f).sum();
+    moved <= SELF_STRESS * size && work < -OPPOSED * size
+}

@@ -1,0 +1,174 @@
+//! Impacts of several touches at once: velocities before, impulses, velocities after.
+
+use super::{resolve, Grip, Verdict};
+use crate::solve::Matrix;
+use std::fmt;
+
+/// Approach slower than this, relative to the fastest velocity before, has come to rest.
+const AT_REST: f64 = 1e-13;
+/// Hits after which a sequence of them is given up.
+const HITS: usize = 10_000;
+/// A velocity below this, relative to the terms that make it up, is zero.
+const ROUND_OFF: f64 = 1e-14;
+/// Work above this, relative to the terms that make it up, is a gain.
+const GAIN: f64 = 1e-12;
+
+/// k touches that are closed and may be approaching.
+#[derive(Clone, Copy, Debug)]
+pub struct Strike<'a> {
+    /// 2k × 2k: velocity (rows) by unit impulses (columns), as in [`Problem`](super::Problem).
+    pub g: &'a Matrix,
+    /// 2k: the normal velocities before, negative where a touch approaches, then the tangential ones.
+    pub before: &'a [f64],
+    /// k: the coefficients of restitution, 0 ≤ e ≤ 1.
+    pub restitution: &'a [f64],
+    /// k: the coefficients of friction; infinite where a touch cannot slide.
+    pub friction: &'a [f64],
+}
+
+/// What restitution means. Friction is Coulomb's between the impulses pT and pN, by the velocity after.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// The velocity is reversed, all touches at once: 0 ≤ pN ⟂ vN⁺ − e max(0, −vN⁻) ≥ 0
+    /// (Newton; Moreau 1988). With friction it may create energy.
+    Newton,
+    /// The impulse is returned: plastic compression with pC, then expansion with pN ≥ e pC
+    /// (Poisson; Glocker & Pfeiffer, *Nonlinear Dynamics* 7, 1995).
+    Poisson,
+    /// One touch after the other by Newton's law, the fastest approach first, until none approaches.
+    Sequential,
+}
+
+/// What an impact does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Impulses {
+    /// k: the normal impulses, ≥ 0.
+    pub normal: Vec<f64>,
+    /// k: the tangential impulses.
+    pub tangent: Vec<f64>,
+    /// 2k: the velocities after.
+    pub after: Vec<f64>,
+    /// The change of kinetic energy, Σ ½(v⁻ + v⁺) p.
+    pub work: f64,
+    /// The law has created energy: the result must not be used.
+    pub gains: bool,
+}
+
+/// Why a law gives no impulses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoImpact {
+    /// No impulses satisfy the law.
+    Impossible,
+    /// Several do, with these velocities after.
+    Ambiguous(Vec<Impulses>),
+    /// None were found among too many touches to try everything; or a number is not finite.
+    Unknown,
+    /// One touch hits after the other without coming to rest.
+    Endless,
+}
+
+impl fmt::Display for NoImpact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoImpact::Impossible => write!(f, "no impulses satisfy the impact law"),
+            NoImpact::Ambiguous(all) => write!(f, "{} different outcomes satisfy the impact law", all.len()),
+            NoImpact::Unknown => write!(f, "no impulses were found that satisfy the impact law"),
+            NoImpact::Endless => write!(f, "{HITS} hits, one after the other, do not come to rest"),
+        }
+    }
+}
+
+impl std::error::Error for NoImpact {}
+
+/// Impulses, normal then tangential (2k).
+type Impulse = Vec<f64>;
+
+/// The impulses by one law. Those that create energy are flagged; see [`settle`](super::settle).
+pub fn strike(s: &Strike, law: Law) -> Result<Impulses, NoImpact> {
+    let p = match law {
+        Law::Newton => newton(s),
+        Law::Poisson => poisson(s),
+        Law::Sequential => sequential(s),
+    }?;
+    Ok(s.with(&p))
+}
+
+impl Strike<'_> {
+    fn len(&self) -> usize {
+        self.friction.len()
+    }
+
+    /// What the impulses do.
+    fn with(&self, p: &[f64]) -> Impulses {
+        let k = self.len();
+        let size = |i: usize| self.before[i].abs() + (0..2 * k).map(|j| (self.g[(i, j)] * p[j]).abs()).sum::<f64>();
+        let changes = self.g.mul_vec(p);
+        let after: Vec<f64> = (0..2 * k)
+            .map(|i| self.before[i] + changes[i])
+            .enumerate()
+            .map(|(i, v)| if v.abs() <= ROUND_OFF * size(i) { 0.0 } else { v })
+            .collect();
+        let terms = || (0..2 * k).map(|i| (self.before[i], after[i], p[i]));
+        let work = terms().map(|(b, a, p)| 0.5 * (b + a) * p).sum();
+        let scale: f64 = terms().map(|(b, a, p)| 0.5 * (b.abs() + a.abs()) * p.abs()).sum();
+        Impulses { normal: p[..k].to_vec(), tangent: p[k..].to_vec(), after, work, gains: work > GAIN * scale }
+    }
+
+    /// Impulses of which those of the touches at `velocity`, or their reversal, are complementary.
+    fn complementary(&self, velocity: &[f64], pressed: &[f64]) -> Result<Impulse, NoImpact> {
+        let grips: Vec<Grip> = self.friction.iter().map(|&mu| grip(mu)).collect();
+        let join = |a: &super::Answer| [&a.normal[..], &a.tangent[..]].concat();
+        match resolve(self.g, velocity, &grips, pressed) {
+            Verdict::Solved(a) => Ok(join(&a)),
+            Verdict::Indeterminate(all) => Err(NoImpact::Ambiguous(all.iter().map(|a| self.with(&join(a))).collect())),
+            Verdict::Inconsistent => Err(NoImpact::Impossible),
+            Verdict::Unknown => Err(NoImpact::Unknown),
+        }
+    }
+}
+
+fn grip(mu: f64) -> Grip {
+    match mu {
+        0.0 => Grip::Smooth,
+        f64::INFINITY => Grip::Rough,
+        _ => Grip::Resting { fixed: mu, kinetic: mu },
+    }
+}
+
+fn newton(s: &Strike) -> Result<Impulse, NoImpact> {
+    let mut free = s.before.to_vec();
+    for (v, e) in free.iter_mut().zip(s.restitution) {
+        *v -= e * (-*v).max(0.0);
+    }
+    s.complementary(&free, &vec![0.0; s.len()])
+}
+
+fn poisson(s: &Strike) -> Result<Impulse, NoImpact> {
+    let compression = s.complementary(s.before, &vec![0.0; s.len()])?;
+    let middle = s.with(&compression);
+    let returned: Vec<f64> = s.restitution.iter().zip(&middle.normal).map(|(e, p)| e * p).collect();
+    let expansion = s.complementary(&middle.after, &returned)?;
+    Ok(compression.iter().zip(&expansion).map(|(c, e)| c + e).collect())
+}
+
+fn sequential(s: &Strike) -> Result<Impulse, NoImpact> {
+    let k = s.len();
+    let rest = AT_REST * s.before.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let (mut velocity, mut total) = (s.before.to_vec(), vec![0.0; 2 * k]);
+    for _ in 0..HITS {
+        let fastest = (0..k).reduce(|a, b| if velocity[b] < velocity[a] { b } else { a });
+        let Some(hit) = fastest.filter(|&i| velocity[i] < -rest) else { return Ok(total) };
+        let rows = [hit, k + hit];
+        let one = Strike {
+            g: &Matrix::from_fn(2, 2, |i, j| s.g[(rows[i], rows[j])]),
+            before: &rows.map(|r| velocity[r]),
+            restitution: &s.restitution[hit..=hit],
+            friction: &s.friction[hit..=hit],
+        };
+        for (row, p) in rows.into_iter().zip(newton(&one)?) {
+            total[row] += p;
+            (0..2 * k).for_each(|i| velocity[i] += s.g[(i, row)] * p);
+        }
+    }
+    Err(NoImpact::Endless)
+}

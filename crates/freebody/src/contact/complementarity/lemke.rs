@@ -1,0 +1,142 @@
+//! Lemke's method for w = M z + q, 0 ≤ w ⟂ z ≥ 0.
+
+use crate::solve::Matrix;
+
+/// An entry of the tableau below this is round-off and no pivot.
+const PIVOT: f64 = 1e-10;
+/// Ratios that differ by less, relative to their size, tie.
+const TIE: f64 = 1e-12;
+
+/// Where the path of complementary bases ends.
+#[derive(Clone, Debug)]
+pub(super) enum End {
+    /// At a solution.
+    Solution {
+        /// Whether zᵢ is in the basis.
+        basic: Vec<bool>,
+        /// w.
+        slack: Vec<f64>,
+    },
+    /// On a ray along this direction of z.
+    Ray(Vec<f64>),
+    /// Nowhere within the bound on its length, which only round-off reaches.
+    Lost,
+}
+
+/// The equations I w − M z − d z₀ = q: columns w, z, z₀ and the right-hand side.
+struct Tableau {
+    n: usize,
+    rows: Matrix,
+    /// The variable (its column) that each row gives.
+    basis: Vec<usize>,
+}
+
+/// Follows Lemke's path with the lexicographic ratio test, on which no basis comes twice
+/// (Cottle, Pang & Stone, *The Linear Complementarity Problem*, 1992, §4.4 and §4.9).
+pub(super) fn lemke(m: &Matrix, q: &[f64]) -> End {
+    let n = q.len();
+    let mut t = Tableau::new(m, q);
+    if q.iter().all(|q| *q >= 0.0) {
+        return t.solution();
+    }
+    let mut enter = 2 * n;
+    let mut row = t.worst();
+    for _ in 0..100 + 50 * n {
+        let leave = t.pivot(row, enter);
+        if leave == 2 * n {
+            return t.solution();
+        }
+        enter = if leave < n { leave + n } else { leave - n };
+        match t.ratio_test(enter) {
+            Some(r) => row = r,
+            None => return End::Ray(t.ray(enter)),
+        }
+    }
+    End::Lost
+}
+
+impl Tableau {
+    fn new(m: &Matrix, q: &[f64]) -> Tableau {
+        let n = q.len();
+        let entry = |i: usize, j: usize| match j {
+            _ if j < n => f64::from(i == j),
+            _ if j < 2 * n => -m[(i, j - n)],
+            _ if j == 2 * n => -1.0,
+            _ => q[i],
+        };
+        Tableau { n, rows: Matrix::from_fn(n, 2 * n + 2, entry), basis: (0..n).collect() }
+    }
+
+    /// The row that the artificial z₀ must lift most, the last of several.
+    fn worst(&self) -> usize {
+        (1..self.n).fold(0, |best, i| if self.right(i) <= self.right(best) { i } else { best })
+    }
+
+    fn right(&self, i: usize) -> f64 {
+        self.rows[(i, 2 * self.n + 1)]
+    }
+
+    /// The variable `enter` takes the place of the one of `row`, which is returned.
+    fn pivot(&mut self, row: usize, enter: usize) -> usize {
+        let p = self.rows[(row, enter)];
+        self.rows.row_mut(row).iter_mut().for_each(|v| *v /= p);
+        for i in (0..self.n).filter(|&i| i != row) {
+            let (source, target) = self.rows.two_rows_mut(row, i);
+            let s = target[enter];
+            if s != 0.0 {
+                target.iter_mut().zip(source.iter()).for_each(|(t, p)| *t -= s * p);
+                target[enter] = 0.0;
+            }
+        }
+        std::mem::replace(&mut self.basis[row], enter)
+    }
+
+    /// The row that blocks `enter` first: z₀ if it is among them, else the least in lexicographic order.
+    fn ratio_test(&self, enter: usize) -> Option<usize> {
+        let candidates: Vec<usize> = (0..self.n).filter(|&i| self.rows[(i, enter)] > PIVOT).collect();
+        let best = candidates.iter().copied().reduce(|a, b| if self.before(b, a, enter) { b } else { a })?;
+        let home = candidates.iter().copied().find(|&i| self.basis[i] == 2 * self.n);
+        home.filter(|&h| self.compare(h, best, enter, 2 * self.n + 1).is_eq()).or(Some(best))
+    }
+
+    fn before(&self, a: usize, b: usize, enter: usize) -> bool {
+        let columns = std::iter::once(2 * self.n + 1).chain(0..self.n);
+        columns.map(|c| self.compare(a, b, enter, c)).find(|o| o.is_ne()).is_some_and(|o| o.is_lt())
+    }
+
+    /// Compares the ratios of rows a and b in column c.
+    fn compare(&self, a: usize, b: usize, enter: usize, c: usize) -> std::cmp::Ordering {
+        let ratio = |i| self.rows[(i, c)] / self.rows[(i, enter)];
+        let (x, y): (f64, f64) = (ratio(a), ratio(b));
+        let tie = (x - y).abs() <= TIE * (1.0 + x.abs().max(y.abs()));
+        if tie {
+            std::cmp::Ordering::Equal
+        } else {
+            x.total_cmp(&y)
+        }
+    }
+
+    fn solution(&self) -> End {
+        let (mut basic, mut slack) = (vec![false; self.n], vec![0.0; self.n]);
+        for (i, &v) in self.basis.iter().enumerate() {
+            match v.checked_sub(self.n) {
+                Some(z) => basic[z] = true,
+                None => slack[v] = self.right(i),
+            }
+        }
+        End::Solution { basic, slack }
+    }
+
+    /// The direction of z along which `enter` grows without bound.
+    fn ray(&self, enter: usize) -> Vec<f64> {
+        let mut z = vec![0.0; self.n];
+        let mut set = |v: usize, value: f64| {
+            if (self.n..2 * self.n).contains(&v) {
+                z[v - self.n] = value;
+            }
+        };
+        set(enter, 1.0);
+        self.basis.iter().enumerate().for_each(|(i, &v)| set(v, -self.rows[(i, enter)]));
+        z
+    }
+}

@@ -1,0 +1,265 @@
+//! What touches do under given modes, held against the conditions of contact; and all modes there are.
+
+use super::task::{Hold, Task};
+use super::{Grip, Status};
+use crate::solve::{Lu, Matrix, Orthogonal};
+
+/// A pivot below this, of rows with unit diagonal, is round-off of G.
+const SINGULAR: f64 = 1e-11;
+
+/// What a touch is supposed to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mode {
+    /// aN = 0; otherwise the normal force is the least one, which is zero unless pressed.
+    pub closed: bool,
+    pub tangent: Tangent,
+}
+
+impl Mode {
+    pub const OPEN: Mode = Mode { closed: false, tangent: Tangent::Free };
+}
+
+/// What a touch is supposed to do along its tangent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Tangent {
+    /// λT = 0.
+    Free,
+    /// λT = −μ s λN.
+    Slip(f64),
+    /// aT = 0 by a force λT.
+    Stick,
+    /// aT = 0 with λT = 0: held by other touches.
+    Lean,
+    /// aT = 0 with λT = −μ s λN: held by other touches, on the edge of the cone.
+    Brink(f64),
+}
+
+/// What touches do, all conditions satisfied, in the units of the task.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub status: Vec<Status>,
+    pub force: Vec<f64>,
+    pub acceleration: Vec<f64>,
+}
+
+/// Why modes give no finding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Refusal {
+    /// Their equations do not determine the forces.
+    Singular,
+    /// A condition is violated.
+    Violated,
+}
+
+/// An unknown force: a unit along the normal of a touch, with its friction, or along its tangent.
+struct Column {
+    touch: usize,
+    normal: f64,
+    tangent: f64,
+}
+
+impl Column {
+    /// The acceleration of `row` by a unit of it.
+    fn moves(&self, task: &Task, row: usize) -> f64 {
+        task.g[(row, self.touch)] * self.normal + task.g[(row, task.len() + self.touch)] * self.tangent
+    }
+}
+
+/// Solves the equations of `modes` and checks every condition to `tolerance`, relative to the terms that
+/// make up an acceleration and to the largest force.
+pub(super) fn evaluate(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+    let force = forces(task, modes)?;
+    Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
+}
+
+/// The forces (2n) that keep the promises aN = 0 and aT = 0 of the modes.
+fn forces(task: &Task, modes: &[Mode]) -> Result<Vec<f64>, Refusal> {
+    let n = task.len();
+    let (mut rows, mut columns, mut force) = (Vec::new(), Vec::new(), vec![0.0; 2 * n]);
+    for (i, mode) in modes.iter().enumerate() {
+        let ratio = ratio(task.holds[i], mode.tangent);
+        (force[i], force[n + i]) = (task.pressed[i], ratio * task.pressed[i]);
+        if mode.closed {
+            rows.push(i);
+            columns.push(Column { touch: i, normal: 1.0, tangent: ratio });
+        }
+        if matches!(mode.tangent, Tangent::Stick | Tangent::Lean | Tangent::Brink(_)) {
+            rows.push(n + i);
+        }
+        if mode.tangent == Tangent::Stick {
+            columns.push(Column { touch: i, normal: 0.0, tangent: 1.0 });
+        }
+    }
+    let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(task, r, &force)).collect();
+    let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(task, rows[i]));
+    for (column, x) in columns.iter().zip(solved(&a, &missing)?) {
+        force[column.touch] += column.normal * x;
+        force[n + column.touch] += column.tangent * x;
+    }
+    Ok(force)
+}
+
+/// x with A x = b, for A with independent columns; a residual is left to the check of the accelerations.
+fn solved(a: &Matrix, b: &[f64]) -> Result<Vec<f64>, Refusal> {
+    if a.rows() == a.cols() {
+        let mut lu = Lu::default();
+        lu.refactor(a, SINGULAR).map_err(|_| Refusal::Singular)?;
+        return Ok(lu.solve(b));
+    }
+    if a.rows() < a.cols() {
+        return Err(Refusal::Singular);
+    }
+    let factors = Orthogonal::factor(a);
+    if factors.rank().rank < a.cols() {
+        return Err(Refusal::Singular);
+    }
+    let mut x = vec![0.0; a.cols()];
+    factors.add_solution(b, &mut x);
+    let residual: Vec<f64> = b.iter().zip(a.mul_vec(&x)).map(|(b, ax)| b - ax).collect();
+    factors.add_solution(&residual, &mut x);
+    Ok(x)
+}
+
+/// λT/λN where the mode fixes it, else 0.
+fn ratio(hold: Hold, tangent: Tangent) -> f64 {
+    let sense = match tangent {
+        Tangent::Slip(s) | Tangent::Brink(s) => s,
+        Tangent::Free | Tangent::Stick | Tangent::Lean => return 0.0,
+    };
+    match (hold, tangent) {
+        (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Brink(_)) => -fixed * sense,
+        (Hold::Grip(Grip::Resting { kinetic, .. } | Grip::Sliding { kinetic, .. }), _) => -kinetic * sense,
+        (Hold::Starting(_, kinetic), _) => -kinetic * sense,
+        (Hold::Grip(Grip::Smooth | Grip::Rough), _) => 0.0,
+    }
+}
+
+/// Acceleration `row` under the forces.
+fn accelerated(task: &Task, row: usize, force: &[f64]) -> f64 {
+    task.free[row] + task.g.row(row).iter().zip(force).map(|(g, l)| g * l).sum::<f64>()
+}
+
+/// Forces against the conditions of their modes.
+struct Check<'a> {
+    task: &'a Task,
+    modes: &'a [Mode],
+    force: &'a [f64],
+    acceleration: Vec<f64>,
+    /// What counts as zero: for each acceleration, and for forces.
+    noise: Vec<f64>,
+    nothing: f64,
+}
+
+impl<'a> Check<'a> {
+    fn new(task: &'a Task, modes: &'a [Mode], force: &'a [f64], tolerance: f64) -> Check<'a> {
+        let rows = 0..force.len();
+        let terms =
+            |r: usize| task.free[r].abs() + task.g.row(r).iter().zip(force).map(|(g, l)| (g * l).abs()).sum::<f64>();
+        Check {
+            task,
+            modes,
+            force,
+            acceleration: rows.clone().map(|r| accelerated(task, r, force)).collect(),
+            noise: rows.map(|r| tolerance * terms(r)).collect(),
+            nothing: tolerance * force.iter().fold(0.0_f64, |m, f| m.max(f.abs())),
+        }
+    }
+
+    /// The finding, with exact zeros where the conditions ask for them.
+    fn verdict(mut self) -> Option<Found> {
+        let n = self.modes.len();
+        let status: Option<Vec<Status>> = (0..n).map(|i| self.status(i)).collect();
+        let (status, mut force) = (status?, self.force.to_vec());
+        for (i, status) in status.iter().enumerate() {
+            if self.modes[i].closed || self.acceleration[i].abs() <= self.noise[i] {
+                self.acceleration[i] = 0.0;
+            }
+            if *status == Status::Stick {
+                self.acceleration[n + i] = 0.0;
+            }
+            if force[i] <= self.nothing && self.task.pressed[i] == 0.0 {
+                (force[i], force[n + i]) = (0.0, 0.0);
+            }
+        }
+        Some(Found { status, force, acceleration: self.acceleration })
+    }
+
+    /// What touch i then does, if its conditions hold.
+    fn status(&self, i: usize) -> Option<Status> {
+        let n = self.modes.len();
+        let (mode, a, noise) = (self.modes[i], self.acceleration[i], self.noise[i]);
+        let normal_holds = if mode.closed {
+            a.abs() <= noise && self.force[i] - self.task.pressed[i] >= -self.nothing
+        } else {
+            a >= -noise
+        };
+        let sliding = self.sliding(i)?;
+        let carries = self.force[i] > self.nothing;
+        match normal_holds {
+            false => None,
+            true if carries => Some(sliding),
+            true if self.force[n + i].abs() <= self.nothing => Some(Status::Open),
+            true => None,
+        }
+    }
+
+    /// What it does along its tangent, if the conditions there hold.
+    fn sliding(&self, i: usize) -> Option<Status> {
+        let t = self.modes.len() + i;
+        let (a, noise) = (self.acceleration[t], self.noise[t]);
+        let (hold, still) = (self.task.holds[i], a.abs() <= noise);
+        match self.modes[i].tangent {
+            Tangent::Free => Some(Status::Closed),
+            Tangent::Slip(s) => match hold {
+                Hold::Grip(Grip::Resting { .. }) if still => Some(Status::Stick),
+                Hold::Grip(Grip::Resting { .. }) | Hold::Starting(..) if s * a < -noise => None,
+                _ => Some(Status::Slip(s)),
+            },
+            Tangent::Stick | Tangent::Lean | Tangent::Brink(_) => {
+                let bound = match hold {
+                    Hold::Grip(Grip::Resting { fixed, .. }) => fixed * self.force[i],
+                    _ => f64::INFINITY,
+                };
+                (still && self.force[t].abs() <= bound + self.nothing).then_some(Status::Stick)
+            }
+        }
+    }
+}
+
+/// All modes of a touch, with the least force first.
+pub(super) fn admissible(hold: Hold, pressed: f64) -> Vec<Mode> {
+    let tangents = match hold {
+        Hold::Grip(Grip::Smooth) => vec![Tangent::Free],
+        Hold::Grip(Grip::Rough) => vec![Tangent::Stick],
+        Hold::Grip(Grip::Sliding { sense, .. }) | Hold::Starting(sense, _) => vec![Tangent::Slip(sense)],
+        Hold::Grip(Grip::Resting { .. }) => vec![Tangent::Stick, Tangent::Slip(1.0), Tangent::Slip(-1.0)],
+    };
+    let with = |closed| tangents.iter().map(move |&tangent| Mode { closed, tangent });
+    let open = if pressed > 0.0 { with(false).collect() } else { vec![Mode::OPEN] };
+    open.into_iter().chain(with(true)).collect()
+}
+
+/// A mode and what can stand for it where its forces are not determined: the vertices of the set of forces.
+pub(super) fn vertices(hold: Hold, mode: Mode) -> Vec<Mode> {
+    let tangents = match (mode.tangent, hold) {
+        (Tangent::Stick, Hold::Grip(Grip::Resting { .. })) => {
+            vec![Tangent::Stick, Tangent::Lean, Tangent::Brink(1.0), Tangent::Brink(-1.0)]
+        }
+        (Tangent::Stick, _) => vec![Tangent::Stick, Tangent::Lean],
+        (tangent, _) => vec![tangent],
+    };
+    tangents.into_iter().map(|tangent| Mode { tangent, ..mode }).collect()
+}
+
+/// Calls `visit` with every choice of one mode for each touch, the last touch varying fastest, until it
+/// returns true.
+pub(super) fn choices(lists: &[Vec<Mode>], mut visit: impl FnMut(&[Mode]) -> bool) {
+    let mut at = vec![0; lists.len()];
+    let mut modes: Vec<Mode> = lists.iter().map(|l| l[0]).collect();
+    while !visit(&modes) {
+        let Some(i) = (0..lists.len()).rev().find(|&i| at[i] + 1 < lists[i].len()) else { return };
+        at[i] += 1;
+        at[i + 1..].fill(0);
+        (i..lists.len()).for_each(|j| modes[j] = lists[j][at[j]]);
+    }
+}

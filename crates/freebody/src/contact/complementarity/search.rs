@@ -1,0 +1,135 @@
+//! The decision on a task: pivoting, enumeration, and the order of static before kinetic friction.
+
+use super::form::{propose, Proposal};
+use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal};
+use super::task::{Hold, Task};
+use super::{Grip, Status};
+
+/// Up to this many coupled touches all modes are tried, to see whether the answer is the only one.
+const ALWAYS: usize = 3;
+/// Up to this many all modes are tried when pivoting fails.
+const ENUMERABLE: usize = 6;
+/// Conditions hold to round-off of the solver; only if nothing does, to that of the data.
+const TOLERANCES: [f64; 2] = [2e-13, 1e-10];
+/// Accelerations that differ by less are the same.
+const SAME: f64 = 1e-9;
+
+/// What there is to find.
+#[derive(Clone, Debug)]
+pub(super) enum Outcome {
+    /// At least one finding, with different accelerations.
+    Found(Vec<Found>),
+    /// Certainly none.
+    Nothing,
+    /// None was found, but not all modes were tried.
+    Unknown,
+}
+
+/// Decides a task.
+pub(super) fn decide(task: &Task) -> Outcome {
+    let at_rest = task.held(|_, hold| match hold {
+        Hold::Grip(Grip::Resting { fixed, .. }) => Hold::Grip(Grip::Resting { fixed, kinetic: fixed }),
+        _ => hold,
+    });
+    let first = bounded(&at_rest);
+    if at_rest.holds == task.holds {
+        return first;
+    }
+    let mut all = Vec::new();
+    if let Outcome::Found(found) = first {
+        found.into_iter().for_each(|f| slide(task, f, &mut all));
+    }
+    match all.len() {
+        0 if task.len() <= ENUMERABLE => most_at_rest(task),
+        0 => Outcome::Unknown,
+        _ => Outcome::Found(all),
+    }
+}
+
+/// Lets the touches that slipped under their static coefficients slide under the kinetic ones, and decides
+/// the others again, until no more slip.
+fn slide(task: &Task, found: Found, all: &mut Vec<Found>) {
+    let starts = |i: usize, hold: Hold| match (hold, found.status[i]) {
+        (Hold::Grip(Grip::Resting { fixed, kinetic }), Status::Slip(s)) if kinetic < fixed => {
+            Hold::Starting(s, kinetic)
+        }
+        _ => hold,
+    };
+    let next = task.held(starts);
+    if next.holds == task.holds {
+        return add(all, found);
+    }
+    if let Outcome::Found(found) = decide(&next) {
+        found.into_iter().for_each(|f| add(all, f));
+    }
+}
+
+/// Of all findings with static friction at rest and kinetic in motion, those with most touches at rest.
+fn most_at_rest(task: &Task) -> Outcome {
+    let at_rest = |f: &Found| f.status.iter().filter(|s| **s == Status::Stick).count();
+    let mut all = enumerate(task, Vec::new());
+    let most = all.iter().map(at_rest).max();
+    all.retain(|f| Some(at_rest(f)) == most);
+    if all.is_empty() {
+        Outcome::Nothing
+    } else {
+        Outcome::Found(all)
+    }
+}
+
+/// Decides a task in which static and kinetic friction are the same.
+fn bounded(task: &Task) -> Outcome {
+    let proposal = propose(task);
+    let pivoted = match &proposal {
+        Proposal::Modes(modes) => TOLERANCES.iter().find_map(|t| vertex(task, modes, *t)),
+        Proposal::Impossible | Proposal::None => None,
+    };
+    let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
+    let n = task.len();
+    match pivoted {
+        Some(found) if unique || n > ALWAYS => Outcome::Found(vec![found]),
+        None if matches!(proposal, Proposal::Impossible) => Outcome::Nothing,
+        None if n > ENUMERABLE => Outcome::Unknown,
+        _ => match enumerate(task, pivoted.into_iter().collect()) {
+            all if all.is_empty() => Outcome::Nothing,
+            all => Outcome::Found(all),
+        },
+    }
+}
+
+/// What all modes add to the findings.
+fn enumerate(task: &Task, mut all: Vec<Found>) -> Vec<Found> {
+    let lists: Vec<Vec<Mode>> = (0..task.len()).map(|i| admissible(task.holds[i], task.pressed[i])).collect();
+    for tolerance in TOLERANCES {
+        choices(&lists, |modes| {
+            vertex(task, modes, tolerance).into_iter().for_each(|found| add(&mut all, found));
+            false
+        });
+        if !all.is_empty() {
+            break;
+        }
+    }
+    all
+}
+
+/// The finding of these modes; where they do not determine the forces, the first of its vertices.
+fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
+    let mut result = evaluate(task, modes, tolerance);
+    if matches!(result, Err(Refusal::Singular)) {
+        let lists: Vec<Vec<Mode>> = modes.iter().zip(&task.holds).map(|(m, h)| vertices(*h, *m)).collect();
+        choices(&lists, |modes| {
+            result = evaluate(task, modes, tolerance);
+            result.is_ok()
+        });
+    }
+    result.ok()
+}
+
+/// Adds a finding whose accelerations are new.
+fn add(all: &mut Vec<Found>, found: Found) {
+    let size = found.acceleration.iter().fold(1.0_f64, |m, a| m.max(a.abs()));
+    let same = |f: &Found| f.acceleration.iter().zip(&found.acceleration).all(|(a, b)| (a - b).abs() <= SAME * size);
+    if !all.iter().any(same) {
+        all.push(found);
+    }
+}
