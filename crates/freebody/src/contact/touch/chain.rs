@@ -105,7 +105,7 @@ impl Chain {
         }
     }
 
-    /// The pieces before and after a piece.
+    /// The pieces before and after a piece. What bounds an open chain for points borders on the sides at both ends.
     fn beside(&self, disk: &Disk, piece: usize) -> [Option<usize>; 2] {
         let all = 2 * self.sides();
         let step = if disk.radius.is_some() { 1 } else { 2 };
@@ -113,10 +113,11 @@ impl Chain {
         if self.closed {
             return [Some((piece + all - step) % all), Some((piece + step) % all)];
         }
+        let round = (disk.radius.is_none() && self.sides() > 1).then_some(last - 1);
         match piece {
-            first if first == all => [None, Some(0)],
+            first if first == all => [round, Some(0)],
             0 => [Some(all), Some(step.min(last))],
-            end if end == last => [Some(last - 1), None],
+            end if end == last => [Some(last - 1), round.map(|_| 0)],
             _ => [Some(piece - step), Some((piece + step).min(last))],
         }
     }
