@@ -11,5 +11,6 @@ mod random_mechanisms;
 mod redundancy;
 mod rng;
 mod thrown;
+mod touches;
 mod tree_choice;
 mod two_tellings;

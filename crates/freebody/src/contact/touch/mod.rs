@@ -1,0 +1,162 @@
+//! A disk, or a point, against a surface.
+//!
+//! Each piece of a profile is a straight face or a round one. The normal n points to the disk's side, the tangent t is n
+//! turned clockwise by a right angle; both bodies turn counter-clockwise.
+
+mod chain;
+mod face;
+
+pub use chain::Chain;
+
+use super::{Border, Contact};
+use crate::gauges::Poses;
+use crate::mechanism::{Marker, Mechanism, Slot};
+use crate::plane::{vec2, Turn, Vec2};
+use crate::scalar::Scalar;
+use face::Face;
+
+/// A disk against a surface. Every contact of the plane is made of these: polygons meet with the corners of one against
+/// the sides of the other.
+#[derive(Clone, Debug)]
+pub struct Touch {
+    /// The disk.
+    pub disk: Disk,
+    /// The surface.
+    pub against: Profile,
+}
+
+/// A disk of a body; a point has radius 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Disk {
+    /// Site of its centre.
+    pub centre: usize,
+    /// Radius; None for a point.
+    pub radius: Option<Slot>,
+}
+
+/// A surface of a body.
+#[derive(Clone, Debug)]
+pub enum Profile {
+    /// A straight line without ends; the free side is on its left.
+    Line(Marker),
+    /// A circle.
+    Circle {
+        /// Site of its centre.
+        centre: usize,
+        /// Radius.
+        radius: Slot,
+        /// Whether the free side is inside.
+        hollow: bool,
+    },
+    /// Straight sides with convex corners.
+    Chain(Chain),
+}
+
+impl Touch {
+    /// The disk's body and the surface's body.
+    pub fn bodies(&self, m: &Mechanism) -> [usize; 2] {
+        [self.disk.centre, self.surface()].map(|site| m.body_of(site))
+    }
+
+    /// Distance of disk and surface, m; below 0 where they overlap.
+    pub fn gap<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: usize) -> T {
+        self.face(m, poses, piece).gap(self.radius(poses))
+    }
+
+    /// A gauge whose rate, where the gap is 0, is the speed of the disk's material along the tangent as seen from the
+    /// surface, m. Only its changes count.
+    pub fn slide<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: usize) -> T {
+        let turns = self.bodies(m).map(|body| turn(m, poses, body).angle);
+        self.face(m, poses, piece).slide(self.radius(poses), turns)
+    }
+
+    /// The piece that tells the gap. A line and a circle have only piece 0; those of a chain are told at [`Chain`].
+    pub fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>) -> usize {
+        match &self.against {
+            Profile::Chain(chain) => chain.piece(m, poses, &self.disk),
+            Profile::Line(_) | Profile::Circle { .. } => 0,
+        }
+    }
+
+    /// Where the piece ends.
+    pub fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: usize) -> Vec<Border> {
+        match &self.against {
+            Profile::Chain(chain) => chain.borders(m, poses, &self.disk, piece),
+            Profile::Line(_) | Profile::Circle { .. } => vec![],
+        }
+    }
+
+    /// Whether the gap can close on a piece: a point does not stay on a corner.
+    pub fn can_close(&self, piece: usize) -> bool {
+        self.disk.radius.is_some() || !matches!(self.against, Profile::Chain(_)) || piece % 2 == 0
+    }
+
+    /// The point of contact on the surface, with its directions.
+    pub fn contact(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: usize) -> Contact {
+        let centre = poses.pose(m.body_of(self.disk.centre)).place(poses.arm(self.disk.centre));
+        let (normal, foot) = self.face(m, poses, piece).foot();
+        Contact { point: centre - foot, normal, tangent: -normal.perp() }
+    }
+
+    /// The gap on the piece that tells it, m: continuous but deep inside.
+    pub fn signed_gap(&self, m: &Mechanism, poses: &impl Poses<f64>) -> f64 {
+        self.gap(m, poses, self.piece(m, poses))
+    }
+
+    /// A distance, m, that disk and profile keep at least: above 0 only where they are apart. It costs less than the gap.
+    pub fn reach(&self, m: &Mechanism, poses: &impl Poses<f64>) -> f64 {
+        match &self.against {
+            Profile::Line(_) | Profile::Circle { .. } => self.gap(m, poses, 0),
+            Profile::Chain(chain) => {
+                let first = chain.corners[0];
+                let far = |&corner: &usize| (poses.arm(corner) - poses.arm(first)).norm();
+                let size = chain.corners.iter().map(far).fold(0.0, f64::max);
+                poses.span(first, self.disk.centre, m).norm() - size - self.radius(poses)
+            }
+        }
+    }
+
+    /// A site of the surface.
+    fn surface(&self) -> usize {
+        match &self.against {
+            Profile::Line(marker) => marker.site,
+            Profile::Circle { centre, .. } => *centre,
+            Profile::Chain(chain) => chain.corners[0],
+        }
+    }
+
+    fn radius<T: Scalar>(&self, poses: &impl Poses<T>) -> T {
+        self.disk.radius.map_or(T::zero(), |slot| poses.slot(slot))
+    }
+
+    fn face<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: usize) -> Face<T> {
+        let centre = self.disk.centre;
+        match &self.against {
+            Profile::Line(marker) => {
+                let (sin, cos) = poses.slot(marker.angle).sin_cos();
+                let along = turn(m, poses, m.body_of(marker.site)).apply(vec2(cos, sin));
+                Face::Flat { to: poses.span(marker.site, centre, m), along }
+            }
+            Profile::Circle { centre: hub, radius, hollow } => Face::Round {
+                to: poses.span(*hub, centre, m),
+                radius: poses.slot(*radius),
+                side: if *hollow { -1.0 } else { 1.0 },
+            },
+            Profile::Chain(chain) => chain.face(m, poses, &self.disk, piece),
+        }
+    }
+}
+
+/// The turn of a body; a particle has none.
+fn turn<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, body: usize) -> Turn<T> {
+    match m.bodies[body].particle {
+        true => Turn::none(),
+        false => poses.pose(body).turn,
+    }
+}
+
+/// The direction, in fixed axes, from one site of a body to another.
+fn heading<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, from: usize, to: usize) -> Vec2<T> {
+    let way = poses.arm(to) - poses.arm(from);
+    turn(m, poses, m.body_of(from)).apply(way * (T::one() / way.norm()))
+}

@@ -1,0 +1,403 @@
+//! Touches: gaps and slides of a disk and a surface, held against velocities of material points, contact forces and
+//! distances that are told without pieces.
+
+use crate::model::*;
+use crate::rng::Rng;
+use freebody::contact::{Chain, Disk, Profile, Touch};
+use freebody::gauges::{Law, Moving, Placed, Seeded};
+use freebody::kinematics::Kinematics;
+use freebody::mechanism::{Marker, Mechanism, Site, Spot};
+use freebody::mode::Mode;
+use freebody::numbers::Numbers;
+use freebody::plane::{vec2, Pose, Turn, Twist, Vec2, Wrench};
+use freebody::scalar::{Dual, Jet};
+
+const SURFACES: [&str; 6] = ["line", "circle", "hollow", "polygon", "chain", "bent"];
+
+/// A touch of a disk and a surface, on bodies of every sort; the disk comes first.
+struct Scene {
+    m: Mechanism,
+    touch: Touch,
+    word: &'static str,
+    told: String,
+}
+
+/// Bodies wherever they are, and their motion.
+#[derive(Clone)]
+struct There {
+    n: Numbers,
+    k: Kinematics,
+    acceleration: Vec<Twist>,
+    mode: Mode,
+}
+
+impl Scene {
+    fn new(word: &'static str, seed: u64) -> Self {
+        let mut rng = Rng::new(seed);
+        let rng = &mut rng;
+        let free = |model: Model, body: &str, coordinates: &[&str]| {
+            model.joint(body, "free", &[("of", points(&["ground.O", &format!("{body}.origin")]))], coordinates)
+        };
+        let model = Model::new().body("a", 1.0, 1.0, [0.0; 2]).body("b", 1.0, 1.0, [0.0; 2]).particle("bead", 1.0);
+        let model = free(free(free(model, "a", &["xa", "ya", "fa"]), "b", &["xb", "yb", "fb"]), "bead", &["xc", "yc"]);
+        let mut m = model.compile().mechanism;
+        let [first, second] = *rng.of(&[["a", "b"], ["bead", "b"], ["a", "ground"], ["ground", "b"]]);
+        let point = !rng.chance(0.5);
+        let told =
+            format!("{} of {first} against {word} of {second}, seed {seed}", if point { "point" } else { "disk" });
+        let [first, second] = [first, second].map(|name| body_named(&m, name));
+        let reach = if m.bodies[first].particle { 0.0 } else { 1.0 };
+        let centre = site(&mut m, first, vec2(rng.about(reach), rng.about(reach)));
+        let radius = (!point).then(|| slot(&mut m, rng.within(0.1, 0.3)));
+        let from = vec2(rng.about(1.0), rng.about(1.0));
+        let against = match word {
+            "line" => Profile::Line(Marker { site: site(&mut m, second, from), angle: slot(&mut m, rng.about(3.0)) }),
+            "circle" | "hollow" => Profile::Circle {
+                centre: site(&mut m, second, from),
+                radius: slot(&mut m, rng.within(0.5, 1.5)),
+                hollow: word == "hollow",
+            },
+            _ => {
+                let sites = outline(word, rng).into_iter().map(|p| site(&mut m, second, from + p)).collect();
+                Profile::Chain(Chain { corners: sites, closed: word == "polygon", beyond: [None; 2] })
+            }
+        };
+        Scene { m, touch: Touch { disk: Disk { centre, radius }, against }, word, told }
+    }
+
+    /// Bodies somewhere, in any motion, the disk near the surface or anywhere; a particle does not turn.
+    fn thrown(&self, rng: &mut Rng) -> There {
+        let (m, mut some) = (&self.m, |a: f64| vec2(rng.about(a), rng.about(a)));
+        let n = m.bind::<f64>(&[]);
+        let mut k = Kinematics::of(m);
+        let mut acceleration = vec![Twist::zero(); m.bodies.len()];
+        for body in 1..m.bodies.len() {
+            let turning = if m.bodies[body].particle { 0.0 } else { 1.0 };
+            let (at, [v, a], turns) = (some(2.0), [some(1.0), some(1.0)], [some(3.0), some(1.5)]);
+            k.pose[body] = Pose { at, turn: Turn::by(turning * turns[0].x) };
+            k.arm[body] = at;
+            k.twist[body] = Twist { v, w: turning * turns[1].x };
+            acceleration[body] = Twist { v: a, w: turning * turns[1].y };
+        }
+        There { n, k, acceleration, mode: Mode::free(m) }
+    }
+
+    /// Shifts the body that can move so that the disk goes by a vector against the surface.
+    fn shift(&self, there: &mut There, by: Vec2) {
+        let [disk, surface] = self.touch.bodies(&self.m);
+        let (body, by) = if disk > 0 { (disk, by) } else { (surface, -by) };
+        there.k.pose[body].at += by;
+        there.k.arm[body] += by;
+    }
+
+    /// The same with the disk at a place, or where it is seen from the surface as if it were there.
+    fn with_disk_at(&self, there: &There, place: Vec2) -> There {
+        let mut other = there.clone();
+        self.shift(&mut other, place - self.place(there, self.touch.disk.centre));
+        other
+    }
+
+    /// Every piece in turn.
+    fn pieces(&self) -> Vec<usize> {
+        match &self.touch.against {
+            Profile::Chain(chain) => {
+                let (sides, point) = (chain.sides(), self.touch.disk.radius.is_none());
+                let all = (0..2 * sides + usize::from(!chain.closed)).collect::<Vec<_>>();
+                let end = |&p: &usize| !chain.closed && p + 1 >= 2 * sides;
+                all.into_iter().filter(|p| !point || p % 2 == 0 || end(p)).collect()
+            }
+            _ => vec![0],
+        }
+    }
+
+    fn radius(&self, there: &There) -> f64 {
+        self.touch.disk.radius.map_or(0.0, |slot| there.n.slots[slot])
+    }
+
+    fn place(&self, there: &There, site: usize) -> Vec2 {
+        there.k.pose[self.m.body_of(site)].place(there.n.arms[site])
+    }
+
+    fn corners(&self, there: &There) -> Option<(Vec<Vec2>, bool)> {
+        match &self.touch.against {
+            Profile::Chain(chain) => {
+                Some((chain.corners.iter().map(|&s| self.place(there, s)).collect(), chain.closed))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl There {
+    fn at<'a>(&'a self, m: &'a Mechanism) -> Placed<'a> {
+        Placed { m, n: &self.n, k: &self.k, q: &[], u: &[], t: 0.0, mode: &self.mode }
+    }
+    fn moving<'a>(&'a self, m: &'a Mechanism) -> Moving<'a, f64> {
+        Moving { at: self.at(m), bodies: Some(&self.acceleration), accelerations: None }
+    }
+    /// The bodies a time later, with the present accelerations.
+    fn later(&self, t: f64) -> There {
+        let mut k = self.k.clone();
+        for (i, a) in self.acceleration.iter().enumerate() {
+            let v = self.k.twist[i];
+            let moved = v * t + *a * (0.5 * t * t);
+            k.pose[i] = Pose { at: k.pose[i].at + moved.v, turn: Turn::by(k.pose[i].turn.angle + moved.w) };
+            k.arm[i] = k.pose[i].at;
+        }
+        There { n: self.n.clone(), k, acceleration: self.acceleration.clone(), mode: self.mode.clone() }
+    }
+}
+
+fn slot(m: &mut Mechanism, x: f64) -> usize {
+    m.slots.push(Law::constant(x));
+    m.slots.len() - 1
+}
+
+fn site(m: &mut Mechanism, body: usize, at: Vec2) -> usize {
+    let at = Spot::At([slot(m, at.x), slot(m, at.y)]);
+    m.sites.push(Site { body, at });
+    m.sites.len() - 1
+}
+
+/// Corners, clockwise: of a polygon, of a chain that turns by less than a right angle, and of one that turns further.
+fn outline(word: &str, rng: &mut Rng) -> Vec<Vec2> {
+    let sides = 1 + rng.below(4);
+    match word {
+        "polygon" => {
+            let n = 3 + rng.below(4);
+            let (size, start) = (rng.within(0.8, 1.6), rng.about(3.0));
+            let corner = |i: usize| start - std::f64::consts::TAU * (i as f64 + 0.8 * rng.within(0.0, 1.0)) / n as f64;
+            let angles: Vec<f64> = (0..n).map(corner).collect();
+            angles.into_iter().map(|a| turned(vec2(size, 0.0), a)).collect()
+        }
+        _ => {
+            let (sides, most) = if word == "bent" { (1 + sides, 2.6) } else { (sides, 1.5) };
+            let (mut heading, mut corner) = (rng.about(3.0), vec2(0.0, 0.0));
+            let mut corners = vec![corner];
+            for _ in 0..sides {
+                corner += turned(vec2(rng.within(0.5, 1.0), 0.0), heading);
+                heading -= rng.within(0.5, 1.0) * most / sides as f64;
+                corners.push(corner);
+            }
+            corners
+        }
+    }
+}
+
+fn every_scene(mut visit: impl FnMut(&Scene, &mut There, &mut Rng)) {
+    for (seed, word) in (0..60).flat_map(|seed| SURFACES.map(|word| (seed, word))) {
+        let scene = Scene::new(word, seed);
+        let mut rng = Rng::new(1000 + seed);
+        let mut there = scene.thrown(&mut rng);
+        visit(&scene, &mut there, &mut rng);
+    }
+}
+
+/// On every piece, with the disk brought to it: the jet's rates are those of the material points that touch, and the
+/// gradients are contact forces.
+#[test]
+fn rates_are_of_the_material_points_and_gradients_are_contact_forces() {
+    every_scene(|scene, there, _| {
+        let (m, touch, told) = (&scene.m, &scene.touch, &scene.told);
+        for piece in scene.pieces() {
+            for _ in 0..2 {
+                let at = there.at(m);
+                let by = touch.contact(m, &at, piece).normal * -touch.gap(m, &at, piece);
+                scene.shift(there, by);
+            }
+            let at = there.at(m);
+            assert!(touch.gap(m, &at, piece).abs() < 1e-14, "{told}, {piece}");
+            let c = touch.contact(m, &at, piece);
+            assert!((c.normal.norm() - 1.0).abs() < 1e-14 && c.normal.cross(c.tangent) == -c.normal.dot(c.normal));
+            let centre = scene.place(there, touch.disk.centre);
+            let rim = centre - c.normal * scene.radius(there);
+            assert!((rim - c.point).norm() < 1e-14, "{told}, {piece}: the point of contact is not on the disk");
+            assert!(off_surface(scene, there, piece, c.point) < 1e-14, "{told}, {piece}: nor on the surface");
+
+            let bodies = touch.bodies(m);
+            let [v_a, v_b] = bodies.map(|b| at.k.twist[b].at(c.point - at.k.pose[b].at));
+            let (gap, slide) = (touch.gap(m, &there.moving(m), piece), touch.slide(m, &there.moving(m), piece));
+            let speed = [c.normal, c.tangent].map(|e| e.dot(v_a - v_b));
+            assert!((gap.d1 - speed[0]).abs() < 1e-12, "{told}, {piece}: {} {}", gap.d1, speed[0]);
+            assert!((slide.d1 - speed[1]).abs() < 1e-12, "{told}, {piece}: {} {}", slide.d1, speed[1]);
+
+            for (body, sense) in bodies.into_iter().zip([1.0, -1.0]).filter(|(b, _)| *b > 0) {
+                let seeded = Seeded { at, body };
+                let found: [Dual<3>; 2] = [touch.gap(m, &seeded, piece), touch.slide(m, &seeded, piece)];
+                for (found, e) in found.iter().zip([c.normal, c.tangent]) {
+                    let load = Wrench::force(e * sense, c.point - at.k.pose[body].at).parts();
+                    let components = if m.bodies[body].particle { 2 } else { 3 };
+                    let off = apart(&found.du[..components], &load[..components], 1.0);
+                    assert!(off < 1e-12, "{told}, {piece}: {:?} {load:?}", found.du);
+                }
+            }
+        }
+    });
+}
+
+/// How far a point is from the surface of a piece.
+fn off_surface(scene: &Scene, there: &There, piece: usize, p: Vec2) -> f64 {
+    match &scene.touch.against {
+        Profile::Line(marker) => {
+            let body = scene.m.body_of(marker.site);
+            let angle = there.k.pose[body].turn.angle + there.n.slots[marker.angle];
+            let free = vec2(-angle.sin(), angle.cos());
+            free.dot(p - scene.place(there, marker.site)).abs()
+        }
+        Profile::Circle { centre, radius, .. } => {
+            ((p - scene.place(there, *centre)).norm() - there.n.slots[*radius]).abs()
+        }
+        Profile::Chain(chain) => {
+            let corner = |i: usize| scene.place(there, chain.corners[i % chain.corners.len()]);
+            let first = piece == 2 * chain.sides();
+            let (i, j) = if first { (0, 1) } else { (piece / 2, piece / 2 + 1) };
+            let (p0, p1) = (corner(i), corner(j));
+            let along = (p1 - p0) * (1.0 / (p1 - p0).norm());
+            let end = if first { p0 } else { p1 };
+            match (piece % 2 == 0 && !first, scene.touch.disk.radius) {
+                (true, _) => along.cross(p - p0).abs(),
+                (false, Some(_)) => (p - end).norm(),
+                // Straight back from the end, or across to the other end.
+                (false, None) => {
+                    let across = corner(0) - corner(chain.sides());
+                    along.dot(p - end).abs().min(across.cross(p - end).abs() / across.norm())
+                }
+            }
+        }
+    }
+}
+
+/// Rates and accelerations are differences along a motion, on every piece, wherever the disk is.
+#[test]
+fn jets_are_differences_along_the_motion() {
+    every_scene(|scene, there, _| {
+        let (m, touch) = (&scene.m, &scene.touch);
+        for piece in scene.pieces() {
+            // Corners are seen from 0.5 m or more: fifth derivatives of angles are below 1e5 there.
+            if near_centre(scene, there, piece) {
+                continue;
+            }
+            let h = 1e-3;
+            let read = |t: f64| {
+                let there = there.later(t);
+                [touch.gap(m, &there.at(m), piece), touch.slide(m, &there.at(m), piece)]
+            };
+            let values = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|i| read(i * h));
+            let moving = there.moving(m);
+            let jets: [Jet; 2] = [touch.gap(m, &moving, piece), touch.slide(m, &moving, piece)];
+            for (k, jet) in jets.iter().enumerate() {
+                let v = values.map(|v| v[k]);
+                assert!((jet.d0 - v[2]).abs() < 1e-13, "{}, {piece}", scene.told);
+                if k == 1 && (v[4] - v[0]).abs() > 1.0 {
+                    continue; // a direction that wraps
+                }
+                let rate = (8.0 * (v[3] - v[1]) - (v[4] - v[0])) / (12.0 * h);
+                let accel = (16.0 * (v[3] + v[1]) - (v[4] + v[0]) - 30.0 * v[2]) / (12.0 * h * h);
+                assert!((jet.d1 - rate).abs() < 1e-7, "{}, {piece}, {k}: {} {rate}", scene.told, jet.d1);
+                assert!((jet.d2 - accel).abs() < 1e-5, "{}, {piece}, {k}: {} {accel}", scene.told, jet.d2);
+            }
+        }
+    });
+}
+
+/// Whether the centre of the disk is near the centre of a round piece, from which directions change fast.
+fn near_centre(scene: &Scene, there: &There, piece: usize) -> bool {
+    let centre = match &scene.touch.against {
+        Profile::Circle { centre, .. } => *centre,
+        Profile::Chain(chain) if piece == 2 * chain.sides() => chain.corners[0],
+        Profile::Chain(chain) if piece % 2 == 1 => chain.corners[(piece / 2 + 1) % chain.corners.len()],
+        _ => return false,
+    };
+    (scene.place(there, scene.touch.disk.centre) - scene.place(there, centre)).norm() < 0.5
+}
+
+/// Distance of a point from a row of straight sides.
+fn distance(p: Vec2, corners: &[Vec2], closed: bool) -> f64 {
+    sides(corners, closed)
+        .map(|(a, b)| {
+            let s = ((p - a).dot(b - a) / (b - a).dot(b - a)).clamp(0.0, 1.0);
+            (p - a - (b - a) * s).norm()
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn sides(corners: &[Vec2], closed: bool) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+    let n = corners.len();
+    (0..n - usize::from(!closed)).map(move |i| (corners[i], corners[(i + 1) % n]))
+}
+
+/// Heights over all sides.
+fn heights(p: Vec2, corners: &[Vec2], closed: bool) -> Vec<f64> {
+    sides(corners, closed).map(|(a, b)| (b - a).cross(p - a) / (b - a).norm()).collect()
+}
+
+/// The gap of a disk is the distance of its centre from the polygon less its radius, inside the solid the least depth; that
+/// of a point is the largest height over a side.
+#[test]
+fn gaps_are_distances() {
+    every_scene(|scene, there, rng| {
+        let Some((corners, closed)) = scene.corners(there) else { return };
+        for _ in 0..50 {
+            let to = corners[0] + vec2(rng.about(2.5), rng.about(2.5));
+            let there = &scene.with_disk_at(there, to);
+            let (corners, _) = scene.corners(there).expect("a chain");
+            let (p, at) = (scene.place(there, scene.touch.disk.centre), there.at(&scene.m));
+            let gap = scene.touch.signed_gap(&scene.m, &at);
+            let (far, over) = (distance(p, &corners, closed), heights(p, &corners, closed));
+            let highest = over.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
+            let (r, reach) = (scene.radius(there), scene.touch.reach(&scene.m, &at));
+            assert!(reach < far - r + 1e-14 && (reach <= 0.0 || gap > 0.0 || highest < 0.0), "{}", scene.told);
+            let told = match (r > 0.0, scene.word) {
+                (_, "bent") => continue,
+                (true, _) if highest >= 0.0 => far - r,
+                (true, _) if closed => highest - r,
+                (false, _) if closed => highest,
+                (false, _) => {
+                    let [first, last] =
+                        [(corners[0], corners[1]), (corners[corners.len() - 2], corners[corners.len() - 1])];
+                    let ends = [(first.0 - first.1, first.0), (last.1 - last.0, last.1)];
+                    ends.iter().fold(highest, |m, (out, end)| m.max(out.dot(p - *end) / out.norm()))
+                }
+                _ => continue,
+            };
+            assert!((gap - told).abs() < 1e-13, "{}: {gap} {told}", scene.told);
+        }
+    });
+}
+
+/// Within its piece all borders are positive; where the piece changes, the border with the new one is crossed, and the gap
+/// does not jump.
+#[test]
+fn pieces_end_at_their_borders() {
+    let mut changes = 0;
+    every_scene(|scene, there, rng| {
+        let (m, touch, told) = (&scene.m, &scene.touch, &scene.told);
+        let Some((corners, closed)) = scene.corners(there) else { return };
+        let mid = corners.iter().fold(vec2(0.0, 0.0), |sum, c| sum + *c) * (1.0 / corners.len() as f64);
+        // Round the chain, at a distance at which it is seen from outside; an open one only where it can be met.
+        let size = corners.iter().map(|c| (*c - mid).norm()).fold(0.0, f64::max) * rng.within(1.0, 2.0);
+        let mut last: Option<(usize, f64)> = None;
+        let step = 1e-3;
+        for i in 0..6283 {
+            let p = mid + turned(vec2(size, 0.0), f64::from(i) * step);
+            let there = &scene.with_disk_at(there, p);
+            let (at, (corners, _)) = (there.at(m), scene.corners(there).expect("a chain"));
+            let seen = scene.place(there, touch.disk.centre);
+            if !closed && heights(seen, &corners, false).iter().all(|h| *h < 0.0) {
+                last = None;
+                continue;
+            }
+            let (piece, gap) = (touch.piece(m, &at), touch.signed_gap(m, &at));
+            let borders = touch.borders(m, &at, piece);
+            assert!(borders.iter().all(|b| b.value >= -1e-13), "{told}, {piece}: {borders:?}");
+            if let Some((old, before)) = last {
+                assert!((gap - before).abs() < 1.0001 * size * step, "{told}: {before} {gap}");
+                let crossed = |b: &freebody::contact::Border| b.beyond == piece && b.value <= 0.0;
+                assert!(old == piece || touch.borders(m, &at, old).iter().any(crossed), "{told}: {old} {piece}");
+                changes += usize::from(old != piece);
+            }
+            last = Some((piece, gap));
+        }
+    });
+    assert!(changes > 500, "{changes}");
+}
