@@ -1,11 +1,22 @@
 //! The way of a string and what is slack of it.
 
+use super::layout::Layout;
+use super::{Way, Winding};
 use crate::contact::{Border, Piece};
 use crate::gauges::Poses;
 use crate::mechanism::{Mechanism, Slot};
 use crate::scalar::Scalar;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A string between two ends.
+/// A string between two ends: without mass, of a length that does not change, pulling only, without friction where it is
+/// bent.
+///
+/// Its slack is its length less that of the shortest way along what it passes: straight stretches, arcs on pulleys, and what
+/// is wound on drums. A pulley it never leaves: the angle through which it turns there is taken between −90° and 270°.
+/// Where an end is pushed into its drum or a pulley, the stretch to it has no length.
+///
+/// A drum may turn, and be gone round by the string, any number of times: bodies' angles are never wrapped, and how often the
+/// string has swung round is part of the piece.
 #[derive(Clone, Debug)]
 pub struct Cord {
     /// Its ends.
@@ -53,21 +64,78 @@ pub enum Guide {
     },
 }
 
+/// Swing of a string, rad, from the direction nearest to which it is counted, after which it is counted from the next one,
+/// half a turn on. Above a quarter turn, lest it go to and fro between the two.
+const SWUNG: f64 = 0.75 * PI;
+
+/// How far beyond a border, m, a configuration is still taken to be on it.
+const ON_BORDER: f64 = 1e-10;
+
+/// Borders that a configuration may lie beyond at once.
+const MOST_BORDERS: usize = 8;
+
 impl Cord {
-    /// What is slack, m.
-    pub fn gap<T: Scalar>(&self, _m: &Mechanism, _poses: &impl Poses<T>, _piece: Piece) -> T {
-        todo!()
+    /// What is slack, m: 0 where the string is taut. Along its gradient the ends are pulled together.
+    pub fn gap<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: Piece) -> T {
+        let length = self.length.map_or(T::of(piece.phase[2]), |slot| poses.slot(slot));
+        length - Layout::new(self, m, poses, Winding::of(piece.index), piece.phase).length()
     }
-    /// How it is wound at a configuration, given how it was.
-    pub fn piece(&self, _m: &Mechanism, _poses: &impl Poses<f64>, _last: Piece) -> usize {
-        todo!()
+
+    /// How it is wound at a configuration, given how it was: the number of a [`Winding`]. At the start it was wound by 0.
+    pub fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>, last: Piece) -> usize {
+        let mut piece = last;
+        for _ in 0..MOST_BORDERS {
+            match self.borders(m, poses, piece).iter().find(|border| border.value < -ON_BORDER) {
+                Some(border) => piece.index = border.beyond,
+                None => break,
+            }
+        }
+        piece.index
     }
-    /// Where that ends.
-    pub fn borders(&self, _m: &Mechanism, _poses: &impl Poses<f64>, _piece: Piece) -> Vec<Border> {
-        todo!()
+
+    /// Where that ends: the last of the string leaves a drum, or the string is laid against it; or the string has swung
+    /// round a drum so far that its direction is counted from another one, which changes no length.
+    pub fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: Piece) -> Vec<Border> {
+        let winding = Winding::of(piece.index);
+        let layout = Layout::new(self, m, poses, winding, piece.phase);
+        let mut borders = vec![];
+        for (number, (end, leave)) in self.ends.iter().zip(&layout.leaves).enumerate() {
+            let (End::Wound { sense, .. }, Some(leave)) = (end, leave) else { continue };
+            let mut add = |angle: f64, way: Way, direction: f64| {
+                let beyond = winding.with(number, way, direction).index();
+                borders.push(Border { value: leave.radius * angle, beyond });
+            };
+            if winding.ways[number] == Way::Pivot {
+                let aside = sense * FRAC_PI_2;
+                add(FRAC_PI_2 - leave.turn, Way::Wound, leave.attached + aside);
+                add(FRAC_PI_2 + leave.turn, Way::Back, leave.attached - aside);
+            } else {
+                let (way, from) = (winding.ways[number], winding.near(number));
+                let swung = leave.direction - from;
+                add(leave.wound / leave.radius, Way::Pivot, 0.0);
+                add(SWUNG - swung, way, from + PI);
+                add(SWUNG + swung, way, from - PI);
+            }
+        }
+        borders
     }
-    /// Directions in which its ends are attached and its length, from the configuration at the start.
-    pub fn phases(&self, _m: &Mechanism, _poses: &impl Poses<f64>) -> [f64; 3] {
-        todo!()
+
+    /// The bodies on which its slack depends, ground left out, each once.
+    pub fn bodies(&self, m: &Mechanism) -> Vec<usize> {
+        let mut bodies: Vec<usize> = self.sites().map(|site| m.body_of(site)).filter(|&body| body > 0).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
+    }
+
+    /// The sites of its ends, the first and the last, and of what it passes.
+    pub(crate) fn sites(&self) -> impl Iterator<Item = usize> + '_ {
+        let end = |end: &End| match *end {
+            End::Tied(site) | End::Wound { centre: site, .. } => site,
+        };
+        let guides = self.over.iter().map(|guide| match *guide {
+            Guide::Eyelet(site) | Guide::Pulley { centre: site, .. } => site,
+        });
+        std::iter::once(end(&self.ends[0])).chain(guides).chain(std::iter::once(end(&self.ends[1])))
     }
 }

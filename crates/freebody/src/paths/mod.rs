@@ -1,5 +1,15 @@
 //! Strings: inextensible, without mass, pulling only; over eyelets and pulleys, wound on drums.
+//!
+//! A string is told as circles and points that it touches in turn (`tangent.rs`), laid out at one configuration
+//! (`layout.rs`). How its ends are wound (`winding.rs`) is the piece on which its slack is told.
 
 mod cord;
+mod layout;
+mod outline;
+mod start;
+mod tangent;
+mod winding;
 
 pub use cord::{Cord, End, Guide};
+pub use outline::{Outline, Stretch};
+pub use winding::{Way, Winding};

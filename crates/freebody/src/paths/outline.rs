@@ -1,0 +1,86 @@
+//! How a string is drawn, and where its length is.
+
+use super::layout::Layout;
+use super::{Cord, Guide, Way, Winding};
+use crate::contact::Piece;
+use crate::gauges::Poses;
+use crate::mechanism::Mechanism;
+use crate::plane::{vec2, Vec2};
+use std::f64::consts::FRAC_PI_2;
+
+/// A string at one configuration, drawn as if it were taut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Its stretches, from its first end to its second.
+    pub stretches: Vec<Stretch>,
+    /// Length of the straight stretches, m.
+    pub free_length: f64,
+    /// Length on pulleys, m.
+    pub over_length: f64,
+    /// Length on the drum at each end, m.
+    pub wound_length: [f64; 2],
+}
+
+/// A straight stretch of a string, or an arc; in fixed axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stretch {
+    /// A straight line.
+    Straight {
+        /// Where it begins.
+        from: Vec2,
+        /// Where it ends.
+        to: Vec2,
+    },
+    /// An arc; of several turns where it is wound so.
+    Arc {
+        /// Its centre.
+        centre: Vec2,
+        /// Its radius, m.
+        radius: f64,
+        /// Direction from the centre to where it begins, rad.
+        from: f64,
+        /// Direction to where it ends, rad; below `from` where it runs clockwise.
+        to: f64,
+    },
+}
+
+impl Cord {
+    /// Its stretches and their lengths.
+    pub fn outline(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: Piece) -> Outline {
+        let winding = Winding::of(piece.index);
+        let layout = Layout::new(self, m, poses, winding, piece.phase);
+        let centre = |i: usize| {
+            let round = &layout.rounds[i];
+            poses.pose(m.body_of(round.site)).place(poses.arm(round.site)) + round.off
+        };
+        let touch = |i: usize, angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            centre(i) + vec2(sin, -cos) * layout.rounds[i].radius
+        };
+        let drum = |end: usize| {
+            let leave = layout.leaves[end].as_ref().filter(|_| winding.ways[end] != Way::Pivot)?;
+            let rim = leave.direction - FRAC_PI_2.copysign(leave.turn);
+            let (from, to) = (leave.attached, rim);
+            let [from, to] = if end == 0 { [from, to] } else { [to, from] };
+            let centre = centre(if end == 0 { 0 } else { layout.rounds.len() - 1 });
+            Some(Stretch::Arc { centre, radius: leave.radius, from, to })
+        };
+        let mut stretches: Vec<Stretch> = drum(0).into_iter().collect();
+        for (i, free) in layout.free.iter().enumerate() {
+            if let Some(&Guide::Pulley { sense, .. }) = i.checked_sub(1).map(|before| &self.over[before]) {
+                let radius = layout.rounds[i].radius.abs();
+                let from = layout.free[i - 1].angle - sense * FRAC_PI_2;
+                let to = from + sense * layout.over[i - 1] / radius;
+                stretches.push(Stretch::Arc { centre: centre(i), radius, from, to });
+            }
+            stretches.push(Stretch::Straight { from: touch(i, free.angle), to: touch(i + 1, free.angle) });
+        }
+        stretches.extend(drum(1));
+        Outline {
+            stretches,
+            free_length: layout.free_length(),
+            over_length: layout.over_length(),
+            wound_length: [0, 1].map(|end| layout.leaves[end].as_ref().map_or(0.0, |leave| leave.wound)),
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Straight stretches of a string: common tangents of circles and points.
+
+use crate::gauges::Poses;
+use crate::mechanism::Mechanism;
+use crate::plane::Vec2;
+use crate::scalar::Scalar;
+use std::f64::consts::TAU;
+
+/// A circle that a string touches, or a point, which is a circle of radius 0.
+pub(super) struct Round<T> {
+    /// Site by which its centre is told.
+    pub site: usize,
+    /// The centre from that site, fixed axes, m.
+    pub off: Vec2<T>,
+    /// Radius, m; negative where the string, followed from its first end, goes round clockwise.
+    pub radius: T,
+}
+
+/// A straight stretch.
+pub(super) struct Free<T> {
+    /// Its length, m.
+    pub length: T,
+    /// Its direction, from the first end of the string towards the second, rad in fixed axes; known up to whole turns.
+    pub angle: T,
+}
+
+/// Distance of two points, m, below which a stretch between them has neither length nor direction.
+const NOTHING: f64 = 1e-12;
+
+/// Square of the free length over that of the distance of centres below which it is round-off.
+const TOUCHING: f64 = 1e-16;
+
+impl<T: Scalar> Round<T> {
+    /// A point at a site.
+    pub fn point(site: usize) -> Self {
+        Round { site, off: Vec2::zero(), radius: T::zero() }
+    }
+}
+
+impl<T: Scalar> Free<T> {
+    /// The common tangent from one circle to the next. With the tangent's unit vector t and n on its left, the points of
+    /// touch are c − r n, so that the vector of the centres is L t + (r₂ − r₁) n. Where a point lies on the rim, or has been
+    /// pushed within it, L keeps its least value: length and arc together are smooth there, though neither is alone.
+    pub fn between(m: &Mechanism, poses: &impl Poses<T>, a: &Round<T>, b: &Round<T>) -> Self {
+        let span = poses.span(a.site, b.site, m) + b.off - a.off;
+        let square = span.dot(span);
+        if square.value() < NOTHING * NOTHING {
+            return Free { length: T::zero(), angle: T::zero() };
+        }
+        let aside = b.radius - a.radius;
+        let (rest, least) = (square - aside * aside, square.value() * TOUCHING);
+        let length = T::select(rest.value() > least, rest, T::of(least)).sqrt();
+        Free { length, angle: span.y.atan2(span.x) - aside.atan2(length) }
+    }
+}
+
+/// An angle turned by whole turns to where it is nearest to another, rad.
+pub(super) fn near<T: Scalar>(angle: T, to: f64) -> T {
+    angle + T::of(TAU * ((to - angle.value()) / TAU).round())
+}
