@@ -1,7 +1,7 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
 use crate::joints::Joint as _;
-use crate::mechanism::{Joint, Level, Mechanism};
+use crate::mechanism::{Joint, Level, Mechanism, Part};
 use crate::numbers::Numbers;
 use serde_json::{json, Map, Value};
 
@@ -17,6 +17,8 @@ pub fn describe(m: &Mechanism) -> Value {
         "joints": m.joints.iter().map(|j| joint(m, j)).collect::<Vec<_>>(),
         "forces": m.forces.iter().map(|f| json!({"name": f.name, "type": f.word, "conservative": f.potential.is_some()})).collect::<Vec<_>>(),
         "motions": motions(m),
+        "limits": m.groups.iter().map(|g| json!({"name": g.name, "type": g.word, "engaged": g.engaged,
+            "first": m.bodies[g.ends[0]].name, "second": m.bodies[g.ends[1]].name})).collect::<Vec<_>>(),
         "events": m.events.iter().map(|e| &e.name).collect::<Vec<_>>(),
         "freedom": count(m),
         "notes": notes(m, &numbers),
@@ -91,9 +93,12 @@ fn motions(m: &Mechanism) -> Vec<Value> {
 /// Grübler's count: coordinates of the bodies less rows of the joints and couplings.
 fn count(m: &Mechanism) -> Value {
     let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
-    let couplings = m.drives.iter().filter(|d| d.coupling).count();
-    let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
-    json!({"count": bodies as i64 - rows as i64, "bodies": bodies, "rows": rows, "driven": m.drives.len() - couplings})
+    let there = |part: Part| !m.idle.contains(&part);
+    let drives = || (0..m.drives.len()).filter(|&d| there(Part::Drive(d)));
+    let couplings = drives().filter(|&d| m.drives[d].coupling).count();
+    let joints = (0..m.joints.len()).filter(|&j| there(Part::Joint(j)));
+    let rows = joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings;
+    json!({"count": bodies as i64 - rows as i64, "bodies": bodies, "rows": rows, "driven": drives().count() - couplings})
 }
 
 /// What is modelled, ignored and assumed.
@@ -112,10 +117,11 @@ fn notes(m: &Mechanism, n: &Numbers) -> Vec<String> {
         0.0 => notes.push("No gravity acts in the plane.".to_string()),
         _ => notes.push(format!("Gravity is ({}, {}) m/s².", n.gravity.x, n.gravity.y)),
     }
-    notes.push(
-        "Bodies are rigid, joints are ideal: no friction, no clearance, no contact between bodies that no joint joins."
-            .to_string(),
-    );
+    notes.push("Bodies are rigid, joints are ideal: no friction, no clearance.".to_string());
+    notes.push(match m.groups.is_empty() {
+        true => "Bodies that no joint joins pass through each other: there are no contacts.".to_string(),
+        false => "Only what a contact, stop or string names can touch or hold; all else passes through.".to_string(),
+    });
     if !m.closures.is_empty() {
         let names: Vec<_> = m.closures.iter().map(|&j| format!("`{}`", m.joints[j].name)).collect();
         notes.push(format!(

@@ -1,7 +1,9 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
 use super::{force_power, force_value, Balance, JointLoad, Route, Sizes, Trouble};
-use crate::gauges::{Axis, Law, Leaf, Observed, Reading};
+use crate::gauges::{Axis, Bound, Law, Leaf, Observed, Reading};
+use crate::mode::Hold;
+use crate::plane::Vec2;
 
 /// Everything about one instant.
 #[derive(Clone, Debug)]
@@ -26,6 +28,50 @@ pub struct Instant {
     pub sizes: Sizes,
     /// Ways in which joints can load each other, in words.
     pub self_stress: Vec<String>,
+    /// What each contact, stop and string does.
+    pub limits: Vec<LimitLoad>,
+}
+
+/// What a contact, stop or string does.
+#[derive(Clone, Debug)]
+pub struct LimitLoad {
+    /// One word: `off`, `open`, `closed`, `stuck`, `sliding`.
+    pub state: &'static str,
+    /// Least gap, m.
+    pub gap: f64,
+    /// Force along the gaps, and along the tangent on the first body, N.
+    pub along: [f64; 2],
+    /// Force on the first body, N, fixed axes.
+    pub force: Vec2,
+    /// Where the resultant of the normal forces acts; None where it is open, or no contact.
+    pub at: Option<Vec2>,
+}
+
+impl Balance<'_> {
+    /// What every contact, stop and string does in the last solution.
+    pub fn limit_loads(&self) -> Vec<LimitLoad> {
+        (0..self.m.groups.len()).map(|g| self.limit_load(g)).collect()
+    }
+
+    fn limit_load(&self, group: usize) -> LimitLoad {
+        let holds = || self.m.groups[group].limits.clone().map(|l| self.mode.limits[l].hold);
+        let state = match () {
+            _ if holds().all(|h| h == Hold::Off) => "off",
+            _ if holds().any(|h| matches!(h, Hold::Sliding(_))) => "sliding",
+            _ if holds().any(|h| h == Hold::Stuck) => "stuck",
+            _ if holds().any(|h| h.is_closed()) => "closed",
+            _ => "open",
+        };
+        let read = |bound| self.read_limit(group, bound);
+        let at = self.resultant_at(group);
+        LimitLoad {
+            state,
+            gap: read(Bound::Gap),
+            along: [read(Bound::Force), read(Bound::Friction)],
+            force: self.force_on_first(group),
+            at: at.x.is_finite().then_some(at),
+        }
+    }
 }
 
 impl Balance<'_> {
@@ -52,7 +98,9 @@ impl Balance<'_> {
         let stresses = self.self_stresses();
         let (determinate, drives_determinate) = self.determinate(&stresses);
         let self_stress = stresses.iter().map(|s| self.tell(s)).collect();
+        let limits = self.limit_loads();
         Ok(Instant {
+            limits,
             accelerations,
             bodies,
             joints,
@@ -81,10 +129,11 @@ impl<'b, 'm> Observer<'b, 'm> {
         for law in laws {
             needs_solution |= law.depends_on_accelerations();
             for leaf in law.leaves() {
-                if let Leaf::Reading(Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_)) = leaf {
-                    needs_solution = true;
-                    needs_reactions = true;
-                }
+                let Leaf::Reading(reading) = leaf else { continue };
+                needs_reactions |=
+                    matches!(reading, Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_));
+                needs_solution |= matches!(reading, Reading::Limit(_, bound) if !bound.is_geometric());
+                needs_solution |= needs_reactions;
             }
         }
         Observer { balance, needs_solution, needs_reactions }
@@ -138,6 +187,8 @@ impl<'b, 'm> Observer<'b, 'm> {
                 Reading::AngularMomentum(site) => b.angular_momentum(b.site(site)),
                 Reading::Centre(Axis::X) => b.mass_centre().x,
                 Reading::Centre(_) => b.mass_centre().y,
+                Reading::Limit(group, bound) => b.read_limit(group, bound),
+                Reading::FrictionWork => works.get(b.m.forces.len() + b.m.drives.len()).copied().unwrap_or(0.0),
             }
         };
         let observed = Observed { at: b.at(), bodies: &b.solved().bodies, accelerations: &accelerations, read: &read };

@@ -7,7 +7,7 @@
 use super::minimal::Force;
 use super::reactions::joint_load;
 use super::rows::{closing_rows, gap_row, slide_row};
-use super::{project, Balance, JointLoad, Row, Source, Trouble};
+use super::{project, Balance, JointLoad, Row, Trouble};
 use crate::contact::complementarity::{self, Answer, Grip, Problem, Status, Strike, Verdict};
 use crate::contact::Friction;
 use crate::mode::Hold;
@@ -148,6 +148,25 @@ impl Balance<'_> {
         }
     }
 
+    /// Lets the limits hold that are reached at the present state, for an instant by itself: nothing strikes.
+    ///
+    /// # Errors
+    /// `penetration`; as [`Balance::hold`].
+    pub fn lean(&mut self) -> Result<(), Trouble> {
+        if self.m.limits.is_empty() {
+            return Ok(());
+        }
+        self.start_limits()?;
+        let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
+        let touching = self.touching(1e-9 * self.length);
+        let reached = self.reach(touching)?;
+        let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
+        let reached = self.reach(staying)?;
+        let holding = self.hold(&reached, &reached.slips(), still)?;
+        self.take(&reached, &holding);
+        Ok(())
+    }
+
     /// Takes the holds found.
     pub fn take(&mut self, reached: &Reached, holding: &Holding) {
         for (&l, &hold) in reached.limits.iter().zip(&holding.holds) {
@@ -284,37 +303,6 @@ impl Balance<'_> {
         }
         let passed = self.passed(needed, lambda);
         (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &passed, &self.rows, lambda)).collect()
-    }
-
-    /// Of every limit the force along its gap and its slide in the last solution, N.
-    pub fn limit_forces(&self) -> Vec<[f64; 2]> {
-        let mut forces = vec![[0.0; 2]; self.m.limits.len()];
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
-            match row.source {
-                Source::Limit(l) => {
-                    let rub = match (self.mode.limits[l].hold, self.m.limits[l].friction) {
-                        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => -sense * self.n.slots[kinetic],
-                        _ => 0.0,
-                    };
-                    forces[l] = [lambda, forces[l][1] + rub * lambda];
-                }
-                Source::Friction(l) => forces[l][1] = lambda,
-                _ => {}
-            }
-        }
-        forces
-    }
-
-    /// Power of all friction in the last solution, W; never positive.
-    pub fn friction_power(&self) -> f64 {
-        let rubs = self.rows.iter().zip(&self.solved.lambda).filter(|(row, _)| matches!(row.source, Source::Limit(_)));
-        let power = |loads: &super::Spread<f64>| -> f64 { loads.iter().map(|(b, w)| w.power(self.k.twist[*b])).sum() };
-        rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum()
-    }
-
-    /// The speed of sliding of a limit at the present state, m/s; 0 where it cannot rub.
-    pub fn slide_rate(&self, limit: usize) -> f64 {
-        slide_row(self.at(), limit, None).and_then(|row| row.rate).unwrap_or(0.0)
     }
 }
 

@@ -10,6 +10,7 @@
 mod constraints;
 mod energy;
 mod gaps;
+mod holding;
 mod instant;
 mod limits;
 mod load;
@@ -23,7 +24,7 @@ mod sizes;
 mod sweep;
 mod teeth;
 
-pub use instant::{Instant, Observer};
+pub use instant::{Instant, LimitLoad, Observer};
 pub use limits::{Blow, Holding, Reached};
 pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};

@@ -7,6 +7,7 @@ use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Row, Source};
+use crate::mechanism::Part;
 use crate::plane::Wrench;
 use crate::solve::{Matrix, Orthogonal};
 
@@ -93,8 +94,10 @@ impl Balance<'_> {
     pub fn freedom(&mut self) -> Freedom {
         let m = self.m;
         let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
-        let couplings = m.drives.iter().filter(|d| d.coupling).count();
-        let rows = m.joints.iter().map(|j| j.rows.len()).sum::<usize>() + couplings;
+        let drives = || (0..m.drives.len()).filter(|&d| self.mode.has(Part::Drive(d)));
+        let couplings = drives().filter(|&d| m.drives[d].coupling).count();
+        let joints = (0..m.joints.len()).filter(|&j| self.mode.has(Part::Joint(j)));
+        let (rows, driven) = (joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings, drives().count() - couplings);
         let (rank, uncertain) = self.closing_rank();
         let closing = self.geometric().len();
         let redundant = closing - rank;
@@ -105,7 +108,7 @@ impl Balance<'_> {
             rows,
             redundant,
             always_redundant,
-            driven: m.drives.len() - couplings,
+            driven,
             uncertain,
         }
     }

@@ -1,10 +1,9 @@
 //! Couplings and motions, forces, events.
 
-use super::{twice, CompileError, Compiler, Fields, Names, Reach, Result};
+use super::{twice, CompileError, Compiler, Fields, Reach, Result};
 use crate::gauges::{Law, Leaf};
 use crate::joints::{Card, FieldKind, Role};
-use crate::mechanism::{Deed, Drive, Event, Level};
-use crate::spec::Action;
+use crate::mechanism::{Drive, Level};
 
 /// The card of a coupling, which joins gauges rather than bodies.
 pub fn coupling_card() -> Card {
@@ -64,7 +63,7 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    fn drive(&mut self, path: &str, drive: Drive) -> Result<()> {
+    pub(super) fn drive(&mut self, path: &str, drive: Drive) -> Result<()> {
         let taken = self.names.joints.contains_key(&drive.name);
         if taken || self.names.drives.insert(drive.name.clone(), self.m.drives.len()).is_some() {
             return Err(twice(path, &drive.name));
@@ -101,45 +100,6 @@ impl Compiler<'_> {
                 return Err(twice(path, &force.name));
             }
             self.m.forces.push(force);
-        }
-        Ok(())
-    }
-
-    pub(crate) fn events(&mut self) -> Result<()> {
-        for event in &self.spec.events {
-            let path = format!("events.{}", event.name);
-            let when = self.law(&format!("{path}.when"), &event.when, Reach::Instant)?;
-            let condition = match &event.condition {
-                Some(text) => {
-                    Some(self.scope(Reach::Instant).condition(text).map_err(|e| Names::complaint(&path, text, e))?)
-                }
-                None => None,
-            };
-            let mut then = vec![];
-            for action in &event.then {
-                match action {
-                    Action::Stop => then.push(Deed::Stop),
-                    Action::Set(values) => {
-                        for (name, text) in values {
-                            let known = self.names.parameters.keys();
-                            let missing = || CompileError::from(&path, super::names::unknown("parameter", name, known));
-                            let p = *self.names.parameters.get(name).ok_or_else(missing)?;
-                            then.push(Deed::Set(p, self.law(&path, text, Reach::Instant)?));
-                        }
-                    }
-                    Action::Release(_) | Action::Engage(_) | Action::Lock(_) | Action::Unlock(_) | Action::Reset(_) => {
-                    }
-                }
-            }
-            self.m.events.push(Event {
-                name: event.name.clone(),
-                when,
-                direction: event.direction,
-                condition,
-                opening: event.opening,
-                guard: event.guard,
-                then,
-            });
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! From the model as data to the mechanism: names resolved, numbers in slots, the tree chosen.
 
 mod elements;
+mod events;
 mod fields;
 mod joints;
 mod names;
@@ -77,7 +78,9 @@ impl Compiled {
         c.joints(&elements, &branches)?;
         c.gauges()?;
         c.drives()?;
+        c.locks()?;
         c.forces()?;
+        c.idle()?;
         c.events()?;
         c.find_kinks();
         Ok(Compiled { mechanism: c.m, names: c.names })

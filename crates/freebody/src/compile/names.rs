@@ -2,7 +2,7 @@
 
 use super::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
-use crate::gauges::{Axis, Law, Leaf, Reading};
+use crate::gauges::{Axis, Bound, Law, Leaf, Reading};
 use crate::joints::{Joint as _, Kind};
 use crate::mechanism::Marker;
 use std::collections::HashMap;
@@ -32,6 +32,8 @@ pub struct Names {
     pub drives: HashMap<String, usize>,
     /// Forces.
     pub forces: HashMap<String, usize>,
+    /// Contacts, stops and strings.
+    pub groups: HashMap<String, usize>,
 }
 
 /// How much an expression may read; each level includes those before.
@@ -75,6 +77,7 @@ const READINGS: &[(&str, usize)] = &[
     ("angular_momentum", 1),
     ("centre_x", 0),
     ("centre_y", 0),
+    ("friction_work", 0),
 ];
 
 /// Functions of places and bodies: name, what may read them.
@@ -173,6 +176,11 @@ impl Scope<'_> {
                 "work" => Reading::ForceWork(force),
                 _ => return Some(Err(parts(owner, "value, power and work"))),
             }
+        } else if let Some(&group) = n.groups.get(owner) {
+            match bound(part) {
+                Some(bound) => Reading::Limit(group, bound),
+                None => return Some(Err(parts(owner, "gap, F, N, T, Fx, Fy, x, y, slip (and tension for a string)"))),
+            }
         } else {
             return None;
         };
@@ -255,6 +263,7 @@ impl Scope<'_> {
             "momentum_y" => read(Reading::Momentum(Axis::Y)),
             "centre_x" => read(Reading::Centre(Axis::X)),
             "centre_y" => read(Reading::Centre(Axis::Y)),
+            "friction_work" => read(Reading::FrictionWork),
             _ => read(Reading::AngularMomentum(self.place(&a[0])?)),
         })
     }
@@ -341,6 +350,22 @@ impl expr::Scope<Leaf> for Scope<'_> {
         *self.switches += 1;
         *self.switches - 1
     }
+}
+
+/// What a word after the name of a contact, stop or string stands for.
+fn bound(part: &str) -> Option<Bound> {
+    Some(match part {
+        "gap" | "slack" => Bound::Gap,
+        "N" | "tension" => Bound::Force,
+        "T" => Bound::Friction,
+        "F" => Bound::OnFirst(Axis::Size),
+        "Fx" => Bound::OnFirst(Axis::X),
+        "Fy" => Bound::OnFirst(Axis::Y),
+        "x" => Bound::Place(Axis::X),
+        "y" => Bound::Place(Axis::Y),
+        "slip" => Bound::Slip,
+        _ => return None,
+    })
 }
 
 /// 2 for `F2`.

@@ -18,6 +18,8 @@ pub(crate) struct Pair {
     pub kind: Kind,
     /// Names of the two bodies.
     pub ends: [String; 2],
+    /// Whether it is there all the time.
+    pub stays: bool,
 }
 
 /// All joints but couplings, pins shared by several bodies as one pair each.
@@ -28,13 +30,14 @@ pub(crate) fn joints_of(spec: &Spec) -> Result<Vec<Pair>> {
         let path = format!("joints.{}", element.name);
         let kind = Kind::named(&element.kind).ok_or_else(|| no_such_joint(&path, &element.kind))?;
         let card = kind.card();
+        let stays = super::events::stays(spec, element);
         for element in separate(element, &card, &bodies) {
             let ends = [end(spec, &bodies, &element, &card, 0, &path)?, end(spec, &bodies, &element, &card, 1, &path)?];
             if ends[0] == ends[1] {
                 let what = format!("both sides of this joint are on `{}`", ends[0]);
                 return Err(CompileError::new(path, what, "a joint needs two different bodies"));
             }
-            pairs.push(Pair { element, path: path.clone(), kind, ends });
+            pairs.push(Pair { element, path: path.clone(), kind, ends, stays });
         }
     }
     Ok(pairs)
@@ -118,7 +121,7 @@ fn end(
 /// How much a joint is wanted in the tree; None when it can only close loops.
 fn rank(pair: &Pair) -> [Option<u32>; 2] {
     let card = pair.kind.card();
-    if card.coordinates.len() + card.rows.len() != 3 {
+    if card.coordinates.len() + card.rows.len() != 3 || !pair.stays {
         return [None, None];
     }
     let on_curve = card.fields.iter().any(|f| f.kind == FieldKind::Curve);

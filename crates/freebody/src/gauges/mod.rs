@@ -9,7 +9,7 @@ mod place;
 mod reading;
 
 pub use place::{gradient, jet, Config, Moving, Placed, Poses, Seeded, State};
-pub use reading::{Axis, Observed, Reading};
+pub use reading::{Axis, Bound, Observed, Reading};
 
 use crate::expr::Expr;
 

@@ -31,6 +31,34 @@ pub enum Reading {
     AngularMomentum(usize),
     /// Mass centre of all bodies.
     Centre(Axis),
+    /// Something of a contact, stop or string.
+    Limit(usize, Bound),
+    /// Work of all friction since the start.
+    FrictionWork,
+}
+
+/// Something of a contact, stop or string.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// Its least gap; what is slack of a string.
+    Gap,
+    /// The force along the gap, all touches together: normal force, tension, force of a stop.
+    Force,
+    /// The friction force on the first body along the tangent, all touches together.
+    Friction,
+    /// A component of the force on the first body.
+    OnFirst(Axis),
+    /// A coordinate of the place where the resultant of the normal forces acts.
+    Place(Axis),
+    /// The speed of sliding of the first body; 0 where it does not touch.
+    Slip,
+}
+
+impl Bound {
+    /// Whether it is known without the forces.
+    pub fn is_geometric(self) -> bool {
+        matches!(self, Bound::Gap | Bound::Slip)
+    }
 }
 
 /// A component of a vector or of a load.

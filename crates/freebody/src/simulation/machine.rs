@@ -174,11 +174,14 @@ impl<'m> Machine<'m> {
         Ok(observer.read(laws, &works))
     }
 
-    /// The works in the state vector, spread over all forces, then all drives.
+    /// The works in the state vector, spread over all forces, then all drives, then that of friction.
     pub(super) fn works(&self, y: &[f64]) -> Vec<f64> {
         let m = self.balance.m;
-        let mut works = vec![0.0; m.forces.len() + m.drives.len()];
+        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
         let tail = &y[2 * m.freedom()..];
+        if self.rubs {
+            works[m.forces.len() + m.drives.len()] = tail[tail.len() - 1];
+        }
         for (i, &f) in self.worked.iter().enumerate() {
             works[f] = tail[i];
         }

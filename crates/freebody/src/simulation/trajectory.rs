@@ -186,7 +186,10 @@ impl Trajectory {
     /// Works since the start of all forces without a potential, then of all drives.
     fn works(&self, m: &Mechanism, y: &[f64]) -> Vec<f64> {
         let tail = &y[2 * m.freedom()..];
-        let mut works = vec![0.0; m.forces.len() + m.drives.len()];
+        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
+        if self.rubs {
+            works[m.forces.len() + m.drives.len()] = tail[tail.len() - 1];
+        }
         for (i, &f) in self.worked.iter().enumerate() {
             works[f] = tail[i];
         }

@@ -1,0 +1,90 @@
+//! What limits do in the last solution.
+
+use super::limits::force_on_first;
+use super::rows::slide_row;
+use super::{Balance, Source, Spread};
+use crate::contact::Friction;
+use crate::gauges::{Axis, Bound};
+use crate::mode::Hold;
+use crate::plane::Vec2;
+
+impl Balance<'_> {
+    /// Of every limit the force along its gap and its slide in the last solution, N.
+    pub fn limit_forces(&self) -> Vec<[f64; 2]> {
+        let mut forces = vec![[0.0; 2]; self.m.limits.len()];
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            match row.source {
+                Source::Limit(l) => {
+                    let rub = match (self.mode.limits[l].hold, self.m.limits[l].friction) {
+                        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => -sense * self.n.slots[kinetic],
+                        _ => 0.0,
+                    };
+                    forces[l] = [lambda, forces[l][1] + rub * lambda];
+                }
+                Source::Friction(l) => forces[l][1] = lambda,
+                _ => {}
+            }
+        }
+        forces
+    }
+
+    /// Power of all friction in the last solution, W; never positive.
+    pub fn friction_power(&self) -> f64 {
+        let rubs = self.rows.iter().zip(&self.solved.lambda).filter(|(row, _)| matches!(row.source, Source::Limit(_)));
+        let power = |loads: &Spread<f64>| -> f64 { loads.iter().map(|(b, w)| w.power(self.k.twist[*b])).sum() };
+        rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum()
+    }
+
+    /// The speed of sliding of a limit at the present state, m/s; 0 where it cannot rub.
+    pub fn slide_rate(&self, limit: usize) -> f64 {
+        slide_row(self.at(), limit, None).and_then(|row| row.rate).unwrap_or(0.0)
+    }
+
+    /// Something of a contact, stop or string.
+    pub(super) fn read_limit(&self, group: usize, bound: Bound) -> f64 {
+        let limits = || self.m.groups[group].limits.clone();
+        let closed = |l: &usize| self.mode.limits[*l].hold.is_closed();
+        match bound {
+            Bound::Gap => limits().map(|l| self.open_gap(l)).fold(f64::INFINITY, f64::min),
+            Bound::Slip => limits().filter(closed).map(|l| self.slide_rate(l)).next().unwrap_or(0.0),
+            Bound::Force => limits().map(|l| self.limit_forces()[l][0]).sum(),
+            Bound::Friction => limits().map(|l| self.limit_forces()[l][1]).sum(),
+            Bound::OnFirst(axis) => component(self.force_on_first(group), axis),
+            Bound::Place(axis) => component(self.resultant_at(group), axis),
+        }
+    }
+
+    /// The force of a contact on its first body, of a string on its first end, N, fixed axes.
+    pub fn force_on_first(&self, group: usize) -> Vec2 {
+        let mut sum = Vec2::zero();
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if let Source::Limit(l) | Source::Friction(l) = row.source {
+                if self.m.limits[l].group == group {
+                    sum += force_on_first(self.m, l, row.loads()) * lambda;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Where the resultant of a contact's normal forces acts; NaN where it does not touch.
+    pub fn resultant_at(&self, group: usize) -> Vec2 {
+        let (forces, mut sum, mut all) = (self.limit_forces(), Vec2::zero(), 0.0);
+        for l in self.m.groups[group].limits.clone() {
+            let piece = self.mode.limits[l].piece;
+            if let Some(contact) = self.m.limits[l].gap.contact(self.m, &self.at(), piece) {
+                sum += contact.point * forces[l][0];
+                all += forces[l][0];
+            }
+        }
+        sum * (1.0 / all)
+    }
+}
+
+fn component(v: Vec2, axis: Axis) -> f64 {
+    match axis {
+        Axis::X => v.x,
+        Axis::Y => v.y,
+        _ => v.norm(),
+    }
+}

@@ -1,0 +1,139 @@
+//! Events and what they do; parts that are released and engaged.
+
+use super::{names::unknown, CompileError, Compiler, Names, Reach, Result};
+use crate::gauges::Law;
+use crate::mechanism::{Deed, Drive, Event, Level, Part};
+use crate::spec::{Action, Element, Event as EventSpec, Spec};
+
+/// Whether a joint is there all the time; one that comes or goes cannot be in the tree.
+pub(super) fn stays(spec: &Spec, joint: &Element) -> bool {
+    let switched = |action: &Action| match action {
+        Action::Release(names) | Action::Engage(names) => names.contains(&joint.name),
+        _ => false,
+    };
+    joint.engaged && !spec.events.iter().flat_map(|event| &event.then).any(switched)
+}
+
+impl Compiler<'_> {
+    /// A row for every gauge that an event locks; it holds only from then on.
+    pub(crate) fn locks(&mut self) -> Result<()> {
+        for event in &self.spec.events {
+            let path = format!("events.{}.then", event.name);
+            for action in &event.then {
+                let Action::Lock(texts) = action else { continue };
+                for text in texts {
+                    let name = lock(text);
+                    if self.names.drives.contains_key(&name) {
+                        continue;
+                    }
+                    let of = self.law(&path, text, Reach::Configuration)?;
+                    self.m.idle.push(Part::Drive(self.m.drives.len()));
+                    let (law, level) = (Law::constant(0.0), Level::Velocity);
+                    self.drive(&path, Drive { name, coupling: true, of, law, level, by: None, feedback: false })?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn events(&mut self) -> Result<()> {
+        for event in &self.spec.events {
+            let path = format!("events.{}", event.name);
+            let when = self.law(&format!("{path}.when"), &event.when, Reach::Instant)?;
+            let condition = match &event.condition {
+                Some(text) => {
+                    Some(self.scope(Reach::Instant).condition(text).map_err(|e| Names::complaint(&path, text, e))?)
+                }
+                None => None,
+            };
+            let then = self.deeds(event, &format!("{path}.then"))?;
+            let (name, direction) = (event.name.clone(), event.direction);
+            let (opening, guard) = (event.opening, event.guard);
+            self.m.events.push(Event { name, when, direction, condition, opening, guard, then });
+        }
+        Ok(())
+    }
+
+    fn deeds(&mut self, event: &EventSpec, path: &str) -> Result<Vec<Deed>> {
+        let mut deeds = vec![];
+        for action in &event.then {
+            match action {
+                Action::Stop => deeds.push(Deed::Stop),
+                Action::Set(values) => {
+                    for (name, text) in values {
+                        let known = self.names.parameters.keys();
+                        let missing = || CompileError::from(path, unknown("parameter", name, known));
+                        let p = *self.names.parameters.get(name).ok_or_else(missing)?;
+                        deeds.push(Deed::Set(p, self.law(path, text, Reach::Instant)?));
+                    }
+                }
+                Action::Release(names) => deeds.extend(self.parts(path, names)?.into_iter().map(Deed::Release)),
+                Action::Engage(names) => deeds.extend(self.parts(path, names)?.into_iter().map(Deed::Engage)),
+                Action::Lock(texts) => deeds.extend(self.locked(path, texts)?.into_iter().map(Deed::Engage)),
+                Action::Unlock(texts) => deeds.extend(self.locked(path, texts)?.into_iter().map(Deed::Release)),
+                Action::Reset(rates) => {
+                    for (gauge, rate) in rates {
+                        let of = self.law(path, gauge, Reach::Configuration)?;
+                        deeds.push(Deed::Reset(of, self.law(path, rate, Reach::Instant)?));
+                    }
+                }
+            }
+        }
+        Ok(deeds)
+    }
+
+    fn parts(&self, path: &str, names: &[String]) -> Result<Vec<Part>> {
+        names.iter().map(|name| self.part(path, name)).collect()
+    }
+
+    /// The part of a name; a joint must close a loop to be released.
+    pub(crate) fn part(&self, path: &str, name: &String) -> Result<Part> {
+        let n = &self.names;
+        if let Some(&(joint, _)) = n.joints.get(name) {
+            if self.m.joints[joint].child.is_some() {
+                let what = format!("`{name}` carries a coordinate along a curve and cannot be released or engaged");
+                return Err(CompileError::new(path, what, "use a link, a slot or a contact in its place"));
+            }
+            return Ok(Part::Joint(joint));
+        }
+        let others = [
+            n.drives.get(name).map(|&i| Part::Drive(i)),
+            n.forces.get(name).map(|&i| Part::Force(i)),
+            n.groups.get(name).map(|&i| Part::Group(i)),
+        ];
+        if let Some(part) = others.into_iter().flatten().next() {
+            return Ok(part);
+        }
+        let known = n.joints.keys().chain(n.drives.keys()).chain(n.forces.keys()).chain(n.groups.keys());
+        let what = "joint, motion, force, contact, stop or string";
+        Err(CompileError::from(path, unknown(what, name, known)))
+    }
+
+    fn locked(&self, path: &str, texts: &[String]) -> Result<Vec<Part>> {
+        let find = |text: &String| {
+            let missing = || {
+                let what = format!("`{text}` is unlocked here, but nothing locks it");
+                CompileError::new(path, what, "write it as in the action that locks it")
+            };
+            self.names.drives.get(&lock(text)).map(|&d| Part::Drive(d)).ok_or_else(missing)
+        };
+        texts.iter().map(find).collect()
+    }
+
+    /// The parts that are not there at the start.
+    pub(crate) fn idle(&mut self) -> Result<()> {
+        let joints = self.spec.joints.iter().filter(|e| !e.engaged).map(|e| ("joints", &e.name));
+        let motions = self.spec.motions.iter().filter(|m| !m.engaged).map(|m| ("motions", &m.name));
+        let forces = self.spec.forces.iter().filter(|f| !f.engaged).map(|f| ("forces", &f.name));
+        for (section, name) in joints.chain(motions).chain(forces) {
+            let part = self.part(&format!("{section}.{name}"), name)?;
+            self.m.idle.push(part);
+        }
+        Ok(())
+    }
+}
+
+/// The name of the row that locks a gauge.
+fn lock(text: &str) -> String {
+    format!("lock {text}")
+}
