@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -197,7 +198,7 @@ class Event(Section):
     def welds(self, name: str) -> Iterator[tuple[str, str, str]]:
         """The joints that it makes when the event is called so: name and two bodies."""
         bodies = [listed(deeds.weld) for deeds in self.actions() if isinstance(deeds, Deeds) and deeds.weld]
-        pairs = [pair for row in bodies for pair in zip(row, row[1:], strict=False)]
+        pairs = [pair for row in bodies for pair in pairwise(row)]
         for i, (first, second) in enumerate(pairs, 1):
             yield f"{name} weld" if i == 1 else f"{name} weld {i}", first, second
 
