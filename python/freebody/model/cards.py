@@ -49,7 +49,6 @@ class Card:
     coordinates: tuple[Coordinate, ...] = ()
     rows: tuple[str, ...] = ()
 
-
     @property
     def pushes(self) -> tuple[int, ...]:
         """The constraints, counted from 1, whose force is that of one side pushing the other."""

@@ -105,6 +105,11 @@ Joint = Annotated[Union[tuple(JOINTS.values())], Field(discriminator="type")]  #
 Force = Annotated[Union[tuple(FORCES.values())], Field(discriminator="type")]  # noqa: UP007
 
 
+def of(section: str) -> dict[str, type[Element]]:
+    """The types of ``joints`` or ``forces`` by their words."""
+    return {"joints": JOINTS, "forces": FORCES}[section]
+
+
 def given(element: Element, name: str) -> Any:
     """The value of a field, None where it was left out; the name may be a Python keyword."""
     return getattr(element, name) if name in element.model_fields_set else None

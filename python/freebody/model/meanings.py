@@ -213,9 +213,10 @@ class _Declaring:
                 known.add(f"{owner}{name}")
 
     def joined(self) -> set[str]:
-        """The bodies that the joints of this file name."""
+        """The bodies that the joints of this file name which are there from the start."""
         if not hasattr(self, "_joined"):
-            texts = [text for joint in self.model.joints.values() for text in _texts(joint.written())]
+            there = [joint for joint in self.model.joints.values() if joint.engaged]
+            texts = [text for joint in there for text in _texts(joint.written())]
             heads = (unquote(t[0]).rpartition(".")[0] for text in texts for t in TOKEN.finditer(text) if t.lastgroup == "name")
             self._joined = set(heads)
         return self._joined
