@@ -80,8 +80,12 @@ class Mechanism:
         route: str = "auto",
         max_steps: int = 1_000_000,
         progress: Callable[[float], bool] | None = None,
+        impacts: str = "stop",
+        painleve: str = "stop",
     ) -> Trajectory:
-        """The motion from a state. ``progress(t)`` is called now and then; returning False interrupts."""
+        """The motion from a state. ``progress(t)`` is called now and then; returning False interrupts.
+
+        ``impacts`` is newton, poisson, sequential or stop; ``painleve`` is stop or impact."""
 
 class Instant:
     """One instant, solved."""

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
     from freebody import _core
 
-
+STILL = 1e-4
+"""Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
+it a load that nothing carries."""
 _THROUGH_POINT = {"force along x", "force along y", "normal force", "tension"}
 
 
@@ -194,6 +196,19 @@ class Instant:
     def sizes(self) -> tuple[float, float]:
         """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
         return self._solved.sizes
+
+    def unrest(self) -> dict[str, str]:
+        """What moves or accelerates, in words, by coordinate; nothing in an equilibrium."""
+        found: dict[str, str] = {}
+        for coordinate, rate, acceleration in zip(
+            self._about["coordinates"], self.state.u, self._solved.accelerations, strict=True
+        ):
+            name, unit = coordinate["name"], coordinate["dimension"]
+            if rate != 0:
+                found[name] = f"moves with {_figure(rate)} {unit}/s"
+            elif abs(acceleration) > STILL * self.sizes[1]:
+                found[name] = f"accelerates with {_figure(acceleration)} {unit}/s²"
+        return found
 
     @property
     def residuals(self) -> dict[str, tuple[float, float, float]]:

@@ -29,7 +29,9 @@ class Moving:
         told = json.loads(notes)
         return State(p, t, q, u), [*told["adjusted"], *told["branch"]]
 
-    def solve(self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Instant:
+    def solve(
+        self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+    ) -> Instant:
         """Accelerations and every reaction at one instant, by default the start.
 
         ``changes`` are coordinates or parameters (``phi2="90 deg"``), or the words of ``initial`` (``rates={"phi1": 2}``).
@@ -52,13 +54,27 @@ class Moving:
     ) -> Run:
         """The motion from the start to ``until`` (s, or a quantity like ``"200 ms"``) or to an event that ends it.
 
-        ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``;
-        ``initial`` replaces the section of that name. ``t_eval`` fixes the output times and never changes the steps.
+        ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
+        ``impacts``, ``painleve``; ``initial`` replaces the section of that name. ``t_eval`` fixes the output times and never
+        changes the steps. Where an event hands over to another model, its run is ``next`` of this one.
         """
-        from freebody.run import simulate
+        from freebody.handing import Leg, follow
 
         state, notes = self.start(initial, t)
-        return simulate(self.source(notes), state, self.run_plan(until, settings), t_eval, progress)
+        if initial is None and self.lowered().start.equilibrium:
+            self.check_equilibrium(state)
+        leg = Leg(self, self.run_plan(until, settings), settings, t_eval, progress)
+        return follow(leg, leg.run(state, notes))
+
+    def check_equilibrium(self: Builder, state: State) -> None:
+        """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""
+        from freebody.instant import Instant
+
+        instant = Instant(self.compile(), state)
+        if moving := instant.unrest():
+            told = ", ".join(f"`{name}` {value}" for name, value in moving.items())
+            hint = "look for a load that nothing carries, or leave `equilibrium` out"
+            raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {told}", hint)
 
     def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
         """A labelled drawing of the mechanism at the start."""
@@ -81,7 +97,7 @@ class Moving:
         from freebody.model.start import evaluate
         from freebody.run import Settings
 
-        known = ("method", "rtol", "step", "max_step", "every", "route")
+        known = ("method", "rtol", "step", "max_step", "every", "route", "impacts", "painleve")
         unknown = [name for name in overrules if name not in known]
         if unknown:
             raise TypeError(f"simulate() knows no {unknown[0]!r}; it takes until, initial, t_eval, progress, {', '.join(known)}")
@@ -89,6 +105,8 @@ class Moving:
         end = asked.until if until is None else evaluate(until, {})
         if end is None:
             raise ValueError("the run has no end\n  add `run: {until: 5 s}` to the model, or say until=5 (--until 5)")
-        plain = Settings(end, asked.method, asked.rtol, asked.step, asked.max_step, every=asked.every)
-        numbers = {k: v if k in ("method", "route") or v is None else evaluate(v, {}) for k, v in overrules.items()}
+        steps = {"step": asked.step, "max_step": asked.max_step, "every": asked.every}
+        plain = Settings(end, asked.method, asked.rtol, **steps, impacts=asked.impacts, painleve=asked.painleve)
+        words = ("method", "route", "impacts", "painleve")
+        numbers = {k: v if k in words or v is None else evaluate(v, {}) for k, v in overrules.items()}
         return replace(plain, **numbers)

@@ -29,6 +29,7 @@ _CALLS_BY_UNIT = {
     "rad/s": "omega",
     "rad/s^2": "alpha",
     "J": "kinetic potential energy",
+    "N": "tension",
     "N*s": "momentum_x momentum_y",
     "N*m*s": "angular_momentum",
 }

@@ -7,10 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.grid import Motion, Times, output_times
 from freebody.instant import Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
 from freebody.results import (
     Array,
@@ -34,27 +35,7 @@ if TYPE_CHECKING:
     from freebody import _core
 
 Progress = Callable[[float], bool]
-Times = Sequence[float] | Array
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "energy", "pose")
-
-
-class Motion(Protocol):
-    """What a run reads: the core's ``Trajectory``, or what a file holds of one."""
-
-    @property
-    def steps(self) -> Array: ...
-    @property
-    def events(self) -> str: ...
-    @property
-    def outcome(self) -> str: ...
-    @property
-    def stats(self) -> str: ...
-    def sample(self, times: Array) -> tuple[Array, Array]: ...
-    def evaluate(self, texts: Sequence[str], times: Array) -> Array: ...
-    def poses(self, times: Array) -> Array: ...
-    def instants(self, times: Array) -> tuple[Array, Any]: ...
-    def ledger(self, times: Array) -> tuple[list[str], Array]: ...
-    def final(self) -> tuple[float, Array, Array, Array, str]: ...
 
 
 @dataclass(frozen=True)
@@ -81,7 +62,8 @@ class Source:
 
 @dataclass(frozen=True)
 class Settings:
-    """How a run is made; times in s. ``every`` is the spacing of the output grid."""
+    """How a run is made; times in s. ``every`` is the spacing of the output grid, ``impacts`` and ``painleve`` are the laws
+    of impacts and of friction that jams."""
 
     until: float
     method: str = "dop853"
@@ -90,6 +72,8 @@ class Settings:
     max_step: float | None = None
     route: str = "auto"
     every: float | None = None
+    impacts: str = "stop"
+    painleve: str = "stop"
 
 
 def simulate(
@@ -101,31 +85,13 @@ def simulate(
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
-def output_times(motion: Motion, every: float | None = None, t_eval: Times | None = None) -> Array:
-    """The output grid (nt,) in s: what was asked for, or 60 a second and at least 400, with the events and,
-    while they are no more than that, the steps."""
-    start, end = motion.steps[0], motion.steps[-1]
-    if t_eval is not None:
-        asked: Array = np.unique(np.asarray(t_eval, float))
-        return asked[(asked >= start) & (asked <= end)]
-    if every is not None:
-        # The end belongs to the grid even where the spacing does not meet it.
-        return _merged(np.array([start, end]), start + every * np.arange(1, np.floor((end - start) / every * (1 + 1e-12)) + 1))
-    uniform = np.linspace(start, end, int(np.clip(60 * (end - start), 400, 6000)) + 1)
-    marks = np.array([start, end] + [event["t"] for event in json.loads(motion.events)])
-    return _merged(np.union1d(marks, motion.steps) if len(motion.steps) <= len(uniform) else np.unique(marks), uniform)
-
-
-def _merged(marks: Array, grid: Array) -> Array:
-    """All marks, and those times of the grid that are not one of them to round-off."""
-    slack = 1e-10 * (marks[-1] - marks[0])
-    near = np.clip(np.searchsorted(marks, grid), 1, max(len(marks) - 1, 1))
-    gap = np.minimum(np.abs(grid - marks[near - 1]), np.abs(grid - marks[near % len(marks)]))
-    return np.union1d(marks, grid[gap > slack])
-
-
 class Run:
-    """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it."""
+    """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it.
+
+    ``next`` is the run of the model to which this one handed over, if it did.
+    """
+
+    next: Run | None = None
 
     def __init__(
         self,

@@ -174,7 +174,7 @@ impl Mechanism {
         array(py, flat, [n, n])
     }
 
-    #[pyo3(signature = (p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None))]
+    #[pyo3(signature = (p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop"))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,
@@ -191,7 +191,11 @@ impl Mechanism {
         route: &str,
         max_steps: usize,
         progress: Option<Py<PyAny>>,
+        impacts: &str,
+        painleve: &str,
     ) -> PyResult<Trajectory> {
+        one_of("law of impacts", impacts, &["newton", "poisson", "sequential", "stop"])?;
+        one_of("answer to a jam of friction", painleve, &["stop", "impact"])?;
         let options = freebody::motion::Options {
             rtol,
             first_step: step,
@@ -240,6 +244,15 @@ fn chosen(word: &str) -> PyResult<Option<Route>> {
     }
     let words: Vec<String> = Route::ALL.iter().map(|r| r.0.to_string()).chain(["auto".to_string()]).collect();
     Route::named(word).map(Some).ok_or_else(|| unknown("route", word, words.iter()))
+}
+
+/// Complains about a word that is none of those.
+fn one_of(what: &str, word: &str, words: &[&str]) -> PyResult<()> {
+    let words: Vec<String> = words.iter().map(|w| w.to_string()).collect();
+    if words.iter().any(|w| w == word) {
+        return Ok(());
+    }
+    Err(unknown(what, word, words.iter()))
 }
 
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> PyErr {

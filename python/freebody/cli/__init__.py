@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -63,17 +64,14 @@ def run(
     no_report: Annotated[bool, typer.Option("--no-report", help="Write no HTML report.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Simulate; print what happened and write a report."""
+    """Simulate; print what happened and write a report. A model that it hands over to follows, with files of its own."""
     from freebody.cli import show
 
     done = simulated(model, changes, until=until, method=method, rtol=rtol)
-    written = [done.save(output)] if output else []
-    if not no_report:
-        from freebody.views.report import write_report
-
-        written.append(write_report(done, report or Path(f"{model.stem}.html")))
-    show.run(done, written, as_json)
-    if not done.outcome.ok:
+    page = None if no_report else report or Path(f"{model.stem}.html")
+    runs = [(leg, files_of(leg, i, output, page)) for i, leg in enumerate(legs(done), 1)]
+    show.runs(runs, as_json)
+    if not all(leg.outcome.ok for leg, _ in runs):
         raise typer.Exit(BAD_END)
 
 
@@ -208,6 +206,28 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
         what, _, hint = done.outcome.sentence.partition("; ")
         raise Mistake(f"the run ends where it begins, t = {done.outcome.t:g} s: {what}", hint or HINT_AT_START)
     return done
+
+
+def legs(first: Run) -> Iterator[Run]:
+    """The run, then those of the models to which it hands over."""
+    run: Run | None = first
+    while run is not None:
+        yield run
+        run = run.next
+
+
+def files_of(done: Run, number: int, output: Path | None, page: Path | None) -> list[Path]:
+    """Saves a run and writes its report; those after the first have their number in the name."""
+
+    def numbered(path: Path) -> Path:
+        return path if number == 1 else path.with_stem(f"{path.stem}-{number}")
+
+    written = [done.save(numbered(output))] if output else []
+    if page:
+        from freebody.views.report import write_report
+
+        written.append(write_report(done, numbered(page)))
+    return written
 
 
 def obtained(path: Path) -> Run:

@@ -64,12 +64,19 @@ def put(*things: Any) -> None:
 # A run
 
 
-def run(done: Run, files: Sequence[Path], as_json: bool) -> None:
+def runs(done: Sequence[tuple[Run, Sequence[Path]]], as_json: bool) -> None:
+    """Runs one after the other, each with the files that were made; of several, JSON is a list."""
+    if as_json:
+        data = [_run_as_dict(each, peak_reactions(each), files) for each, files in done]
+        print(dumped(data if len(data) > 1 else data[0]))
+        return
+    for each, files in done:
+        run(each, files)
+
+
+def run(done: Run, files: Sequence[Path]) -> None:
     """What happened, what was asked for, whether the energy adds up, the largest reactions, what was written."""
     peaks = peak_reactions(done)
-    if as_json:
-        print(dumped(_run_as_dict(done, peaks, files)))
-        return
     put(
         Text.assemble((done.name, "bold"), ": ", (_ending(done), "green" if done.outcome.ok else "bold red"), "\n"),
         *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),

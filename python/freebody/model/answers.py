@@ -51,6 +51,8 @@ class Run:
     every: Number | None = None
     max_step: Number | None = None
     step: Number | None = None
+    impacts: str = "stop"
+    painleve: str = "stop"
 
     def with_parameters(self, values: Mapping[str, float]) -> Run:
         """The settings as numbers. Raises ``Complaint``."""
@@ -80,7 +82,7 @@ class AnswerWriter:
         found: dict[str, Any] = {n: self.write.number(("run", n), v, units_of[n], f"`{n}`") for n, v in given.items()}
         if run.method == "rk4" and run.step is None:
             self.write.scope.complain(("run", "method"), "`rk4` needs a fixed step", "add `step: 1 ms`, or choose `dop853`")
-        return Run(method=run.method, **found)
+        return Run(method=run.method, impacts=run.impacts, painleve=run.painleve, **found)
 
     def report(self) -> list[Asked]:
         """The quantities to report, in order."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from .arithmetic import Number, half
 from .errors import Complaint, Path
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .schema import Body, CurveShape, Marked, Piece, Shaped
 from .tracks import circle, track
-from .writer import Number, Writer
+from .writer import Writer
 
 _CORE_SHAPES = {"particle": "point", "triangle": "polygon", "general": "given"}
 _SIZES = ("length", "radius", "width", "height")
@@ -69,8 +70,8 @@ class BodyWriter:
     def _shape_points(self, path: Path, body: Body) -> dict[str, list[Number]]:
         found: dict[str, list[Number]] = {"origin": [0.0, 0.0]} | {name: [0.0, 0.0] for name in SHAPE_POINTS.get(body.shape, ())}
         if body.shape == "rod":
-            half = _half(self.write.number((*path, "length"), body.length, "m", "a length"))
-            found |= {"start": [_opposite(half), 0.0], "end": [half, 0.0]}
+            length = self.write.number((*path, "length"), body.length, "m", "a length")
+            found |= {"start": [half(length, -1), 0.0], "end": [half(length), 0.0]}
         return found
 
     def _points(self, full: str, marked: Marked, path: Path, usual: dict[str, list[Number]]) -> None:
@@ -179,11 +180,3 @@ class BodyWriter:
 
     def _at(self, path: Path, full: str, name: str) -> list[Number]:
         return self._place(path, full, name)
-
-
-def _half(length: Number) -> Number:
-    return length / 2 if isinstance(length, float) else f"({length})/2"
-
-
-def _opposite(number: Number) -> Number:
-    return -number if isinstance(number, float) else f"-{number}"

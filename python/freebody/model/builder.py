@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import linecache
-import sys
 from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path as FilePath
 from typing import Any
@@ -15,47 +13,15 @@ from freebody.results import ReportItem
 
 from . import file, reading, schema
 from .answers import Run
-from .errors import Complaint, ModelFileError, Path, Problem, Where, path_text
+from .calls import Calls, called, caller
+from .errors import Complaint, ModelFileError, Path, Problem
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .names import spell, suggestion
+from .scope import Folder
 from .source import Source
 from .start import Assembly, Start, initial_state, parameter_values
-
-_OWN = str(FilePath(__file__).parent.parent)
-
-
-class Calls:
-    """Where items were made: in the file that was loaded, or by a Python call."""
-
-    def __init__(self, source: Source | None = None) -> None:
-        self.source = source
-        self.made: dict[Path, tuple[str, int]] = {}
-
-    def note(self, path: Path) -> None:
-        """Remembers the line outside freebody that is being executed."""
-        self.made[path] = caller()
-
-    def where(self, path: Path, at_key: bool = False) -> Where:
-        """The place of an item, or of the nearest that holds it."""
-        for length in range(len(path), 0 if self.source else -1, -1):
-            if path[:length] in self.made:
-                return called(*self.made[path[:length]], path)
-        return self.source.where(path, at_key) if self.source else Where("", 0, 0, path_text(path))
-
-
-def called(file: str, line: int, path: Path) -> Where:
-    """The place of a Python call."""
-    return Where(file, line, 0, path_text(path), linecache.getline(file, line).strip())
-
-
-def caller() -> tuple[str, int]:
-    """The file and line outside freebody that is being executed."""
-    frame = sys._getframe(1)
-    while frame.f_back and frame.f_code.co_filename.startswith(_OWN):
-        frame = frame.f_back
-    return frame.f_code.co_filename, frame.f_lineno
 
 
 def plain(value: Any) -> Any:
@@ -110,7 +76,8 @@ class Overrules(MutableMapping[str, Any]):
 
 
 class Builder:
-    """A mechanism under construction: ``model`` is what has been said so far.
+    """A mechanism under construction: ``model`` is what has been said so far, ``others`` the mechanisms made in Python
+    that it hands over to, by the names of files that stand for them.
 
     Wrong words raise ``ModelFileError`` at once; names and units are checked by ``lowered()`` and ``compile()``.
     ``Mechanism`` adds a method for each shape, joint and force.
@@ -121,6 +88,8 @@ class Builder:
         self._calls = Calls()
         self._file: str | None = None
         self._text = ""
+        self.others: dict[str, Builder] = {}
+        self._opened: dict[str, Builder] = {}
         self._lowered: tuple[str, Lowered] | None = None
         self._compiled: tuple[str, _core.Mechanism] | None = None
         self.ground = Ground(self, "ground", ("O",))
@@ -157,8 +126,16 @@ class Builder:
         return made
 
     def save(self, path: str | FilePath) -> None:
-        """Writes the model; the comments of the file that it was loaded from stay."""
+        """Writes the model, and beside it those made in Python that it hands over to; the comments of the file that it was
+        loaded from stay."""
+        self._save(FilePath(path), set())
+
+    def _save(self, path: FilePath, saved: set[FilePath]) -> None:
         file.save(self.model, path, self._text)
+        saved.add(path)
+        for name, other in self.others.items():
+            if (beside := path.parent / name) not in saved:
+                other._save(beside, saved)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Builder) and self.model == other.model
@@ -196,23 +173,74 @@ class Builder:
         self.put("parts", name, {"file": file} | ({"parameters": parameters} if parameters else {}))
         return name
 
-    def motion(self, name: str, of: Any, is_: Any, level: str = "position", by: Any = None) -> Element:
+    def motion(self, name: str, of: Any, is_: Any, level: str = "position", by: Any = None, engaged: bool = True) -> Element:
         """Prescribes a motion of a gauge; ``is_`` is its law (``is`` in a file)."""
-        self.put("motions", name, _given(of=of, level=level, by=by) | {"is": is_})
+        self.put("motions", name, _given(of=of, level=level, by=by, engaged=engaged) | {"is": is_})
         return Element(name, [])
 
-    def event(self, name: str, when: Any, direction: str = "any", if_: Any = None, then: Any = "record") -> str:
-        """Watches for a zero of ``when``; ``if_`` is its condition (``if`` in a file)."""
-        self.put("events", name, _given(when=when, direction=direction, then=then) | ({} if if_ is None else {"if": if_}))
+    def contact(self, name: str, *of: Any, **words: Any) -> Element:
+        """Two surfaces that can push each other: bodies, points, lines or ``{"centre": P, "radius": r}`` and the like.
+
+        ``words`` are those of a file: ``restitution``, ``friction``, ``static_friction``, ``rough``, ``engaged``.
+        """
+        return self._limit("contacts", name, words | {"of": list(of)})
+
+    def string(self, name: str, *ends: Any, **words: Any) -> Element:
+        """A string between two ends, points or ``{"drum": P, …}``.
+
+        ``words`` are those of a file: ``over``, ``length`` (m), ``restitution``, ``engaged``.
+        """
+        return self._limit("strings", name, words | {"ends": list(ends)})
+
+    def stop(self, name: str, of: Any, **words: Any) -> Element:
+        """Ends of the way of a coordinate or gauge: ``least``, ``most`` (in its unit), ``restitution``, ``engaged``."""
+        return self._limit("stops", name, words | {"of": of})
+
+    def _limit(self, section: str, name: str, words: Mapping[str, Any]) -> Element:
+        self.put(section, name, {word: value for word, value in words.items() if value is not None})
+        return Element(name, [])
+
+    def event(
+        self, name: str, when: Any = None, direction: str = "any", if_: Any = None, then: Any = "record", at: Any = None
+    ) -> str:
+        """Watches for a zero of ``when``, or for the time ``at`` (s, or ``"start"``); ``if_`` is its condition (``if`` in a file).
+
+        ``then`` is in the words of a file; handles stand for names, and ``{"hand_over": …}`` takes a ``Mechanism``, too.
+        """
+        then = self._with_files(then)
+        given = _given(when=when, at=at, direction=direction, then=then) | ({} if if_ is None else {"if": if_})
+        self.put("events", name, given)
         return name
 
+    def _with_files(self, action: Any) -> Any:
+        """An action with names of files in place of mechanisms, which are kept under them."""
+        if isinstance(action, Builder):
+            usual = FilePath(action._file).name if action._file else f"{action.model.name or 'next'}.yaml"
+            taken = [name for name, other in self.others.items() if other is not action]
+            name = next(n for i in range(len(taken) + 1) if (n := f"{i + 1} {usual}" if i else usual) not in taken)
+            self.others[name] = action
+            return name
+        if isinstance(action, Mapping):
+            return {word: self._with_files(value) for word, value in action.items()}
+        return [self._with_files(value) for value in action] if isinstance(action, (list, tuple)) else action
+
+    def handed(self, file: str) -> Any:
+        """The mechanism of a model that this one hands over to; its file as the model names it. Raises ``ModelFileError``."""
+        if file in self.others:
+            return self.others[file]
+        if file not in self._opened:
+            self._opened[file] = type(self).load(Folder.of(self._file).beside(file))
+        return self._opened[file]
+
     def initial(self, **values: Any) -> None:
-        """Sets coordinates at the start, and ``rates``, ``guess``, ``points``, ``branch``, ``at_rest``; adds to what is there."""
+        """Sets coordinates at the start, and ``rates``, ``guess``, ``points``, ``branch``, ``at_rest``, ``equilibrium``; adds
+        to what is there."""
         before = self.model.initial.written() if self.model.initial else {}
         self._assign("initial", before | values)
 
     def run_settings(self, **values: Any) -> None:
-        """Sets ``until``, ``method``, ``rtol``, ``every``, ``max_step``, ``step``; adds to what is there."""
+        """Sets ``until``, ``method``, ``rtol``, ``every``, ``max_step``, ``step``, ``impacts``, ``painleve``; adds to what is
+        there."""
         before = self.model.run.written() if self.model.run else {}
         self._assign("run", before | values)
 
@@ -273,6 +301,10 @@ class Builder:
             self._calls.made.pop(path, None)
             raise ModelFileError(found) from None
 
+    def wrong(self, path: Path, what: str, hint: str) -> ModelFileError:
+        """The error about an item, where it was written."""
+        return ModelFileError([Problem(self._calls.where(path), what, hint)])
+
     def error(self, path: Path, what: str, hint: str, at: tuple[str, int]) -> ModelFileError:
         """The error about an item, at a Python call."""
         return ModelFileError([Problem(called(*at, path), what, hint)])
@@ -291,7 +323,7 @@ class Builder:
         """The model in the core's terms. Raises ``ModelFileError`` with all that is wrong."""
         key = self.model.model_dump_json(by_alias=True, exclude_unset=True)
         if self._lowered is None or self._lowered[0] != key:
-            self._lowered = (key, lower(self.model, self._calls, self._file))
+            self._lowered = (key, lower(self.model, self._calls, self._file, self.others))
         return self._lowered[1]
 
     def compile(self) -> _core.Mechanism:
@@ -330,5 +362,5 @@ class Builder:
 
 def _given(**words: Any) -> dict[str, Any]:
     """What differs from its default, so that builder and file write the same."""
-    usual = {"level": "position", "direction": "any", "then": "record"}
+    usual = {"level": "position", "direction": "any", "then": "record", "engaged": True}
     return {key: value for key, value in words.items() if value is not None and value != usual.get(key)}

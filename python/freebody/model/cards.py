@@ -41,12 +41,18 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Card:
-    """A joint or a force as a person writes it."""
+    """A joint or a force as a person writes it. ``rows`` names the constraints of a joint by their forces."""
 
     type: str
     doc: str
     fields: tuple[Field, ...]
     coordinates: tuple[Coordinate, ...] = ()
+    rows: tuple[str, ...] = ()
+
+    @property
+    def pushes(self) -> tuple[int, ...]:
+        """The constraints, counted from 1, whose force is that of one side pushing the other."""
+        return tuple(i for i, row in enumerate(self.rows, 1) if row == "normal force" or "roller" in row)
 
 
 @cache
@@ -67,7 +73,8 @@ def _section(name: str) -> dict[str, Card]:
 
 def _card(data: dict[str, Any]) -> Card:
     coordinates = tuple(Coordinate(c["name"], c["dimension"] or "") for c in data.get("coordinates", []))
-    return Card(data["type"], data["doc"], tuple(_field(f) for f in data["fields"]), coordinates)
+    rows = tuple(row["name"] for row in data.get("rows", []))
+    return Card(data["type"], data["doc"], tuple(_field(f) for f in data["fields"]), coordinates, rows)
 
 
 def _field(data: dict[str, Any]) -> Field:

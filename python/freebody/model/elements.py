@@ -5,13 +5,23 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal, Union
 
 from pydantic import Field, create_model
+from pydantic_core import PydanticCustomError
 
 from . import cards
-from .values import Circle, Line, Name, Number, Numbers, Points, Section, Text, number_in, one_of
+from .values import Circle, Line, Name, Number, Numbers, Points, Section, Text, number_in, one_of, refuse
 
 
 class Element(Section):
     """What joints and forces have in common; ``type`` is the word of the card."""
+
+    engaged: bool = Field(True, description="Whether it is in place from the start.")
+
+    @classmethod
+    def _unknown(cls, key: str) -> PydanticCustomError:
+        word = cls.model_fields["type"].annotation.__args__[0]
+        if key in _ONLY_OF:
+            return refuse(f"a {word} takes no `{key}`", _ONLY_OF[key])
+        return super()._unknown(key)
 
 
 class Coordinate(Section):
@@ -65,11 +75,39 @@ def _coordinates(card: cards.Card) -> dict[str, Any]:
     }
 
 
-JOINTS = {word: _model(card, _coordinates(card)) for word, card in cards.joints().items()}
+def _switches(card: cards.Card) -> dict[str, Any]:
+    words: dict[str, Any] = {}
+    if card.pushes:
+        words["one_sided"] = (bool, Field(False, description="Whether it only pushes, and is released where it would pull."))
+    if has_ends(card):
+        told = "What happens where the line ends: it is free and the joint released, or there are stops."
+        words["ends"] = (Literal["free", "stop"], Field(None, description=told))
+        words["end_restitution"] = (Number, Field(0, description="Restitution of the stops at the ends, 0 to 1."))
+    return words
+
+
+def has_ends(card: cards.Card) -> bool:
+    """Whether it is a joint along a line, on which the first coordinate is a place."""
+    return any(field.name == "along" and field.kind == "line" for field in card.fields)
+
+
+_ONLY_OF = {
+    "one_sided": "for two bodies that push each other write a contact, under `contacts`",
+    "ends": f"only {', '.join(word for word, card in cards.joints().items() if has_ends(card))} run along a line with ends; "
+    "for others write a stop, under `stops`",
+}
+_ONLY_OF["end_restitution"] = _ONLY_OF["ends"]
+
+JOINTS = {word: _model(card, _coordinates(card) | _switches(card)) for word, card in cards.joints().items()}
 FORCES = {word: _model(card, {}) for word, card in cards.forces().items()}
 
 Joint = Annotated[Union[tuple(JOINTS.values())], Field(discriminator="type")]  # noqa: UP007
 Force = Annotated[Union[tuple(FORCES.values())], Field(discriminator="type")]  # noqa: UP007
+
+
+def of(section: str) -> dict[str, type[Element]]:
+    """The types of ``joints`` or ``forces`` by their words."""
+    return {"joints": JOINTS, "forces": FORCES}[section]
 
 
 def given(element: Element, name: str) -> Any:

@@ -115,7 +115,7 @@ class Ground(Marked):
 
 
 class Element:
-    """A joint, force or motion of a mechanism under construction."""
+    """A joint, force, motion, contact, string or stop of a mechanism under construction."""
 
     def __init__(self, name: str, coordinates: list[str]) -> None:
         self.name = name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
@@ -15,17 +15,20 @@ from . import cards, elements, meanings, scope, units
 from .answers import AnswerWriter, Asked, Run
 from .bodies import BodyWriter
 from .errors import Complaint, ModelFileError, Path, Problem, Where
-from .names import suggestion
-from .schema import Event, Model, Motion, SetParameters
+from .events import EventWriter
+from .guides import GuideWriter
+from .limits import LimitWriter
+from .outlines import Outlines
+from .schema import Model, Motion
 from .scope import Folder, Places, Scope
 from .start import Start, StartWriter
 from .units import TIME
 from .writer import Writer
 
 Spec = dict[str, Any]
-_SECTIONS = ("parameters", "tables", "bodies", "points", "lines", "curves", "gauges", "joints", "forces", "motions", "events")
+_ITEMS = ("parameters", "tables", "bodies", "gauges", "joints", "forces", "motions", "contacts", "strings", "stops", "events")
+_SECTIONS = (*_ITEMS, "points", "lines", "curves")
 _ZEROS = {"right": "0", "up": "pi/2", "left": "pi", "down": "-pi/2"}
-_DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 _STEP = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
 
 
@@ -33,7 +36,8 @@ _STEP = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
 class Lowered:
     """A model as the core takes it, and what the core does not need: start, run, report.
 
-    ``items`` leads from an item of the spec (``joints.pivot``) to where it was written.
+    ``hand_over`` holds the events that go on as another model, with its file. ``items`` leads from an item of the spec
+    (``joints.pivot``) to where it was written.
     """
 
     spec: Spec
@@ -41,6 +45,7 @@ class Lowered:
     run: Run
     report: list[Asked]
     root: Scope
+    hand_over: dict[str, str] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
 
     def where(self, core_path: str) -> Where:
@@ -66,11 +71,15 @@ def _steps(text: str) -> Path:
     return tuple(int(index) if index else word for word, index in _STEP.findall(text) if word != "with")
 
 
-def lower(model: Model, places: Places, file: str | FilePath | None = None) -> Lowered:
-    """The model in the core's terms; parts are looked for beside ``file``. Raises ``ModelFileError`` with all that is wrong."""
+def lower(model: Model, places: Places, file: str | FilePath | None = None, others: Iterable[str] = ()) -> Lowered:
+    """The model in the core's terms; parts, and models that it hands over to, are looked for beside ``file``.
+
+    ``others`` need not be there as files. Raises ``ModelFileError`` with all that is wrong.
+    """
     problems: list[Problem] = []
-    root = scope.open_scope(model, places, Folder.of(file), problems)
-    lowering = _Lowering(root, problems)
+    folder = Folder.of(file)
+    root = scope.open_scope(model, places, folder, problems)
+    lowering = _Lowering(root, folder, others)
     lowered = lowering.all()
     if problems:
         raise ModelFileError(problems)
@@ -78,9 +87,12 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None) -> L
 
 
 class _Lowering:
-    def __init__(self, root: Scope, problems: list[Problem]) -> None:
+    def __init__(self, root: Scope, folder: Folder, others: Iterable[str]) -> None:
         self.root = root
-        self.problems = problems
+        self.folder = folder
+        self.others = others
+        self.made: dict[str, tuple[Scope, Path]] = {}
+        self.hand_over: dict[str, str] = {}
         self.meanings = meanings.meanings(root)
         self.spec: Spec = {"name": root.model.name, "gravity": None} | {section: [] for section in _SECTIONS}
         lines: dict[str, Any] = {}
@@ -95,14 +107,32 @@ class _Lowering:
         sections = [_Sections(write, self.spec) for write in self.writers]
         for section in sections:
             section.values()
+        places = {name: at for writer in bodies for name, at in writer.places.items()}
         for section in sections:
-            section.items()
+            section.items(GuideWriter(section.write, self.spec, places, self.made))
+        self._switches()
         self.spec["gravity"] = self._gravity()
         start = Start()
         for write in reversed(self.writers):  # what the whole says of a part's coordinates overrules what the part says
             StartWriter(write, start).all()
         answers = AnswerWriter(self.writers[0])
-        return Lowered(self.spec, start, answers.run(), answers.report(), self.root, self._items())
+        return Lowered(self.spec, start, answers.run(), answers.report(), self.root, self.hand_over, self._items())
+
+    def _switches(self) -> None:
+        """Contacts, strings and stops; then events, which may name anything."""
+        outlines = Outlines(self.writers, self.spec)
+        for write in self.writers:
+            LimitWriter(write, self.spec, outlines).all()
+        events = [
+            EventWriter(
+                write, self.spec, self.made, self.hand_over, self.folder if write is self.writers[0] else None, self.others
+            )
+            for write in self.writers
+        ]
+        for writer in events:
+            writer.welds()
+        for writer in events:
+            writer.all()
 
     def _gravity(self) -> list[Any] | None:
         value = self.root.model.gravity
@@ -114,9 +144,9 @@ class _Lowering:
         return [0.0, -size if isinstance(size, float) else f"-({size})"]
 
     def _items(self) -> dict[str, tuple[Scope, Path]]:
-        found: dict[str, tuple[Scope, Path]] = {}
+        found = dict(self.made)
         for s in self.root.all():
-            for section in ("parameters", "tables", "bodies", "gauges", "joints", "forces", "motions", "events"):
+            for section in _ITEMS:
                 found |= {f"{section}.{s.prefix}{name}": (s, (section, name)) for name in getattr(s.model, section)}
             marked = [("bodies", name, f"{s.prefix}{name}.", body) for name, body in s.model.bodies.items()]
             if s.model.ground:
@@ -158,17 +188,17 @@ class _Sections:
             self.spec["gauges"].append({"name": self.prefix + name, "value": self.write.expression(("gauges", name), text)})
             self.write.meanings.values[self.prefix + name] = ("gauge", self.write.dimension(text))
 
-    def items(self) -> None:
-        """Joints, forces, motions and events."""
+    def items(self, guides: GuideWriter) -> None:
+        """Joints, forces and motions."""
         for name, joint in self.model.joints.items():
             written = self._element(("joints", name), joint, cards.joints()[joint.type])
-            self.spec["joints"].append(written | {"coordinates": self._coordinates(name, joint)})
+            written |= {"coordinates": self._coordinates(name, joint)}
+            self.spec["joints"].append(written)
+            guides.joint(name, joint, written)
         for name, force in self.model.forces.items():
             self.spec["forces"].append(self._element(("forces", name), force, cards.forces()[force.type]))
         for name, motion in self.model.motions.items():
             self.spec["motions"].append(self._motion(name, motion))
-        for name, event in self.model.events.items():
-            self.spec["events"].append(self._event(name, event))
 
     def _parameter(self, name: str, value: Any) -> Spec:
         full, parameters = self.prefix + name, self.scope.parameters
@@ -202,7 +232,7 @@ class _Sections:
             if value is not None:
                 unit = None if loose else card_field.unit
                 fields[card_field.name] = self._field((*path, card_field.name), card_field.kind, value, unit)
-        return {"name": self.prefix + str(path[1]), "type": card.type, "with": fields}
+        return {"name": self.prefix + str(path[1]), "type": card.type, "with": fields, "engaged": element.engaged}
 
     def _field(self, path: Path, kind: str, value: Any, unit: str | None) -> Any:
         write = self.write
@@ -256,7 +286,7 @@ class _Sections:
             "absolute": given.absolute,
         }
 
-    # -- motions and events
+    # -- motions
 
     def _motion(self, name: str, motion: Motion) -> Spec:
         path: Path = ("motions", name)
@@ -265,29 +295,4 @@ class _Sections:
         dimension = self.write.dimension(motion.of)
         law = self.write.expression((*path, "is"), motion.law, dimension and dimension.times(TIME, -power))
         by = self.write.expression((*path, "by"), motion.by) if motion.by is not None else None
-        return {"name": self.prefix + name, "of": of, "is": law, "level": motion.level, "by": by}
-
-    def _event(self, name: str, event: Event) -> Spec:
-        path: Path = ("events", name)
-        then = event.then if isinstance(event.then, list) else [event.then]
-        return {
-            "name": self.prefix + name,
-            "when": self.write.expression((*path, "when"), event.when),
-            "direction": _DIRECTIONS[event.direction],
-            "condition": None if event.condition is None else self.write.expression((*path, "if"), event.condition),
-            "then": [self._action((*path, "then"), action) for action in then if action != "record"],
-        }
-
-    def _action(self, path: Path, action: str | SetParameters) -> str | Spec:
-        if isinstance(action, str):
-            return action
-        return {"set": dict(self._set((*path, "set", name), name, value) for name, value in action.set.items())}
-
-    def _set(self, path: Path, name: str, value: Any) -> tuple[str, str]:
-        known: Mapping[str, tuple[str, Any]] = self.write.meanings.values
-        full = self.write.full(name)
-        kind, dimension = known.get(full, ("", None))
-        if kind != "parameter":
-            parameters = self.write.meanings.seen_from(self.scope, [k for k, (kind, _) in known.items() if kind == "parameter"])
-            self.scope.complain(path, f"there is no parameter `{name}` to set", suggestion(name, parameters, "parameters"), True)
-        return full, self.write.expression(path, value, dimension)
+        return {"name": self.prefix + name, "of": of, "is": law, "level": motion.level, "by": by, "engaged": motion.engaged}

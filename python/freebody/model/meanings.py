@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from . import syntax
+from . import elements, guides, syntax
 from .errors import Complaint, Path
 from .names import TOKEN, fault, suggestion, unquote
 from .schema import Body
@@ -20,12 +20,13 @@ EVERY_BODY = ("origin", "G")
 class Meanings:
     """All names. ``values`` holds parameters, coordinates and gauges with their kind and dimension (None: not known).
 
-    ``owners`` are joints, forces and motions, whose answers are read as ``name.Fx``; ``alias`` leads from points that
-    only rename another to that one.
+    ``owners`` are joints, forces, motions, contacts, strings and stops, whose answers are read as ``name.Fx``; ``several``
+    holds those that are more than one item for the core. ``alias`` leads from points that only rename another to that one.
     """
 
     values: dict[str, tuple[str, Dimension | None]] = field(default_factory=dict)
     owners: dict[str, str] = field(default_factory=dict)
+    several: dict[str, list[str]] = field(default_factory=dict)
     bodies: set[str] = field(default_factory=lambda: {"ground"})
     points: set[str] = field(default_factory=lambda: {"ground.O", "ground.origin"})
     alias: dict[str, str] = field(default_factory=lambda: {"ground.origin": "ground.O"})
@@ -111,18 +112,50 @@ class _Declaring:
             for coordinate, card in coordinate_names(name, joint):
                 path: Path = ("joints", name, "coordinates" if "coordinates" in joint.model_fields_set else "coordinate")
                 self.value(coordinate, path, "coordinate", unit(card.unit).dimension if card.unit else None)
+            self.ends(name, joint)
         for name in m.gauges:
             self.value(name, ("gauges", name), "gauge", None)
         for name in m.forces:
             self.owner(name, "force", ("forces", name))
         for name in m.motions:
             self.owner(name, "motion", ("motions", name))
+        for name in m.contacts:
+            self.owner(name, "contact", ("contacts", name))
+        for name in m.strings:
+            self.owner(name, "string", ("strings", name))
+        for name, stop in m.stops.items():
+            self.owner(name, "stop", ("stops", name))
+            if stop.least is not None and stop.most is not None:
+                self.stops_of(name, "least", "most")
         for name in m.tables:
             self.check(name, ("tables", name))
             found.tables.add(full(name))
-        for name in m.events:
+        for name, event in m.events.items():
             self.check(name, ("events", name))
             found.events.add(full(name))
+            for weld, _, _ in event.welds(name):
+                self.owner(weld, "joint", ("events", name))
+
+    def ends(self, name: str, joint: elements.Element) -> None:
+        """What the ends of a guide and the one side of a joint come to."""
+        ends = elements.given(joint, "ends")
+        if ends == "stop":
+            self.stops_of(name, "start", "end")
+            self.found.several[self.full(name)].insert(0, self.full(name))
+        events = guides.leaving(name) if ends == "free" else []
+        if elements.given(joint, "one_sided"):
+            events += [event for event, _ in guides.lifting(name, joint)]
+        for event in events:
+            if event in self.model.events:
+                self.scope.complain(
+                    ("events", event), f"the joint `{name}` has an event `{event}`", "give yours another name", True
+                )
+            self.found.events.add(self.full(event))
+
+    def stops_of(self, name: str, *sides: str) -> None:
+        full = self.full(name)
+        self.found.several[full] = [f"{full}.{side}" for side in sides]
+        self.found.owners |= dict.fromkeys(self.found.several[full], "stop")
 
     def full(self, name: str) -> str:
         return self.scope.prefix + name
@@ -180,9 +213,10 @@ class _Declaring:
                 known.add(f"{owner}{name}")
 
     def joined(self) -> set[str]:
-        """The bodies that the joints of this file name."""
+        """The bodies that the joints of this file name which are there from the start."""
         if not hasattr(self, "_joined"):
-            texts = [text for joint in self.model.joints.values() for text in _texts(joint.written())]
+            there = [joint for joint in self.model.joints.values() if joint.engaged]
+            texts = [text for joint in there for text in _texts(joint.written())]
             heads = (unquote(t[0]).rpartition(".")[0] for text in texts for t in TOKEN.finditer(text) if t.lastgroup == "name")
             self._joined = set(heads)
         return self._joined

@@ -8,7 +8,7 @@ from typing import Any
 
 from freebody.moving import Moving
 
-from . import cards, schema
+from . import cards, elements, schema
 from .builder import Builder
 from .handles import Body, Element
 from .scope import coordinate_names
@@ -58,7 +58,8 @@ def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
         return Element(name, [c for c, _ in coordinate_names(name, made)] if section == "joints" else [])
 
     fields = [_keyword(f.name, f.required) for f in card.fields if f.name not in several]
-    more = [_keyword(word, False) for word in ("coordinate", "coordinates") if card.coordinates]
+    own = {"type", *(f.name for f in card.fields)}
+    more = [_keyword(word, False) for word in elements.of(section)[card.type].model_fields if word not in own]
     points = [inspect.Parameter(several[0], inspect.Parameter.VAR_POSITIONAL)] if several else []
     doc = "\n".join(f"    {_PYTHON.get(f.name, f.name)}: {f.doc}{f' ({f.unit})' if f.unit else ''}" for f in card.fields)
     return _dressed(method, card.type, f"{card.doc}\n\n{doc}", [*points, _keyword("name", False), *fields, *more], Element)

@@ -82,7 +82,7 @@ def place(location: tuple[str | int, ...]) -> Path:
     """The path of an item without the marks of unions: the type of a joint or force, and ``<pair>`` and the like."""
     tagged = location[:1] in (("joints",), ("forces",)) and len(location) > 2
     kept = location[:2] + location[3:] if tagged else location
-    unions = ("list[", "dict[", "literal[", "function-", "SetParameters")
+    unions = ("list[", "dict[", "literal[", "function-")
     return tuple(s for s in kept if isinstance(s, int) or not (s.startswith("<") or s.startswith(unions)))
 
 

@@ -11,6 +11,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field, model_validator
 
 from .elements import Force, Joint
+from .switches import Contact, Event, Stop, String
 from .values import (
     Angle,
     Circle,
@@ -189,27 +190,7 @@ class Motion(Section):
     law: Number = Field(alias="is", description="Its value, rate or acceleration: an expression of time and state.")
     level: Literal["position", "velocity", "acceleration"] = "position"
     by: Text = Field(None, description="The gauge along which the actuator acts; `of` by default.")
-
-
-class SetParameters(Section):
-    """Parameters that take new values at an event."""
-
-    set: dict[str, Number]
-
-
-Word = Literal["record", "stop"]
-_NO_ACTION = ("this is no action", "write `record`, `stop`, `{set: {T: 0}}` or a list of these")
-Action = one_of(*_NO_ACTION, text=Word, mapping=SetParameters)
-Actions = one_of(*_NO_ACTION, text=Word, pair=list[Action], mapping=SetParameters)
-
-
-class Event(Section):
-    """Something to watch for during a motion."""
-
-    when: Text = Field(description="The expression whose zero is the event.")
-    direction: Literal["rising", "falling", "any"] = "any"
-    condition: Text = Field(None, alias="if", description="It counts only while this holds.")
-    then: Actions = "record"
+    engaged: bool = Field(True, description="Whether it acts from the start.")
 
 
 class Initial(Section):
@@ -223,6 +204,7 @@ class Initial(Section):
     guess: dict[str, Number] = Field({}, description="Approximate values of the other coordinates.")
     points: dict[str, Pair] = Field({}, description="Places of points, held exactly.")
     branch: dict[str, Literal["positive", "negative"]] = Field({}, description="Signs of expressions that choose the assembly.")
+    equilibrium: bool = Field(False, description="Whether nothing accelerates while all is in place; it is checked.")
 
 
 class Run(Section):
@@ -234,6 +216,12 @@ class Run(Section):
     every: Time = Field(None, description="Time between rows of the output.")
     max_step: Time = Field(None, description="Longest step.")
     step: Time = Field(None, description="The step of methods with fixed steps.")
+    impacts: Literal["newton", "poisson", "sequential", "stop"] = Field(
+        "stop", description="The law of impacts that restitution alone does not decide; `stop` ends the run there."
+    )
+    painleve: Literal["stop", "impact"] = Field(
+        "stop", description="What happens where friction lets no motion go on: the run ends, or an impact."
+    )
 
 
 Moment = Number
@@ -287,6 +275,9 @@ class Model(Section):
     joints: dict[str, Joint] = Field({}, description="The joints.")
     forces: dict[str, Force] = Field({}, description="The forces, gravity apart.")
     motions: dict[str, Motion] = Field({}, description="Prescribed motions.")
+    contacts: dict[str, Contact] = Field({}, description="Surfaces that can push each other.")
+    strings: dict[str, String] = Field({}, description="Strings, which can only pull.")
+    stops: dict[str, Stop] = Field({}, description="Ends of the way of coordinates and other quantities.")
     initial: Initial = Field(None, description="How the motion starts.")
     events: dict[str, Event] = Field({}, description="What to watch for.")
     run: Run = Field(None, description="How far and how the motion is computed.")

@@ -40,11 +40,16 @@ class Folder:
         here = path.parent if path else FilePath.cwd()
         return cls(here, here, (path,) if path else ())
 
-    def file(self, name: str) -> FilePath:
-        """The file of a part. Raises ``Complaint``."""
+    def beside(self, name: str) -> FilePath:
+        """A file by its name relative to here. Raises ``Complaint``."""
         path = (self.here / name).resolve()
         if FilePath(name).is_absolute() or not path.is_relative_to(self.root):
             raise Complaint(f"the file `{name}` is outside the folder of the model", f"put it under {self.root}")
+        return path
+
+    def file(self, name: str) -> FilePath:
+        """The file of a part. Raises ``Complaint``."""
+        path = self.beside(name)
         if path in self.opened:
             circle = " → ".join(p.name for p in (*self.opened[self.opened.index(path) :], path))
             raise Complaint(f"model files are parts of one another in a circle: {circle}", "a mechanism cannot hold itself")
@@ -199,4 +204,7 @@ def _heads(scope: Scope) -> set[str]:
     named: set[str] = {c.split(".")[0] for name, joint in m.joints.items() for c, _ in coordinate_names(name, joint)}
     for section in (m.parameters, m.tables, m.parts, m.bodies, m.gauges, m.joints, m.forces, m.motions, m.events):
         named.update(section)
+    for section in (m.contacts, m.strings, m.stops):
+        named.update(section)
+    named.update(weld for name, event in m.events.items() for weld, _, _ in event.welds(name))
     return named

@@ -31,6 +31,7 @@ class Start:
     at_rest: bool = False
     points: dict[str, list[Number]] = field(default_factory=dict)
     branch: dict[str, int] = field(default_factory=dict)
+    equilibrium: bool = False
     coordinates: dict[str, Dimension | None] = field(default_factory=dict)
     parameters: dict[str, Dimension | None] = field(default_factory=dict)
 
@@ -72,6 +73,8 @@ class StartWriter:
         for name, at in initial.points.items():
             here = (*path, "points", name)
             start.points[self.write.point(here, name)] = self.write.pair(here, at)
+        if "equilibrium" in initial.model_fields_set:
+            start.equilibrium = initial.equilibrium
         for text, sign in initial.branch.items():
             start.branch[self.write.expression((*path, "branch", text), text)] = _SIGNS[sign]
 
@@ -90,7 +93,7 @@ class StartWriter:
         known: Meanings = self.write.meanings
         kind = known.values.get(full, ("",))[0]
         coordinates = known.seen_from(self.write.scope, self.start.coordinates)
-        words = WORDS if len(path) == 2 else ()
+        words = (*WORDS, "equilibrium") if len(path) == 2 else ()
         hint = "`initial` sets coordinates; give parameters their value under `parameters`" if kind == "parameter" else ""
         what = f"`{name}` is a {kind}, not a coordinate" if kind else f"there is no coordinate `{name}`"
         self.write.scope.complain(path, what, hint or suggestion(name, [*coordinates, *words], "coordinates"), True)

@@ -77,6 +77,7 @@ _READINGS = {
     "m/s^2": "ax ay",
     "rad/s^2": "alpha",
     "J": "kinetic potential energy",
+    "N": "tension",
     "N*s": "momentum_x momentum_y",
     "N*m*s": "angular_momentum",
 }

@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from . import syntax
+from .arithmetic import Number, difference, text, worked
 from .errors import Complaint
 from .schema import Stretch
-from .writer import Number
 
 At = list[Number]
 
 
 def circle(centre: At, radius: Number) -> tuple[str, str]:
     """x and y of a circle; ``s`` is the angle from the x axis."""
-    x, y = (_text(c) for c in centre)
-    return f"{x} + {_text(radius)}*cos(s)", f"{y} + {_text(radius)}*sin(s)"
+    x, y = (text(c) for c in centre)
+    return f"{x} + {text(radius)}*cos(s)", f"{y} + {text(radius)}*sin(s)"
 
 
 @dataclass(frozen=True)
@@ -56,19 +55,19 @@ def track(stretches: list[Stretch], at: Callable[[int, str], At]) -> tuple[str, 
 
 
 def _line(start: At, stop: At) -> _Leg:
-    dx, dy = (_difference(b, a) for a, b in zip(start, stop, strict=True))
-    length = _worked(f"hypot({dx}, {dy})")
-    return _Leg(length, f"{_text(start[0])} + {dx}*{{w}}/{length}", f"{_text(start[1])} + {dy}*{{w}}/{length}")
+    dx, dy = (difference(b, a) for a, b in zip(start, stop, strict=True))
+    length = _operand(f"hypot({dx}, {dy})")
+    return _Leg(length, f"{text(start[0])} + {dx}*{{w}}/{length}", f"{text(start[1])} + {dy}*{{w}}/{length}")
 
 
 def _arc(start: At, centre: At, stop: At) -> _Leg:
-    (ax, ay), (bx, by) = ([_difference(p, c) for p, c in zip(point, centre, strict=True)] for point in (start, stop))
-    radius = _worked(f"hypot({ax}, {ay})")
+    (ax, ay), (bx, by) = ([difference(p, c) for p, c in zip(point, centre, strict=True)] for point in (start, stop))
+    radius = _operand(f"hypot({ax}, {ay})")
     sweep = f"atan2({ax}*{by} - {ay}*{bx}, {ax}*{bx} + {ay}*{by})"
-    turn = f"{_worked(f'sign({sweep})')}*{{w}}/{radius}"
-    x = f"{_text(centre[0])} + {ax}*cos({turn}) - {ay}*sin({turn})"
-    y = f"{_text(centre[1])} + {ax}*sin({turn}) + {ay}*cos({turn})"
-    return _Leg(_worked(f"{radius}*abs({sweep})"), x, y)
+    turn = f"{_operand(f'sign({sweep})')}*{{w}}/{radius}"
+    x = f"{text(centre[0])} + {ax}*cos({turn}) - {ay}*sin({turn})"
+    y = f"{text(centre[1])} + {ax}*sin({turn}) + {ay}*cos({turn})"
+    return _Leg(_operand(f"{radius}*abs({sweep})"), x, y)
 
 
 def _joined(legs: list[_Leg]) -> tuple[str, str]:
@@ -83,23 +82,7 @@ def _joined(legs: list[_Leg]) -> tuple[str, str]:
     return x, y
 
 
-def _text(number: Number) -> str:
-    return (
-        f"({number!r})"
-        if isinstance(number, float) and number < 0
-        else repr(number)
-        if isinstance(number, float)
-        else f"({number})"
-    )
-
-
-def _worked(text: str) -> str:
-    """The value of an expression without names; others stay as they are."""
-    tree = syntax.parse(text).tree
-    return text if syntax.names(tree) else _text(float(syntax.evaluate(tree, float)))
-
-
-def _difference(a: Number, b: Number) -> str:
-    if isinstance(a, float) and isinstance(b, float):
-        return _text(a - b)
-    return f"({_text(a)} - {_text(b)})"
+def _operand(expression: str) -> str:
+    """The expression, or its value where it has no names, as a factor."""
+    found = worked(expression)
+    return found if isinstance(found, str) else text(found)

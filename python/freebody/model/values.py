@@ -9,8 +9,10 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import (
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Discriminator,
+    Field,
     PlainValidator,
     Tag,
     ValidationError,
@@ -47,7 +49,7 @@ class Section(BaseModel):
         kind, context = error["type"], error.get("ctx", {})
         if kind == "extra_forbidden" and len(error["loc"]) == 1:
             key = str(error["loc"][0])
-            kind = refuse(f"unknown key `{key}`", suggestion(key, cls.words()))
+            kind = cls._unknown(key)
         elif kind == "missing" and len(error["loc"]) == 1:
             key = str(error["loc"][0])
             kind = refuse(f"`{key}` is missing", cls._about(key))
@@ -56,6 +58,10 @@ class Section(BaseModel):
         elif kind == "freebody":
             kind = refuse(context["what"], context["hint"])
         return InitErrorDetails(type=kind, loc=error["loc"], input=error["input"], ctx=context)
+
+    @classmethod
+    def _unknown(cls, key: str) -> PydanticCustomError:
+        return refuse(f"unknown key `{key}`", suggestion(key, cls.words()))
 
     @classmethod
     def _about(cls, key: str) -> str:
@@ -183,3 +189,16 @@ Line = one_of(
     mapping=Through,
 )
 Place = one_of("this is no point", "a point is written `[x, y]`, or with the name of another", text=Name, pair=Pair)
+Names = one_of("names are needed here", "write a name, or `[a, b]`", text=Name, pair=list[Name])
+Texts = one_of("expressions are needed here", "write an expression, or a list of them", text=Text, pair=list[Text])
+
+
+def two_of(item: Any, what: str) -> Any:
+    """The type of a list of two; ``what`` says what is needed."""
+
+    def check(value: Any) -> Any:
+        if not isinstance(value, (list, tuple)) or len(value) != 2:
+            raise refuse(what)
+        return value
+
+    return Annotated[list[item], BeforeValidator(check), Field(min_length=2, max_length=2)]

@@ -5,19 +5,21 @@ from __future__ import annotations
 from typing import Any
 
 from . import syntax, units
+from .arithmetic import Number
 from .errors import Complaint, Consequence, Path
 from .meanings import Meanings
 from .names import TOKEN, replace_names, spell, suggestion, unquote
 from .scope import Scope
+from .switches import SurfaceShape
 from .units import Dimension
 from .values import Circle, Through
 
-Number = float | str
 Unit = str | Dimension | None
-# What the functions of places take: a point, a line or a body each; ? where it may be left out.
+# What the functions of places and strings take: a point, a line, a body or a string each; ? where it may be left out.
 _ARGUMENTS = {"along": "pl", "across": "pl", "distance": "pp", "direction": "pp", "kinetic": "b?", "angular_momentum": "p"}
 _ARGUMENTS |= dict.fromkeys(("x", "y", "vx", "vy", "speed", "ax", "ay"), "p") | dict.fromkeys(("angle", "omega", "alpha"), "b")
-_KINDS = {"p": "point", "l": "line", "b": "body"}
+_ARGUMENTS |= {"tension": "s"}
+_KINDS = {"p": "point", "l": "line", "b": "body", "s": "string"}
 
 
 class Writer:
@@ -43,6 +45,20 @@ class Writer:
         except Complaint as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
             return 0.0
+
+    def fraction(self, path: Path, value: Any, what: str) -> Number:
+        """A number from 0 to 1; ``what`` says which (``a restitution``)."""
+        found = self.number(path, value, "", what)
+        if (size := self.size(value)) is not None and size > 1:
+            self.scope.complain(path, f"{what} is at most 1; `{value}` is {size:g}", "1 gives back all speed, 0 none")
+        return found
+
+    def size(self, value: Any) -> float | None:
+        """The value of a number of the model; None where it has none."""
+        try:
+            return self.scope.parameters.number(value)
+        except Complaint:
+            return None
 
     def pair(self, path: Path, values: list[Any], unit: str = "m") -> list[Number]:
         """Two numbers."""
@@ -179,18 +195,18 @@ class Writer:
         """A point with a direction."""
         if isinstance(line, list):
             first, second = (self.point((*path, i), name, body) for i, name in enumerate(line))
-            if first == second or _body(first) != _body(second):
+            if first == second or body_of(first) != body_of(second):
                 why = "are the same" if first == second else "belong to two bodies"
                 self.scope.complain(path, f"the points of a line {why}", "a line goes through two points of one body")
             return {"point": first, "towards": second}
-        if isinstance(line, Through):
+        if isinstance(line, (Through, SurfaceShape)):
             return {
                 "point": self.point((*path, "through"), line.through, body),
                 "angle": self.number((*path, "angle"), line.angle, "rad"),
             }
         return dict(self.lines.get(self._place(path, line, "line", body), {"point": "ground.O", "angle": 0.0}))
 
-    def circle(self, path: Path, circle: Circle) -> dict[str, Any]:
+    def circle(self, path: Path, circle: Circle | SurfaceShape) -> dict[str, Any]:
         """A centre and a radius."""
         return {
             "centre": self.point((*path, "centre"), circle.centre),
@@ -220,12 +236,19 @@ class Writer:
                 f"`{short}` is a point, and a body is needed" if name in self.meanings.points else f"there is no body `{short}`"
             )
             raise Complaint(what, suggestion(short.split(".")[0], self.meanings.seen_from(self.scope, self.meanings.bodies)))
+        if kind == "string":
+            short = name.removeprefix(self.scope.prefix)
+            known = self.meanings.seen_from(self.scope, self._all(kind))
+            raise Complaint(f"there is no string `{short}`", suggestion(short, known, "strings"))
         raise self.meanings.place(name, kind, self._all(kind), self.scope)
 
     def _all(self, kind: str) -> Any:
         m = self.meanings
+        if kind == "string":
+            return {name for name, owner in m.owners.items() if owner == "string"}
         return {"point": m.points, "line": m.lines, "curve": m.curves, "body": m.bodies}[kind]
 
 
-def _body(point: str) -> str:
+def body_of(point: str) -> str:
+    """The body of the full name of a point."""
     return "ground" if point.startswith("ground.") else point.rpartition(".")[0]

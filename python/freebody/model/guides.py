@@ -1,0 +1,105 @@
+"""Guides with ends and joints that only push, as the stops and events they come to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import cards, elements, scope
+from .arithmetic import Number, distance, text
+from .errors import Path
+from .names import spell
+
+if TYPE_CHECKING:
+    from .writer import Writer
+
+Spec = dict[str, Any]
+
+
+def leaving(joint: str) -> list[str]:
+    """The events at the two ends of a guide."""
+    return [f"{joint} leaves start", f"{joint} leaves end"]
+
+
+def lifting(name: str, joint: elements.Element) -> list[tuple[str, str]]:
+    """The events at which a one-sided joint would begin to pull, each with the push that then vanishes."""
+    rows = cards.joints()[joint.type].pushes
+    # Inside another circle a circle is pushed inwards, against the sense in which the distance of the centres grows.
+    sign = "-" if elements.given(joint, "inside") else ""
+    return [(f"{name} lifts off {row}" if len(rows) > 1 else f"{name} lifts off", f"{sign}{{}}.F{row}") for row in rows]
+
+
+def release(name: str, when: str, released: Sequence[str]) -> Spec:
+    """An event that takes parts away as soon as an expression is not above 0."""
+    plain = {"direction": -1, "condition": None, "opening": False, "guard": True}
+    return {"name": name, "when": when} | plain | {"then": [{"release": list(released)}]}
+
+
+class GuideWriter:
+    """Writes what the ends and the one side of the joints of a scope come to.
+
+    ``places`` are the coordinates of all named points in their bodies; ``items`` learns where what is made was written.
+    """
+
+    def __init__(
+        self,
+        write: Writer,
+        spec: Spec,
+        places: Mapping[str, list[Number]],
+        items: dict[str, tuple[scope.Scope, Path]],
+    ) -> None:
+        self.write = write
+        self.spec = spec
+        self.places = places
+        self.items = items
+
+    def joint(self, name: str, joint: elements.Element, written: Spec) -> None:
+        """The stops and events of one joint, which has been written."""
+        path: Path = ("joints", name)
+        full = written["name"]
+        if ends := elements.given(joint, "ends"):
+            self._ends((*path, "ends"), name, joint, written, ends)
+        elif elements.given(joint, "end_restitution") is not None:
+            here = (*path, "end_restitution")
+            self.write.scope.complain(here, "`end_restitution` belongs to the stops of `ends: stop`", "leave it out")
+        if elements.given(joint, "one_sided"):
+            for event, push in lifting(name, joint):
+                self._event(event, push.format(spell(full)), full, (*path, "one_sided"))
+
+    def _ends(self, path: Path, name: str, joint: elements.Element, written: Spec, ends: str) -> None:
+        line = written["with"]["along"]
+        if "towards" not in line:
+            what = "a guide with ends runs from one point to another, and this line has only one"
+            self.write.scope.complain(path, what, "write `along: [P, Q]`")
+            return
+        first, second = line["point"], line["towards"]
+        known = first in self.places and second in self.places
+        length = distance(self.places[first], self.places[second]) if known else f"distance({spell(first)}, {spell(second)})"
+        at = self._place(name, joint, written)
+        beyond = at if at.isidentifier() else f"({at})"
+        gaps = (at, f"{text(length)} - {beyond}")
+        if ends == "free":
+            for event, gap in zip(leaving(name), gaps, strict=True):
+                self._event(event, gap, written["name"], path)
+            return
+        given = elements.given(joint, "end_restitution")
+        restitution = self.write.fraction((*path[:-1], "end_restitution"), 0 if given is None else given, "a restitution")
+        for side, gap in zip(("start", "end"), gaps, strict=True):
+            stop = f"{written['name']}.{side}"
+            self.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
+            self.items[f"stops.{stop}"] = (self.write.scope, path)
+
+    def _place(self, name: str, joint: elements.Element, written: Spec) -> str:
+        """How far along its line the joint is, by its first coordinate."""
+        (own, _), *_ = scope.coordinate_names(name, joint)
+        coordinate = spell(self.write.scope.prefix + own)
+        given = written["coordinates"][0] if written["coordinates"] else {}
+        zero, sign = given.get("zero", 0.0), "-" if given.get("sense") == -1 else "+"
+        if zero == 0.0:
+            return coordinate if sign == "+" else f"-{coordinate}"
+        return f"{text(zero)} {sign} {coordinate}"
+
+    def _event(self, name: str, when: str, joint: str, path: Path) -> None:
+        full = self.write.scope.prefix + name
+        self.spec["events"].append(release(full, when, [joint]))
+        self.items[f"events.{full}"] = (self.write.scope, path)
