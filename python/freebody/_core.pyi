@@ -51,7 +51,6 @@ class Mechanism:
         fixed: Mapping[str, float] = ...,
         guess: Mapping[str, float] = ...,
         rates: Mapping[str, float] = ...,
-        at_rest: bool = False,
         points: Mapping[str, Sequence[float]] = ...,
         branch: Mapping[str, int] = ...,
     ) -> tuple[Array, Array, str]:

@@ -69,7 +69,7 @@ impl Mechanism {
         Ok(PyArray1::from_vec(py, p))
     }
 
-    #[pyo3(signature = (p, t=0.0, fixed=Named::new(), guess=Named::new(), rates=Named::new(), at_rest=false, points=BTreeMap::new(), branch=BTreeMap::new()))]
+    #[pyo3(signature = (p, t=0.0, fixed=Named::new(), guess=Named::new(), rates=Named::new(), points=BTreeMap::new(), branch=BTreeMap::new()))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn assemble<'py>(
         &self,
@@ -79,11 +79,9 @@ impl Mechanism {
         fixed: Named,
         guess: Named,
         rates: Named,
-        at_rest: bool,
         points: BTreeMap<String, Vec<f64>>,
         branch: BTreeMap<String, i64>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String)> {
-        let _ = at_rest;
         let wish = self.wish(&fixed, &guess, &rates, &points, &branch)?;
         let m = self.0.mechanism();
         let mut balance = Balance::new(&m, p.as_slice()?);
