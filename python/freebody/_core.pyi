@@ -14,7 +14,8 @@ class ExpressionError(ValueError):
     """Text that is no expression. ``args = (start, end, what, hint)``, offsets in characters."""
 
 class MotionError(RuntimeError):
-    """A state that has no answer. ``args = (kind, what, hint)``; kind e.g. ``singular_mass``, ``cannot_assemble``."""
+    """A state that has no answer. ``args = (kind, path, what, hint)``; kind e.g. ``singular_mass``, ``cannot_assemble``;
+    ``path`` like ``joints.pivot``, or empty."""
 
 def parse(text: str) -> str:
     """The syntax tree of an expression, as JSON (see crates/freebody/src/expr/ast.rs)."""
@@ -101,7 +102,7 @@ class Trajectory:
 
     steps: Array  # (ns,) times of the accepted steps, first and last included
     events: str  # JSON [{"name", "t", "kind": "crossing"|"touch", "direction", "q", "u"}]
-    outcome: str  # JSON {"name", "ok", "t", "sentence"}
+    outcome: str  # JSON {"name", "ok", "t", "sentence", "path": "joints.pivot", or empty}
     stats: str  # JSON {"accepted", "rejected", "evaluations", "method", "rtol", "closure": worst gap, …}
     def sample(self, times: Array) -> tuple[Array, Array]:
         """q, u (nt, n) at times within the run, on the closed loops."""

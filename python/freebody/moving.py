@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,8 @@ class Moving:
 
         given = self.initial_state(changes, initial)
         p = given.pop("p")
-        q, u, notes = self.compile().assemble(p, t, **given)
+        with self.told():
+            q, u, notes = self.compile().assemble(p, t, **given)
         told = json.loads(notes)
         return State(p, t, q, u), [*told["adjusted"], *told["branch"]]
 
@@ -38,7 +40,8 @@ class Moving:
         from freebody.instant import Instant
 
         state, _ = self.start(initial, t, **changes)
-        return Instant(self.compile(), state, route)
+        with self.told():
+            return Instant(self.compile(), state, route)
 
     def simulate(
         self: Builder,
@@ -58,7 +61,20 @@ class Moving:
         from freebody.run import simulate
 
         state, notes = self.start(initial, t)
-        return simulate(self.source(notes), state, self.run_plan(until, settings), t_eval, progress)
+        with self.told():
+            return simulate(self.source(notes), state, self.run_plan(until, settings), t_eval, progress)
+
+    @contextmanager
+    def told(self: Builder) -> Iterator[None]:
+        """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
+        from freebody import _core
+
+        try:
+            yield
+        except _core.MotionError as error:
+            if path := error.args[1]:
+                error.where = self.lowered().where(path)
+            raise
 
     def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
         """A labelled drawing of the mechanism at the start."""
@@ -77,7 +93,8 @@ class Moving:
         return Source(core, json.dumps(lowered.spec), model, tuple(self.report_items()), tuple(notes))
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
-        """The section ``run`` as numbers, overruled where asked. Raises ``ValueError`` when the run has no end."""
+        """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
+        from freebody.model.errors import ModelFileError, Problem
         from freebody.model.start import evaluate
         from freebody.run import Settings
 
@@ -88,7 +105,8 @@ class Moving:
         asked = self.run_numbers()
         end = asked.until if until is None else evaluate(until, {})
         if end is None:
-            raise ValueError("the run has no end\n  add `run: {until: 5 s}` to the model, or say until=5 (--until 5)")
+            hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
+            raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
         plain = Settings(end, asked.method, asked.rtol, asked.step, asked.max_step, every=asked.every)
         numbers = {k: v if k in ("method", "route") or v is None else evaluate(v, {}) for k, v in overrules.items()}
         return replace(plain, **numbers)

@@ -42,7 +42,11 @@ impl Trajectory {
             }
             other => other.to_string(),
         };
-        serde_json::json!({"name": o.name(), "ok": o.is_ok(), "t": self.run.steps.last(), "sentence": sentence})
+        let path = match o {
+            freebody::motion::Outcome::Trouble(trouble) => trouble.path.as_deref(),
+            _ => None,
+        };
+        serde_json::json!({"name": o.name(), "ok": o.is_ok(), "t": self.run.steps.last(), "sentence": sentence, "path": path.unwrap_or("")})
             .to_string()
     }
     #[getter]

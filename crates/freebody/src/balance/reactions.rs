@@ -31,6 +31,11 @@ impl Source {
             Source::Drive(drive) => &m.drives[drive].name,
         }
     }
+    /// Where it stands in the model, e.g. `joints.pivot`.
+    pub fn path(self, m: &Mechanism) -> String {
+        let motion = matches!(self, Source::Drive(drive) if !m.drives[drive].coupling);
+        format!("{}.{}", if motion { "motions" } else { "joints" }, self.name(m))
+    }
 }
 
 /// The reaction of joint `index`: in the tree from the load passed, else from the multipliers.
