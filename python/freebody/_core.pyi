@@ -14,7 +14,8 @@ class ExpressionError(ValueError):
     """Text that is no expression. ``args = (start, end, what, hint)``, offsets in characters."""
 
 class MotionError(RuntimeError):
-    """A state that has no answer. ``args = (kind, what, hint)``; kind e.g. ``singular_mass``, ``cannot_assemble``."""
+    """A state that has no answer. ``args = (kind, path, what, hint)``; kind e.g. ``singular_mass``, ``cannot_assemble``;
+    ``path`` like ``joints.pivot``, or empty."""
 
 def parse(text: str) -> str:
     """The syntax tree of an expression, as JSON (see crates/freebody/src/expr/ast.rs)."""
@@ -51,7 +52,6 @@ class Mechanism:
         fixed: Mapping[str, float] = ...,
         guess: Mapping[str, float] = ...,
         rates: Mapping[str, float] = ...,
-        at_rest: bool = False,
         points: Mapping[str, Sequence[float]] = ...,
         branch: Mapping[str, int] = ...,
     ) -> tuple[Array, Array, str]:
@@ -99,6 +99,7 @@ class Instant:
     residual: float  # largest momentum-balance residual of a body, relative to the largest term
     sizes: tuple[float, float]  # largest force (N) and acceleration (m/s²) among the terms that balance
     body_residuals: Array  # (nb, 3) N, N, N·m
+    limits: str  # JSON [{"state", "gap", "normal", "friction", "force": on the first body, "at"}], as in ``describe()["limits"]``
     rank: str  # JSON {"freedom", "count", "rank", "rows", "redundant", "explanation", "self_stress": [str]}
 
 class Trajectory:
@@ -106,7 +107,7 @@ class Trajectory:
 
     steps: Array  # (ns,) times of the accepted steps, first and last included
     events: str  # JSON [{"name", "t", "kind": "crossing"|"touch", "direction", "q", "u"}]
-    outcome: str  # JSON {"name", "ok", "t", "sentence"}
+    outcome: str  # JSON {"name", "ok", "t", "sentence", "path": "joints.pivot", or empty}
     stats: str  # JSON {"accepted", "rejected", "evaluations", "method", "rtol", "closure": worst gap, …}
     def sample(self, times: Array) -> tuple[Array, Array]:
         """q, u (nt, n) at times within the run, on the closed loops."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,8 @@ class Moving:
 
         given = self.initial_state(changes, initial)
         p = given.pop("p")
-        q, u, notes = self.compile().assemble(p, t, **given)
+        with self.told():
+            q, u, notes = self.compile().assemble(p, t, **given)
         told = json.loads(notes)
         return State(p, t, q, u), [*told["adjusted"], *told["branch"]]
 
@@ -40,7 +42,8 @@ class Moving:
         from freebody.instant import Instant
 
         state, _ = self.start(initial, t, **changes)
-        return Instant(self.compile(), state, route)
+        with self.told():
+            return Instant(self.compile(), state, route)
 
     def simulate(
         self: Builder,
@@ -64,7 +67,8 @@ class Moving:
         if initial is None and self.lowered().start.equilibrium:
             self.check_equilibrium(state)
         leg = Leg(self, self.run_plan(until, settings), settings, t_eval, progress)
-        return follow(leg, leg.run(state, notes))
+        with self.told():
+            return follow(leg, leg.run(state, notes))
 
     def check_equilibrium(self: Builder, state: State) -> None:
         """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""
@@ -75,6 +79,18 @@ class Moving:
             told = ", ".join(f"`{name}` {value}" for name, value in moving.items())
             hint = "look for a load that nothing carries, or leave `equilibrium` out"
             raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {told}", hint)
+
+    @contextmanager
+    def told(self: Builder) -> Iterator[None]:
+        """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
+        from freebody import _core
+
+        try:
+            yield
+        except _core.MotionError as error:
+            if path := error.args[1]:
+                error.where = self.lowered().where(path)
+            raise
 
     def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
         """A labelled drawing of the mechanism at the start."""
@@ -93,7 +109,8 @@ class Moving:
         return Source(core, json.dumps(lowered.spec), model, tuple(self.report_items()), tuple(notes))
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
-        """The section ``run`` as numbers, overruled where asked. Raises ``ValueError`` when the run has no end."""
+        """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
+        from freebody.model.errors import ModelFileError, Problem
         from freebody.model.start import evaluate
         from freebody.run import Settings
 
@@ -104,7 +121,8 @@ class Moving:
         asked = self.run_numbers()
         end = asked.until if until is None else evaluate(until, {})
         if end is None:
-            raise ValueError("the run has no end\n  add `run: {until: 5 s}` to the model, or say until=5 (--until 5)")
+            hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
+            raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
         steps = {"step": asked.step, "max_step": asked.max_step, "every": asked.every}
         plain = Settings(end, asked.method, asked.rtol, **steps, impacts=asked.impacts, painleve=asked.painleve)
         words = ("method", "route", "impacts", "painleve")

@@ -93,12 +93,15 @@ class Event:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended: one of a closed list of names, whether that is what was asked for, when, and why."""
+    """How a run ended: one of a closed list of names, whether that is what was asked for, when, and why.
+
+    ``path`` is the item of the model that the sentence is about, like ``bodies.crank``, or empty."""
 
     name: str
     ok: bool
     t: float
     sentence: str
+    path: str = ""
 
 
 @dataclass(frozen=True)

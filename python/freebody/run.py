@@ -118,7 +118,7 @@ class Run:
     def outcome(self) -> Outcome:
         """How the run ended."""
         told = json.loads(self.motion.outcome)
-        return Outcome(told["name"], told["ok"], told["t"], told["sentence"])
+        return Outcome(told["name"], told["ok"], told["t"], told["sentence"], told.get("path", ""))
 
     @cached_property
     def events(self) -> list[Event]:

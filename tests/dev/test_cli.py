@@ -16,13 +16,12 @@ from freebody.cli.mistakes import Mistake, explained
 ROOT = Path(__file__).parents[2]
 GUN = str(ROOT / "examples" / "new_gun.yaml")
 DRIVEN = str(ROOT / "python/freebody/systems/19.3.16/driven.yaml")
+# What only shows when the motion is computed, and the item that is to blame.
 AT_RUN_TIME = {
-    "contradictory_motions",
-    "contradictory_start",
-    "division_by_nothing",
-    "loop_that_cannot_close",
-    "no_end",
-    "spin_without_inertia",
+    "contradictory_motions": "fast:",
+    "contradictory_start": "drive:",
+    "loop_that_cannot_close": "C:",
+    "spin_without_inertia": "crank:",
 }
 COMMANDS = ["run", "solve", "validate", "animate", "compare", "systems", "schema", "version"]
 
@@ -101,8 +100,10 @@ def test_a_wrong_model_is_told_with_a_hint(command, path):
     print(done.output)  # pytest -s shows what a newcomer reads
     assert done.exit_code == 2 and "Traceback" not in done.output
     assert len(done.output.strip().splitlines()) >= 2, "what is wrong, then what to try"
-    if path.stem not in AT_RUN_TIME:
-        assert re.match(rf".*{path.name}:\d+:\d+: ", done.output)
+    named = re.match(rf".*{path.name}:(\d+):\d+: ", done.output)
+    assert named or path.stem == "division_by_nothing", "that one only shows in the numbers"
+    if path.stem in AT_RUN_TIME:
+        assert path.read_text().splitlines()[int(named[1]) - 1].strip().startswith(AT_RUN_TIME[path.stem])
 
 
 @pytest.mark.parametrize("text", ["theta", "=3", "theta=", ""])
@@ -128,7 +129,7 @@ def test_a_missing_file_is_said_in_a_line(command):
             _core.ModelError("joints.pivot.of[1]", "no point is called rod.Z", "did you mean rod.A?"),
             "joints.pivot.of[1]: no point",
         ),
-        (_core.MotionError("cannot_assemble", "the loop stays open by 2 mm", "give a guess"), "the loop stays open"),
+        (_core.MotionError("cannot_assemble", "", "the loop stays open by 2 mm", "give a guess"), "the loop stays open"),
         (RuntimeError("an MP4 needs ffmpeg"), "an MP4 needs"),
         (ValueError("until must be positive"), "until must be positive"),
     ],

@@ -64,6 +64,7 @@ def test_the_start_of_a_motion(pendulum):
         ({"phi1": "3 kg"}, "`3 kg` is a mass"),
         ({"T": "1 m"}, "`T` is a torque"),
         ({"phi1": "2*q"}, "no parameter `q`"),
+        ({"at_rest": True, "rates": {"phi1": 1}}, "contradict each other"),
     ],
 )
 def test_wrong_overrides(pendulum, overrides, words):

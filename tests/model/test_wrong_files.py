@@ -76,6 +76,7 @@ CASES = {
     "unknown coordinate": ("{theta: 30 deg", "{teta: 30 deg", 10, 11, ["no coordinate `teta`", "did you mean `theta`?"]),
     "parameter as a coordinate": ("{theta: 30 deg", "{l: 30 deg", 10, 11, ["`l` is a parameter, not a coordinate"]),
     "angle in metres": ("theta: 30 deg", "theta: 30 mm", 10, 18, ["`theta` is an angle", "`30 mm` is a length"]),
+    "rates at rest": ("at_rest: true", "at_rest: true, rates: {theta: 1}", 10, 48, ["`at_rest` and `rates` contradict"]),
     "time in metres": ("until: 5 s", "until: 5 m", 11, 14, ["`until` is a time", "`5 m` is a length"]),
     "unknown method": ("until: 5 s", "until: 5 s, method: dop835", 11, 27, ["`dop835`", "did you mean `dop853`?"]),
     "unknown action": ("run:", "events: {e: {when: theta, then: stopp}}\nrun:", 11, 33, ["`stopp`", "did you mean `stop`?"]),

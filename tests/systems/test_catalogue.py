@@ -7,6 +7,7 @@ import pytest
 
 from freebody import catalogue
 from freebody.catalogue import Answer, Asked, Question, ask
+from freebody.model import Mechanism
 
 
 @pytest.mark.parametrize("identity", [system.id for system in catalogue.systems()])
@@ -27,6 +28,12 @@ def test_every_system_has_a_main_model():
     for system in catalogue.systems():
         assert system.models[0].name == "model.yaml"
         assert system.title
+
+
+def test_every_model_says_how_long_it_runs():
+    for system in catalogue.systems():
+        for path in system.models:
+            assert Mechanism.load(path).run_plan(None, {}).until > 0, path
 
 
 def test_digits():

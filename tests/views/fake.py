@@ -117,7 +117,7 @@ class FakeMechanism:
     def gaps(self, q):
         return np.concatenate([self.place(q, a) - self.place(q, b) for _, a, b in self.cut]) if self.cut else np.zeros(0)
 
-    def assemble(self, p, t=0.0, fixed=None, guess=None, rates=None, at_rest=False, points=None, branch=None):
+    def assemble(self, p, t=0.0, fixed=None, guess=None, rates=None, points=None, branch=None):
         start = {**(guess or {}), **(fixed or {})}
         q = np.array([start.get(self._coordinate(n), 0.0) for n in self.names])
         if self.cut:

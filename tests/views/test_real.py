@@ -11,11 +11,16 @@ from matplotlib.axes import Axes
 from freebody.model import Mechanism
 from freebody.run import Run
 from freebody.views import plots
+from freebody.views.labels import Label, place_labels
+from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html
+from freebody.views.style import axes
 
 matplotlib.use("Agg")
 
-MODEL = Path(__file__).parents[2] / "examples" / "four_bar.yaml"
+ROOT = Path(__file__).parents[2]
+MODEL = ROOT / "examples" / "four_bar.yaml"
+SLIDER = ROOT / "systems" / "GEN-SLIDER" / "model.yaml"
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +57,23 @@ def test_every_plot_is_drawn(plot, run):
 def test_the_drawing_shows_the_whole_mechanism(mechanism):
     texts = {text.get_text() for text in mechanism.drawing().texts}
     assert {"crank", "coupler", "rocker", "A", "B", "C", "D"} <= texts
+
+
+def test_a_label_keeps_off_narrow_places_between_lines():
+    ax = axes(None)
+    ax.set(xlim=(0, 8), ylim=(0, 6))
+    along = np.linspace(0, 8, 400)
+    lines = [np.stack([along, np.full(400, y)], axis=1) for y in (2.84, 3.16)]
+    place_labels(ax, [Label("C", np.array([4.0, 3.0]))], np.vstack(lines))
+    assert abs(ax.texts[0].get_position()[1] - 3.0) > 0.16
+
+
+def test_what_rounding_left_of_a_couple_is_not_shown():
+    run = Mechanism.load(SLIDER).simulate(until=0.2)
+    assert run.reactions["guide"].M.any(), "round-off is there"
+    assert {peak.joint: peak.couple for peak in peak_reactions(run)}["guide"] == 0.0
+    page = report_html(run)
+    assert "Reactions, couple" not in page and "<aside></aside>" in page
 
 
 def test_the_report_needs_nothing_else(run):

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 create_exception!(_core, ModelError, PyValueError, "A model that cannot be compiled: (path, what, hint).");
 create_exception!(_core, ExpressionError, PyValueError, "Text that is no expression: (start, end, what, hint).");
-create_exception!(_core, MotionError, PyRuntimeError, "A state that has no answer: (kind, what, hint).");
+create_exception!(_core, MotionError, PyRuntimeError, "A state that has no answer: (kind, path, what, hint).");
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("ModelError", m.py().get_type::<ModelError>())?;
@@ -29,5 +29,5 @@ pub fn expression(text: &str, e: ExprError) -> PyErr {
 
 pub fn motion(t: Trouble) -> PyErr {
     let (what, hint) = t.sentence.split_once("; ").unwrap_or((&t.sentence, ""));
-    MotionError::new_err((t.name, what.to_string(), hint.to_string()))
+    MotionError::new_err((t.name, t.path.unwrap_or_default(), what.to_string(), hint.to_string()))
 }

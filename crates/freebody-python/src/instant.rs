@@ -70,6 +70,17 @@ impl Instant {
     fn sizes(&self) -> (f64, f64) {
         (self.solved.sizes.load, self.solved.sizes.acceleration)
     }
+    /// JSON, one for each contact, stop and string.
+    #[getter]
+    fn limits(&self) -> String {
+        let told = |l: &balance::LimitLoad| {
+            serde_json::json!({
+                "state": l.state, "gap": l.gap, "normal": l.along[0], "friction": l.along[1],
+                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]),
+            })
+        };
+        serde_json::Value::Array(self.solved.limits.iter().map(told).collect()).to_string()
+    }
     #[getter]
     fn rank(&self) -> &str {
         &self.rank

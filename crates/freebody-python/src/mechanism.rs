@@ -7,7 +7,7 @@ use freebody::assembly::{assemble, Wish};
 use freebody::balance::{Balance, Freedom, Observer, Route, Trouble};
 use freebody::compile::Compiled;
 use freebody::gauges::Law;
-use freebody::simulation::{simulate, Settings, Start};
+use freebody::simulation::{simulate, Rule, Settings, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -69,7 +69,7 @@ impl Mechanism {
         Ok(PyArray1::from_vec(py, p))
     }
 
-    #[pyo3(signature = (p, t=0.0, fixed=Named::new(), guess=Named::new(), rates=Named::new(), at_rest=false, points=BTreeMap::new(), branch=BTreeMap::new()))]
+    #[pyo3(signature = (p, t=0.0, fixed=Named::new(), guess=Named::new(), rates=Named::new(), points=BTreeMap::new(), branch=BTreeMap::new()))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn assemble<'py>(
         &self,
@@ -79,11 +79,9 @@ impl Mechanism {
         fixed: Named,
         guess: Named,
         rates: Named,
-        at_rest: bool,
         points: BTreeMap<String, Vec<f64>>,
         branch: BTreeMap<String, i64>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String)> {
-        let _ = at_rest;
         let wish = self.wish(&fixed, &guess, &rates, &points, &branch)?;
         let m = self.0.mechanism();
         let mut balance = Balance::new(&m, p.as_slice()?);
@@ -194,7 +192,9 @@ impl Mechanism {
         impacts: &str,
         painleve: &str,
     ) -> PyResult<Trajectory> {
-        one_of("law of impacts", impacts, &["newton", "poisson", "sequential", "stop"])?;
+        let words: Vec<&str> = Rule::ALL.iter().map(|r| r.0).collect();
+        one_of("law of impacts", impacts, &words)?;
+        let impacts = Rule::named(impacts).unwrap_or(Rule::Stop);
         one_of("answer to a jam of friction", painleve, &["stop", "impact"])?;
         let options = freebody::motion::Options {
             rtol,
@@ -202,7 +202,7 @@ impl Mechanism {
             max_step: max_step.unwrap_or(f64::INFINITY),
             max_steps,
         };
-        let settings = Settings { method: method.to_string(), options, route: chosen(route)? };
+        let settings = Settings { method: method.to_string(), options, route: chosen(route)?, impacts };
         let (p, q, u) = (p.as_slice()?.to_vec(), q.as_slice()?.to_vec(), u.as_slice()?.to_vec());
         let of = self.0.clone();
         let mut trouble = None;
@@ -285,6 +285,7 @@ impl Mechanism {
         }
         let mut balance = Balance::new(m, p.as_slice()?);
         balance.place(t, q, u);
+        balance.lean().map_err(errors::motion)?;
         Ok(balance)
     }
 

@@ -34,6 +34,23 @@ impl Trajectory {
         serde_json::Value::Array(self.run.events.iter().map(told).collect()).to_string()
     }
     #[getter]
+    fn changes(&self) -> String {
+        let m = self.of.mechanism();
+        let n = m.freedom();
+        let told = |c: &simulation::Change| {
+            let state = |y: &Vec<f64>| serde_json::json!({"q": y[..n], "u": y[n..2 * n]});
+            let impulses = c.impulses.as_ref().map(|i| {
+                let limits: Vec<_> = i.limits.iter().map(|(name, p)| serde_json::json!([name, [p.x, p.y]])).collect();
+                serde_json::json!({"limits": limits, "joints": i.joints})
+            });
+            serde_json::json!({
+                "t": c.t, "kind": c.kind, "of": c.of, "lost": c.lost, "note": c.note, "impulses": impulses,
+                "before": c.states.as_ref().map(|s| state(&s[0])), "after": c.states.as_ref().map(|s| state(&s[1])),
+            })
+        };
+        serde_json::Value::Array(self.run.changes.iter().map(told).collect()).to_string()
+    }
+    #[getter]
     fn outcome(&self) -> String {
         let o = &self.run.outcome;
         let sentence = match o {
@@ -42,7 +59,11 @@ impl Trajectory {
             }
             other => other.to_string(),
         };
-        serde_json::json!({"name": o.name(), "ok": o.is_ok(), "t": self.run.steps.last(), "sentence": sentence})
+        let path = match o {
+            freebody::motion::Outcome::Trouble(trouble) => trouble.path.as_deref(),
+            _ => None,
+        };
+        serde_json::json!({"name": o.name(), "ok": o.is_ok(), "t": self.run.steps.last(), "sentence": sentence, "path": path.unwrap_or("")})
             .to_string()
     }
     #[getter]

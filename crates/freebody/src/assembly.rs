@@ -1,6 +1,6 @@
 //! Assembly: coordinates and rates that close all loops and keep what was asked for.
 
-use crate::balance::{Balance, Row, Trouble, CLOSED, OPEN};
+use crate::balance::{Balance, Row, Source, Trouble, CLOSED, OPEN};
 use crate::gauges::{jet, Law, Moving};
 
 /// What an initial state is asked to be.
@@ -222,37 +222,43 @@ fn velocities(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Result<V
     balance.place(t, q, &u);
     balance.take_rows();
     let speed = u.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-    let drive = balance.rows().iter().filter_map(|r| r.rate.map(|x| (r.source.name(balance.m).to_string(), x)));
+    let told = |source: Source| (source.name(balance.m).to_string(), Some(source.path(balance.m)));
+    let drive = balance.rows().iter().filter_map(|r| r.rate.map(|x| (told(r.source), x)));
     let going = Moving { at: balance.at(), bodies: None, accelerations: None };
-    let held = wish.held_rates.iter().map(|(name, law, rate)| (format!("rate of {name}"), jet(&going, law).d1 - rate));
+    let held =
+        wish.held_rates.iter().map(|(name, law, rate)| ((format!("rate of {name}"), None), jet(&going, law).d1 - rate));
     let worst = drive.chain(held).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match worst {
-        Some((name, left)) if left.abs() > 1e-8 * speed * balance.length.max(1.0) => Err(Trouble::new(
+        Some(((name, path), left)) if left.abs() > 1e-8 * speed * balance.length.max(1.0) => Err(Trouble::new(
             "inconsistent_velocities",
             format!("the motions, loops and given rates contradict each other: at best {name} is off by {left:.3} (m/s or rad/s); remove one of them, or make them agree"),
-        )),
+        )
+        .about(path)),
         _ => Ok(u),
     }
 }
 
 fn cannot_assemble(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Trouble {
     balance.place(t, q, &vec![0.0; q.len()]);
-    let mut gaps: Vec<(String, f64)> = vec![];
+    // Name and, for what is no wish, place in the model; how far open.
+    let mut gaps: Vec<(String, Option<String>, f64)> = vec![];
     for (i, (row, gap)) in rows(balance, &wish.held).iter().enumerate() {
         let closing = balance.rows().iter().filter(|r| balance.gap(r).is_some()).count();
-        let name = match i.checked_sub(closing) {
-            None => row.source.name(balance.m).to_string(),
-            Some(k) => wish.held[k].0.clone(),
+        let (name, path) = match i.checked_sub(closing) {
+            None => (row.source.name(balance.m).to_string(), Some(row.source.path(balance.m))),
+            Some(k) => (wish.held[k].0.clone(), None),
         };
-        match gaps.iter_mut().find(|(n, _)| *n == name) {
-            Some((_, g)) => *g = g.hypot(*gap),
-            None => gaps.push((name, gap.abs())),
+        match gaps.iter_mut().find(|known| known.0 == name) {
+            Some((_, _, g)) => *g = g.hypot(*gap),
+            None => gaps.push((name, path, gap.abs())),
         }
     }
-    gaps.retain(|(_, gap)| *gap > 1e-9 * balance.length);
-    let told: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
+    gaps.retain(|(_, _, gap)| *gap > 1e-9 * balance.length);
+    let told: Vec<String> = gaps.iter().map(|(name, _, gap)| format!("{gap:.4} at `{name}`")).collect();
+    let widest = gaps.into_iter().filter(|g| g.1.is_some()).max_by(|a, b| a.2.total_cmp(&b.2));
     Trouble::new(
         "cannot_assemble",
         format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", told.join(", ")),
     )
+    .about(widest.and_then(|(_, path, _)| path))
 }

@@ -9,12 +9,18 @@ pub struct Trouble {
     pub name: &'static str,
     /// One sentence: what happened and what to do.
     pub sentence: String,
+    /// The item of the model it is about, e.g. `joints.pivot`, where there is one.
+    pub path: Option<String>,
 }
 
 impl Trouble {
     /// A failure called `name`, explained by `sentence`.
     pub fn new(name: &'static str, sentence: impl Into<String>) -> Self {
-        Self { name, sentence: sentence.into() }
+        Self { name, sentence: sentence.into(), path: None }
+    }
+    /// The same failure, said to be about an item of the model.
+    pub fn about(self, path: impl Into<Option<String>>) -> Self {
+        Self { path: path.into(), ..self }
     }
 }
 

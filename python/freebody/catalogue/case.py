@@ -44,8 +44,6 @@ class Case:
 
     def instant(self, file: str = "model.yaml", parameters: Mapping[str, Any] | None = None, **state: Any) -> Instant:
         """One instant; ``state`` says what differs from the model's initial state, in the same words."""
-        if "rates" in state:
-            state.setdefault("at_rest", False)
         name = _name(file, parameters, state)
         if name not in self.instants:
             self.instants[name] = self.mechanism(file, **(parameters or {})).solve(**state)

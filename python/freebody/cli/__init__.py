@@ -195,6 +195,7 @@ def opened(path: Path, changes: list[str] | None = None) -> Any:
 def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> Run:
     """The run of a model file; settings that are None stay as the file has them."""
     from freebody.cli.progress import watched
+    from freebody.model.errors import ModelFileError, Problem
 
     given = {name: value for name, value in settings.items() if value is not None}
     mechanism = opened(path, changes)
@@ -203,8 +204,11 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
         done = mechanism.simulate(end, progress=progress, **given)
     if not done.outcome.ok and done.outcome.t == done.start.t:
         # Nothing moved, so there is nothing to show.
-        what, _, hint = done.outcome.sentence.partition("; ")
-        raise Mistake(f"the run ends where it begins, t = {done.outcome.t:g} s: {what}", hint or HINT_AT_START)
+        sentence, _, hint = done.outcome.sentence.partition("; ")
+        what = f"the run ends where it begins, t = {done.outcome.t:g} s: {sentence}"
+        if done.outcome.path:
+            raise ModelFileError([Problem(mechanism.lowered().where(done.outcome.path), what, hint)])
+        raise Mistake(what, hint or HINT_AT_START)
     return done
 
 

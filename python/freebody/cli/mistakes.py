@@ -35,6 +35,10 @@ def explained(error: Exception) -> str | None:
 
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}"
+    if where := getattr(error, "where", None):
+        from freebody.model.errors import Problem
+
+        return str(Problem(where, *error.args[-2:]))
     if isinstance(error, (Mistake, _core.ModelError, _core.ExpressionError, _core.MotionError)):
         # The last two are always what is wrong and what to try; a place in front of them is a path in the model.
         *_, what, hint = error.args

@@ -18,7 +18,8 @@ def watched(end: float) -> Iterator[Callable[[float], bool]]:
     before = signal.signal(signal.SIGINT, lambda *_: interrupted.set())
     columns = TextColumn("simulating"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeRemainingColumn()
     try:
-        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        console = Console(stderr=True)
+        with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
             task = bar.add_task("", total=end, reached="")
 
             def progress(t: float) -> bool:

@@ -18,6 +18,7 @@ from .units import TIME, Dimension
 from .writer import Number, Writer
 
 _SIGNS = {"positive": 1, "negative": -1}
+_RESTLESS = ("`at_rest` and `rates` contradict each other", "leave one of them out")
 WORDS = ("rates", "at_rest", "guess", "points", "branch")
 
 
@@ -28,7 +29,6 @@ class Start:
     fixed: dict[str, Number] = field(default_factory=dict)
     guess: dict[str, Number] = field(default_factory=dict)
     rates: dict[str, Number] = field(default_factory=dict)
-    at_rest: bool = False
     points: dict[str, list[Number]] = field(default_factory=dict)
     branch: dict[str, int] = field(default_factory=dict)
     equilibrium: bool = False
@@ -43,7 +43,6 @@ class Assembly(TypedDict):
     fixed: dict[str, float]
     guess: dict[str, float]
     rates: dict[str, float]
-    at_rest: bool
     points: dict[str, list[float]]
     branch: dict[str, int]
 
@@ -68,8 +67,11 @@ class StartWriter:
         start, path = self.start, ("initial",)
         start.fixed |= self._values(path, initial.model_extra or {}, 0)
         start.guess |= self._values((*path, "guess"), initial.guess, 0)
+        if initial.at_rest:  # what a part of this scope says of its rates is overruled
+            start.rates = {n: rate for n, rate in start.rates.items() if not n.startswith(self.write.scope.prefix)}
+            if initial.rates:
+                self.write.scope.complain((*path, "rates"), *_RESTLESS)
         start.rates |= self._values((*path, "rates"), initial.rates, 1)
-        start.at_rest = initial.at_rest
         for name, at in initial.points.items():
             here = (*path, "points", name)
             start.points[self.write.point(here, name)] = self.write.pair(here, at)
@@ -111,6 +113,8 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
     if unknown:
         known = [*start.coordinates, *start.parameters, *WORDS]
         raise Complaint(f"there is no coordinate or parameter `{unknown[0]}`", suggestion(unknown[0], known))
+    if words.get("at_rest") and words.get("rates"):
+        raise Complaint(*_RESTLESS)
     p = core.bind({n: _plain(n, v, start.parameters[n], {}) for n, v in given.items() if n in start.parameters})
     values = parameter_values(core, p)
     fixed = dict(start.fixed) | {n: v for n, v in given.items() if n in start.coordinates}
@@ -120,7 +124,6 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
         "fixed": {n: _plain(n, v, _dimension(start, n), values) for n, v in fixed.items()},
         "guess": {n: _plain(n, v, _dimension(start, n), values) for n, v in (start.guess | dict(words.get("guess", {}))).items()},
         "rates": {n: _plain(n, v, _rate(_dimension(start, n)), values) for n, v in rates.items()},
-        "at_rest": bool(words.get("at_rest", start.at_rest and not words.get("rates"))),
         "points": {
             n: [_plain(n, v, units.LENGTH, values) for v in at]
             for n, at in (start.points | dict(words.get("points", {}))).items()

@@ -26,6 +26,7 @@ LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
 _POINT_TO_POINT = ("link", "rolling_circles", "polar")
 _CORNER = 66.0  # points
+_ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
 _UNTOLD = ("origin", "G", "centre", "start", "end")
 
 
@@ -169,7 +170,7 @@ def _draw_angle(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: flo
 
 
 def _figure(value: float) -> str:
-    return f"{value + 0.0:.4g}".replace("-", "−")
+    return f"{0.0 if abs(value) < _ROUND_OFF else value:.4g}".replace("-", "−")
 
 
 def _vertex(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:

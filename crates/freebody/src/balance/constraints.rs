@@ -181,14 +181,15 @@ impl Balance<'_> {
     }
 
     fn stalled(&self, node: usize, residual: f64, bodies: usize, groups: &[Source]) -> Trouble {
-        let name = match node < bodies {
-            true => &self.m.bodies[node + 1].name,
-            false => groups[node - bodies].name(self.m),
+        let (name, path) = match node < bodies {
+            true => (&*self.m.bodies[node + 1].name, format!("bodies.{}", self.m.bodies[node + 1].name)),
+            false => (groups[node - bodies].name(self.m), groups[node - bodies].path(self.m)),
         };
         Trouble::new(
             "inconsistent_constraints",
             format!("the equations leave a residual of {residual:.1e} at `{name}`: its constraints exclude each other, or a motion there has no inertia"),
         )
+        .about(path)
     }
 
     /// The same equations as a full matrix, for actuators that act along another gauge than the one they drive.

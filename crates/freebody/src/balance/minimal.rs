@@ -99,14 +99,18 @@ impl Balance<'_> {
     /// Says in the model's words why there is no unique motion.
     fn explain(&self, error: SaddleError) -> Trouble {
         match error {
-            SaddleError::ZeroInertia { direction } => Trouble::new(
-                "singular_mass",
-                format!("{} with no inertia to resist it; give it mass and inertia, or lock that motion", self.describe(&direction)),
-            ),
-            SaddleError::NoAuthority { direction } => Trouble::new(
-                "no_authority",
-                format!("the actuators cannot bring about the prescribed motion: {} out of their reach", self.describe(&direction)),
-            ),
+            SaddleError::ZeroInertia { direction } => {
+                let (what, first) = self.describe(&direction);
+                let sentence =
+                    format!("{what} with no inertia to resist it; give it mass and inertia, or lock that motion");
+                Trouble::new("singular_mass", sentence).about(first)
+            }
+            SaddleError::NoAuthority { direction } => {
+                let (what, first) = self.describe(&direction);
+                let sentence =
+                    format!("the actuators cannot bring about the prescribed motion: {what} out of their reach");
+                Trouble::new("no_authority", sentence).about(first)
+            }
             SaddleError::RankMismatch { motion, force } => Trouble::new(
                 "no_authority",
                 format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
@@ -114,15 +118,16 @@ impl Balance<'_> {
         }
     }
 
-    /// Which bodies take part in a motion of the tree, in words.
-    pub(super) fn describe(&self, direction: &[f64]) -> String {
+    /// Which bodies take part in a motion of the tree, in words, and where the first of them stands in the model.
+    fn describe(&self, direction: &[f64]) -> (String, Option<String>) {
         let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
         self.k.spread(self.m, direction, false, &mut bodies);
         let size = |t: &Twist| t.v.norm() / self.length + t.w.abs();
         let most = bodies.iter().map(size).fold(0.0, f64::max);
-        let moving: Vec<String> = (1..bodies.len())
-            .filter(|&i| size(&bodies[i]) > 1e-6 * most)
-            .map(|i| {
+        let moving: Vec<usize> = (1..bodies.len()).filter(|&i| size(&bodies[i]) > 1e-6 * most).collect();
+        let words: Vec<String> = moving
+            .iter()
+            .map(|&i| {
                 let turning = bodies[i].w.abs() * self.length > 1e3 * bodies[i].v.norm();
                 let pin = self.m.bodies[i].branch.map_or("", |b| self.m.joints[b.joint].name.as_str());
                 if turning {
@@ -132,7 +137,7 @@ impl Balance<'_> {
                 }
             })
             .collect();
-        moving.join(" and ")
+        (words.join(" and "), moving.first().map(|&i| format!("bodies.{}", self.m.bodies[i].name)))
     }
 
     fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), Trouble> {
@@ -148,7 +153,8 @@ impl Balance<'_> {
         Err(Trouble::new(
             "inconsistent_constraints",
             format!("{} ask for motions that exclude each other; remove one, or make them agree", unique.join(", ")),
-        ))
+        )
+        .about(self.rows.last().map(|row| row.source.path(self.m))))
     }
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.

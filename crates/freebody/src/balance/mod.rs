@@ -75,6 +75,7 @@ impl Trouble {
             "singular_mass",
             format!("`{name}` can move at `{joint}` with no inertia to resist it; give it (or what hangs on it) mass and inertia, or lock that motion"),
         )
+        .about(format!("bodies.{name}"))
     }
 }
 

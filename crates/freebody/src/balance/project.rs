@@ -81,14 +81,10 @@ impl Balance<'_> {
         if gap <= OPEN {
             return Ok(moved);
         }
-        Err(Trouble::new(
-            "branch_lost",
-            format!(
-                "the loop at {} opened by {:.3e} m and could not be closed again",
-                self.most_open(),
-                gap * self.length
-            ),
-        ))
+        let open = self.most_open();
+        let (name, far) = (open.name(self.m), gap * self.length);
+        let sentence = format!("the loop at `{name}` opened by {far:.3e} m and could not be closed again");
+        Err(Trouble::new("branch_lost", sentence).about(open.path(self.m)))
     }
 
     /// Makes the velocities at (t, q) keep the loops closed: returns the size of the correction.
@@ -241,9 +237,9 @@ impl Balance<'_> {
     }
 
     /// The joint or motion whose row is farthest from closed.
-    pub(crate) fn most_open(&self) -> String {
+    fn most_open(&self) -> Source {
         let open = |row: &Row| self.gap(row).map_or(0.0, f64::abs) / self.row_unit(row);
         let worst = self.rows.iter().max_by(|a, b| open(a).total_cmp(&open(b)));
-        worst.map_or(String::new(), |row| format!("`{}`", row.source.name(self.m)))
+        worst.expect("only a row can be open").source
     }
 }

@@ -32,6 +32,11 @@ impl Source {
             Source::Limit(limit) | Source::Friction(limit) => &m.groups[m.limits[limit].group].name,
         }
     }
+    /// Where it stands in the model, e.g. `joints.pivot`.
+    pub fn path(self, m: &Mechanism) -> String {
+        let motion = matches!(self, Source::Drive(drive) if !m.drives[drive].coupling);
+        format!("{}.{}", if motion { "motions" } else { "joints" }, self.name(m))
+    }
 }
 
 /// The reaction of joint `index`: in the tree from the load passed, else from the multipliers.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.results import Array, Column, plain, quote, unit_of
+from freebody.views.peaks import couple_noise
 from freebody.views.plots import pretty_unit
 
 if TYPE_CHECKING:
@@ -82,7 +83,8 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     known = [(name, reaction) for name, reaction in run.reactions.items() if reaction.determinate]
     silent = [name for name, reaction in run.reactions.items() if not reaction.determinate]
     note = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
-    couples = [(name, reaction.M) for name, reaction in known if reaction.M.any()]
+    noise = couple_noise(run)
+    couples = [(name, reaction.M) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
     made = (
         [_plot("Reactions, size of the force", "N", run.t, [(name, r.size) for name, r in known], note)]
         if known or silent

@@ -27,7 +27,7 @@ def headline(run: Run) -> str:
 
 def aside(run: Run) -> str:
     """What stands beside the moving mechanism: reported quantities and events."""
-    return "\n".join((_reported(run), _events(run)))
+    return "\n".join(filter(None, (_reported(run), _events(run))))
 
 
 def sections(run: Run) -> str:
