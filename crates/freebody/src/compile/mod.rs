@@ -1,10 +1,12 @@
 //! From the model as data to the mechanism: names resolved, numbers in slots, the tree chosen.
 
+mod contacts;
 mod elements;
 mod events;
 mod fields;
 mod joints;
 mod names;
+mod outline;
 mod places;
 mod tree;
 
@@ -12,6 +14,7 @@ pub use elements::coupling_card;
 pub use fields::Fields;
 pub use names::{distance, unknown, Names, Reach, Scope};
 
+use crate::contact::Gap;
 use crate::expr::{Interpolation, Table};
 use crate::gauges::Law;
 use crate::mechanism::{Kink, Mechanism, Parameter, Slot};
@@ -80,6 +83,8 @@ impl Compiled {
         c.drives()?;
         c.locks()?;
         c.forces()?;
+        c.contacts()?;
+        c.stops()?;
         c.idle()?;
         c.events()?;
         c.find_kinks();
@@ -177,13 +182,17 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// Where the laws of forces and drives, and the curves of joints, are not smooth.
+    /// Where the laws of forces, drives and stops, and the curves of joints, are not smooth.
     fn find_kinks(&mut self) {
         let m = &self.m;
         let forces = m.forces.iter().flat_map(|f| f.laws());
         let drives = m.drives.iter().flat_map(|d| [&d.of, &d.law].into_iter().chain(&d.by));
+        let stops = m.limits.iter().filter_map(|limit| match &limit.gap {
+            Gap::Gauge(law) => Some(law),
+            Gap::Touch(_) | Gap::Cord(_) => None,
+        });
         let mut kinks: Vec<Kink> = vec![];
-        for law in forces.chain(drives) {
+        for law in forces.chain(drives).chain(stops) {
             for switch in sorted(law.kinks()) {
                 if !kinks.iter().any(|k| matches!(k, Kink::Switch(known, _) if *known == switch)) {
                     kinks.push(Kink::Switch(switch, law.clone()));

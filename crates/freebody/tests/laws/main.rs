@@ -2,6 +2,7 @@
 //! thrown together at random. What is new in a list is tested because it is there.
 
 mod closed_forms;
+mod contacts;
 mod gauges;
 mod joints;
 mod metamorphic;

@@ -225,9 +225,12 @@ fn rates_are_of_the_material_points_and_gradients_are_contact_forces() {
                 let seeded = Seeded { at, body };
                 let found: [Dual<3>; 2] = [touch.gap(m, &seeded, piece), touch.slide(m, &seeded, piece)];
                 for (found, e) in found.iter().zip([c.normal, c.tangent]) {
-                    let load = Wrench::force(e * sense, c.point - at.k.pose[body].at).parts();
-                    let components = if m.bodies[body].particle { 2 } else { 3 };
-                    let off = apart(&found.du[..components], &load[..components], 1.0);
+                    let mut load = Wrench::force(e * sense, c.point - at.k.pose[body].at);
+                    if m.bodies[body].particle {
+                        load.m = 0.0;
+                    }
+                    let load = load.parts();
+                    let off = apart(&found.du, &load, 1.0);
                     assert!(off < 1e-12, "{told}, {piece}: {:?} {load:?}", found.du);
                 }
             }
@@ -383,11 +386,12 @@ fn pieces_end_at_their_borders() {
             let there = &scene.with_disk_at(there, p);
             let (at, (corners, _)) = (there.at(m), scene.corners(there).expect("a chain"));
             let seen = scene.place(there, touch.disk.centre);
-            if !closed && heights(seen, &corners, false).iter().all(|h| *h < 0.0) {
+            let (piece, gap) = (touch.piece(m, &at), touch.signed_gap(m, &at));
+            let behind = heights(seen, &corners, false).iter().all(|h| *h < 0.0);
+            if !closed && if scene.radius(there) > 0.0 { behind } else { gap < 0.0 } {
                 last = None;
                 continue;
             }
-            let (piece, gap) = (touch.piece(m, &at), touch.signed_gap(m, &at));
             let borders = touch.borders(m, &at, piece);
             assert!(borders.iter().all(|b| b.value >= -1e-13), "{told}, {piece}: {borders:?}");
             if let Some((old, before)) = last {
@@ -400,4 +404,20 @@ fn pieces_end_at_their_borders() {
         }
     });
     assert!(changes > 500, "{changes}");
+}
+
+/// A point touches a chain all along its sides, and nowhere in front of them.
+#[test]
+fn points_touch_chains_along_their_sides() {
+    every_scene(|scene, there, rng| {
+        let Some((corners, closed)) = scene.corners(there).filter(|_| scene.radius(there) == 0.0) else { return };
+        for (a, b) in sides(&corners, closed) {
+            let (foot, free) = (a + (b - a) * rng.within(0.1, 0.9), (b - a).perp() * (1.0 / (b - a).norm()));
+            let gap = |height: f64| {
+                let there = scene.with_disk_at(there, foot + free * height);
+                scene.touch.signed_gap(&scene.m, &there.at(&scene.m))
+            };
+            assert!(gap(0.0).abs() < 1e-13 && (gap(1e-3) - 1e-3).abs() < 1e-13 && gap(-1e-3) < 0.0, "{}", scene.told);
+        }
+    });
 }

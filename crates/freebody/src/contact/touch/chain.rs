@@ -15,9 +15,9 @@ use crate::scalar::Scalar;
 ///
 /// A disk touches corners as circles of radius 0, and its gap is the distance. A point cannot: its distance from a corner
 /// has no direction there. It has pieces for sides only, each prolonged until it meets the next, and its gap is the largest
-/// of its distances from them. That is 0 on the chain and nowhere else, but outside a corner less than the distance. An open
-/// chain is then bounded at its ends by the line of the side that follows in a concave corner, or straight back; but all its
-/// corners are inside.
+/// of its heights over them: 0 just on the sides, and outside a corner less than the distance. The ends of an open chain are
+/// then bounds of the solid too: the line of the side that follows in a concave corner, else straight back, or across to
+/// the other end where that would leave corners outside.
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// Sites of its corners.
@@ -78,88 +78,88 @@ impl Chain {
         }
         let corner = if first { self.corners[0] } else { self.corner(piece / 2 + 1) };
         let to = poses.span(corner, disk.centre, m);
-        if disk.radius.is_some() {
-            return Face::Round { to, radius: T::zero(), side: 1.0 };
+        match disk.radius {
+            Some(_) => Face::Round { to, radius: T::zero(), side: 1.0 },
+            None => self.back(m, poses, to, first).0,
         }
-        self.back(m, poses, to, first)
     }
 
-    /// What bounds an open chain for points at its start or at its end, with the vector from there to the point.
-    fn back<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, to: Vec2<T>, start: bool) -> Face<T> {
+    /// What bounds an open chain for points at its start or at its end, for the vector from there to the point; and
+    /// whether that is the line to its other end.
+    fn back<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, to: Vec2<T>, start: bool) -> (Face<T>, bool) {
         let [first, last] = [self.corners[0], self.corner(self.sides())];
-        let along = match (self.beyond, start) {
-            ([Some(before), _], true) => heading(m, poses, first, before),
-            ([None, _], true) => heading(m, poses, first, self.corner(1)).perp(),
-            ([_, Some(after)], false) => heading(m, poses, after, last),
-            ([_, None], false) => -heading(m, poses, self.corner(self.sides() - 1), last).perp(),
+        let next = self.beyond[usize::from(!start)];
+        let along = match (next, start) {
+            (Some(before), true) => heading(m, poses, first, before),
+            (None, true) => heading(m, poses, first, self.corner(1)).perp(),
+            (Some(after), false) => heading(m, poses, after, last),
+            (None, false) => -heading(m, poses, self.corner(self.sides() - 1), last).perp(),
         };
-        let (straight, home) = (Face::Flat { to, along }, heading(m, poses, last, first));
-        let across = Face::Flat { to, along: home };
-        // The other end of a chain that bends far lies beyond: then all as far as there is inside, too.
-        let height = along.cross(if start { -home } else { home }).value();
-        let nearer = across.gap(T::zero()).value() < straight.gap(T::zero()).value();
-        if height > 0.0 && nearer {
-            across
+        let home = heading(m, poses, last, first);
+        let (straight, across) = (Face::Flat { to, along }, Face::Flat { to, along: home });
+        let bends_past = along.cross(if start { -home } else { home }).value() > 0.0;
+        // Where a side follows, only what lies before both is outside.
+        let nearer = next.is_none() || across.gap(T::zero()).value() < straight.gap(T::zero()).value();
+        if bends_past && nearer {
+            (across, next.is_none())
         } else {
-            straight
+            (straight, false)
         }
     }
 
-    /// The pieces before and after a piece. What bounds an open chain for points borders on the sides at both ends.
-    fn beside(&self, disk: &Disk, piece: usize) -> [Option<usize>; 2] {
-        let all = 2 * self.sides();
-        let step = if disk.radius.is_some() { 1 } else { 2 };
-        let last = self.last();
-        if self.closed {
-            return [Some((piece + all - step) % all), Some((piece + step) % all)];
-        }
-        let round = (disk.radius.is_none() && self.sides() > 1).then_some(last - 1);
-        match piece {
-            first if first == all => [round, Some(0)],
-            0 => [Some(all), Some(step.min(last))],
-            end if end == last => [Some(last - 1), round.map(|_| 0)],
-            _ => [Some(piece - step), Some((piece + step).min(last))],
+    /// The pieces for points, in order round the solid.
+    fn round(&self, m: &Mechanism, poses: &impl Poses<f64>) -> Vec<usize> {
+        let sides = (0..self.sides()).map(|i| 2 * i);
+        let is_line_home = |start| self.back(m, poses, Vec2::zero(), start).1;
+        match self.closed {
+            true => sides.collect(),
+            // One line is one piece.
+            false if is_line_home(true) && is_line_home(false) => sides.chain([2 * self.sides()]).collect(),
+            false => sides.chain([2 * self.sides() - 1, 2 * self.sides()]).collect(),
         }
     }
 
     pub(super) fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> Vec<Border> {
-        let [before, after] = self.beside(disk, piece);
-        let border = |value: f64, beyond: Option<usize>| beyond.map(|beyond| Border { value, beyond });
-        let both = if disk.radius.is_none() {
+        let all = 2 * self.sides();
+        if disk.radius.is_none() {
+            let round = self.round(m, poses);
+            let at = round.iter().position(|&p| p == piece).unwrap_or(0);
             let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
-            let over = |other: Option<usize>| border(height(piece) - other.map_or(0.0, height), other);
-            [over(before), over(after)]
-        } else if piece % 2 == 0 && piece < 2 * self.sides() {
-            let side = self.seen(m, poses, disk, piece / 2);
-            [border(side.place(), before), border(-side.past(), after)]
+            let border = |beyond| Border { value: height(piece) - height(beyond), beyond };
+            return [at + round.len() - 1, at + 1].map(|i| border(round[i % round.len()])).to_vec();
+        }
+        let side = |piece: usize| self.seen(m, poses, disk, piece / 2);
+        let before = if piece == 0 { all - usize::from(self.closed) } else { piece - 1 };
+        let after = if self.closed { (piece + 1) % all } else { piece + 1 };
+        if piece == all {
+            vec![Border { value: -side(0).place(), beyond: 0 }]
+        } else if piece % 2 == 0 {
+            let side = side(piece);
+            vec![Border { value: side.place(), beyond: before }, Border { value: -side.past(), beyond: after }]
         } else {
-            let side = |piece: usize| self.seen(m, poses, disk, piece / 2);
-            [before.and_then(|p| border(side(p).past(), before)), after.and_then(|p| border(-side(p).place(), after))]
-        };
-        both.into_iter().flatten().collect()
+            let start = Border { value: side(before).past(), beyond: before };
+            let end = (after < all).then(|| Border { value: -side(after).place(), beyond: after });
+            [start].into_iter().chain(end).collect()
+        }
     }
 
     pub(super) fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> usize {
-        let (sides, ends) = (self.sides(), if self.closed { vec![] } else { vec![self.last(), 2 * self.sides()] });
-        let even = (0..sides).map(|i| 2 * i);
+        let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
         if disk.radius.is_none() {
-            let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
-            return nearest(even.chain(ends).map(|piece| (piece, -height(piece))));
+            return nearest(self.round(m, poses).into_iter().map(|piece| (piece, -height(piece))));
         }
-        let seen: Vec<Seen<f64>> = (0..sides).map(|i| self.seen(m, poses, disk, i)).collect();
-        let between = self.closed || (seen[0].place() >= 0.0 && seen[sides - 1].past() <= 0.0);
+        let seen: Vec<Seen<f64>> = (0..self.sides()).map(|i| self.seen(m, poses, disk, i)).collect();
+        let (first, last) = (&seen[0], &seen[seen.len() - 1]);
+        let between = self.closed || (first.place() >= 0.0 && last.past() <= 0.0);
+        let sides = || seen.iter().enumerate().map(|(i, side)| (2 * i, side));
         if between && seen.iter().all(|side| side.height() <= 0.0) {
-            return nearest(even.map(|piece| (piece, -seen[piece / 2].height())));
+            return nearest(sides().map(|(piece, side)| (piece, -side.height())));
         }
         let faced = |side: &Seen<f64>| side.height() >= 0.0 && side.place() >= 0.0 && side.past() <= 0.0;
-        let over = even.filter(|piece| faced(&seen[piece / 2])).map(|piece| (piece, seen[piece / 2].height()));
-        let corner = |piece: usize| (piece, self.face(m, poses, disk, piece).gap(0.0));
-        let corners = (0..sides).map(|i| 2 * i + 1).chain(ends.into_iter().skip(1));
-        nearest(over.chain(corners.map(corner)))
-    }
-
-    fn last(&self) -> usize {
-        2 * self.sides() - 1
+        let over = sides().filter(|(_, side)| faced(side)).map(|(piece, side)| (piece, side.height()));
+        let start = (!self.closed).then_some(2 * seen.len());
+        let corners = sides().map(|(piece, _)| piece + 1).chain(start);
+        nearest(over.chain(corners.map(|piece| (piece, height(piece)))))
     }
 }
 

@@ -1,0 +1,260 @@
+//! Contacts as the model gives them: which touches they become, outlines of random shape, and what is refused.
+
+use crate::model::*;
+use crate::rng::Rng;
+use freebody::balance::Balance;
+use freebody::compile::Compiled;
+use freebody::contact::{Friction, Gap, Touch};
+use freebody::mechanism::Mechanism;
+use freebody::plane::{vec2, Vec2};
+use freebody::spec::{Contact, Number, Stop, Surface};
+
+fn contact(name: &str, of: [Surface; 2]) -> Contact {
+    let nought = literal(0.0);
+    let (friction, restitution) = (nought.clone(), nought);
+    Contact { name: name.into(), of, friction, static_friction: None, rough: false, restitution, engaged: true }
+}
+
+fn stop(name: &str, gap: &str) -> Stop {
+    Stop { name: name.into(), gap: gap.into(), restitution: literal(0.5), engaged: false }
+}
+
+fn point(name: &str) -> Surface {
+    Surface::Point(name.into())
+}
+
+fn round(centre: &str, radius: f64, hollow: bool) -> Surface {
+    Surface::Circle { centre: centre.into(), radius: literal(radius), hollow }
+}
+
+fn names(words: &str) -> Vec<String> {
+    words.split_whitespace().map(str::to_string).collect()
+}
+
+fn polygon(words: &str) -> Surface {
+    Surface::Polygon(names(words))
+}
+
+fn polyline(words: &str) -> Surface {
+    Surface::Polyline(names(words))
+}
+
+/// A box and a wheel that can go anywhere over ground, with corners on each.
+fn stage() -> Model {
+    let free = |model: Model, body: &str| {
+        let coordinates = ["x", "y", "f"].map(|c| format!("{c}_{body}"));
+        let coordinates: Vec<&str> = coordinates.iter().map(String::as_str).collect();
+        model.joint(
+            &format!("{body}_free"),
+            "free",
+            &[("of", points(&["ground.O", &format!("{body}.G")]))],
+            &coordinates,
+        )
+    };
+    let mut model = Model::new().body("box", 1.0, 1.0, [0.5, 0.5]).body("wheel", 1.0, 1.0, [0.0; 2]);
+    for (name, at) in [("A", [0.0, 0.0]), ("B", [1.0, 0.0]), ("C", [1.0, 1.0]), ("D", [0.0, 1.0]), ("E", [0.5, 0.2])] {
+        model = model.point(&format!("box.{name}"), at);
+    }
+    // A step down between two floors, a wall, and a top.
+    for (i, at) in [[0.0, 0.0], [2.0, 0.0], [2.0, -1.0], [4.0, -1.0], [4.0, 1.0], [5.0, 1.0]].into_iter().enumerate() {
+        model = model.point(&format!("ground.P{i}"), at);
+    }
+    free(free(model.point("ground.middle", [1.0, 0.0]), "box"), "wheel")
+}
+
+const FLOOR: &str = "ground.P0 ground.P1 ground.P2 ground.P3 ground.P4 ground.P5";
+const BOX: &str = "box.A box.B box.C box.D";
+
+fn compiled(change: impl FnOnce(&mut Model)) -> Result<Compiled, String> {
+    let mut model = stage();
+    change(&mut model);
+    Compiled::new(&model.0).map_err(|e| e.to_string())
+}
+
+#[test]
+fn every_pair_becomes_its_touches_in_either_order() {
+    let line = || Surface::Line(place("ground.O", 0.0));
+    let wheel = || round("wheel.G", 0.3, false);
+    let cases = [
+        (point("box.A"), line(), 1),
+        (wheel(), line(), 1),
+        (point("box.A"), wheel(), 1),
+        (wheel(), round("ground.O", 1.0, false), 1),
+        (wheel(), round("ground.O", 1.0, true), 1),
+        (point("box.A"), round("ground.O", 1.0, true), 1),
+        (polygon(BOX), line(), 4),
+        (polygon(BOX), wheel(), 1),
+        (polygon(BOX), round("ground.O", 9.0, true), 4),
+        (polygon(BOX), polygon("ground.P0 ground.P1 ground.P2"), 7),
+        (wheel(), polygon("ground.P0 ground.middle ground.P1 ground.P2"), 1),
+        // P0 P1 P2 and P2 P3 and P3 is concave, P2 too; P1, P4 and the ends are convex.
+        (wheel(), polyline(FLOOR), 3),
+        (point("box.A"), polyline(FLOOR), 3),
+        (polygon(BOX), polyline(FLOOR), 4 * 3 + 4),
+    ];
+    for (a, b, count) in cases {
+        for of in [[a.clone(), b.clone()], [b.clone(), a.clone()]] {
+            let told = format!("{of:?}");
+            let compiled = compiled(|m| m.0.contacts.push(contact("c", of))).unwrap_or_else(|e| panic!("{told}: {e}"));
+            let m = &compiled.mechanism;
+            assert_eq!((m.limits.len(), m.groups[0].limits.clone()), (count, 0..count), "{told}");
+            let ends = m.groups[0].ends;
+            for limit in &m.limits {
+                let Gap::Touch(touch) = &limit.gap else { panic!("{told}: a gauge") };
+                let bodies = touch.bodies(m);
+                assert!(bodies == ends || bodies == [ends[1], ends[0]], "{told}");
+                let moving: Vec<usize> = bodies.into_iter().filter(|b| *b > 0).collect();
+                assert!(limit.bodies == moving && limit.friction.is_none() && limit.group == 0, "{told}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_a_contact_is_refused_with_a_reason() {
+    let on = |a: Surface, b: Surface| move |m: &mut Model| m.0.contacts.push(contact("c", [a, b]));
+    let with = |change: fn(&mut Contact)| {
+        move |m: &mut Model| {
+            let mut c = contact("c", [point("box.A"), round("ground.O", 1.0, false)]);
+            change(&mut c);
+            m.0.contacts.push(c);
+        }
+    };
+    let line = || Surface::Line(place("ground.O", 0.0));
+    let twice = |m: &mut Model| m.0.stops.extend([stop("s", "x_box"), stop("s", "y_box")]);
+    type Change = Box<dyn FnOnce(&mut Model)>;
+    let cases: Vec<(Change, &str, &str)> = vec![
+        (Box::new(on(point("box.A"), point("ground.O"))), "c.of:", "two points"),
+        (Box::new(on(Surface::Line(place("box.A", 0.0)), line())), "c.of:", "two lines"),
+        (Box::new(on(polyline("box.A box.B"), polyline(FLOOR))), "c.of:", "polyline meets"),
+        (Box::new(on(polyline("box.A box.B"), line())), "c.of:", "polyline meets"),
+        (Box::new(on(round("box.A", 1.0, true), line())), "c.of:", "hollow"),
+        (Box::new(on(point("box.A"), round("box.B", 0.1, false))), "c.of:", "both surfaces are on `box`"),
+        (Box::new(on(point("box.Z"), line())), "c.of[0]:", "no point is called `box.Z`"),
+        (Box::new(on(line(), polygon("box.A box.B ground.O"))), "c.of[1]:", "`box.A` is on `box` and `ground.O`"),
+        (Box::new(on(polygon("box.A box.B box.C box.E"), line())), "c.of[0]:", "not convex at `box.E`"),
+        (Box::new(on(polygon("box.A box.E box.C box.B"), line())), "c.of[0]:", "not convex at `box.E`"),
+        (Box::new(on(polygon("box.A box.B box.A"), line())), "c.of[0]:", "at one place"),
+        (Box::new(on(polygon("box.A box.B"), line())), "c.of[0]:", "no area"),
+        (Box::new(on(polygon("box.A box.C box.B box.D"), line())), "c.of[0]:", "convex"),
+        (Box::new(on(point("box.A"), polyline("ground.P0 ground.P1 ground.middle"))), "c.of[1]:", "straight back"),
+        (Box::new(on(point("box.A"), polyline("ground.P0"))), "c.of[1]:", "two points at least"),
+        (Box::new(on(point("wheel.G"), polyline("box.A box.D box.C box.B box.E"))), "c.of[1]:", "in front of it"),
+        (Box::new(on(round("box.A", 0.0, false), line())), "c.of[0].radius:", "no size"),
+        (Box::new(with(|c| c.restitution = literal(1.2))), "c.restitution:", "1.2"),
+        (Box::new(with(|c| c.friction = literal(-0.1))), "c.friction:", "not negative"),
+        (Box::new(with(|c| (c.friction, c.static_friction) = (literal(0.3), Some(literal(0.2))))), "c.static", "below"),
+        (Box::new(with(|c| (c.friction, c.rough) = (literal(0.3), true))), "c.friction:", "never slides"),
+        (Box::new(with(|c| c.name = "box_free".into())), "box_free:", "given twice"),
+        (Box::new(twice), "stops.s:", "given twice"),
+        (Box::new(|m: &mut Model| m.0.stops.push(stop("s", "1.0"))), "stops.s.gap:", "no body"),
+        (Box::new(|m: &mut Model| m.0.stops.push(stop("s", "rate(x_box)"))), "stops.s.gap:", "only the configuration"),
+    ];
+    for (change, path, what) in cases {
+        let error = compiled(change).err().unwrap_or_else(|| panic!("{path} {what}: compiled"));
+        assert!(error.contains(path) && error.contains(what), "{path} {what}: {error}");
+    }
+}
+
+#[test]
+fn friction_and_stops_are_read_as_given() {
+    let friction = |friction: Number, fixed: Option<Number>, rough: bool| {
+        let mut c = contact("c", [point("box.A"), round("ground.O", 1.0, false)]);
+        (c.friction, c.static_friction, c.rough) = (friction, fixed, rough);
+        let m = compiled(|m| m.0.contacts.push(c)).expect("compiles").mechanism;
+        let slots = m.bind::<f64>(&[]).slots;
+        m.limits[0].friction.map(|f| match f {
+            Friction::Rough => [f64::INFINITY; 2],
+            Friction::Coulomb { fixed, kinetic } => [slots[fixed], slots[kinetic]],
+        })
+    };
+    assert_eq!(friction(literal(0.0), Some(literal(0.0)), false), None);
+    assert_eq!(friction(literal(0.2), None, false), Some([0.2, 0.2]));
+    assert_eq!(friction(literal(0.0), Some(literal(0.2)), false), Some([0.2, 0.0]));
+    assert_eq!(friction(written("0.1 + 0.1"), Some(literal(0.3)), false), Some([0.3, 0.2]));
+    assert_eq!(friction(literal(0.0), None, true), Some([f64::INFINITY; 2]));
+
+    let m = compiled(|m| m.0.stops.push(stop("s", "abs(x_box) - y_wheel"))).expect("compiles").mechanism;
+    let group = &m.groups[0];
+    assert!((group.word, group.engaged, m.limits[0].bodies.len(), m.kinks.len()) == ("stop", false, 2, 1));
+}
+
+/// The touches of a point that moves over ground, with what they tell of it at a place.
+struct Probe {
+    m: Mechanism,
+}
+
+impl Probe {
+    fn over(outline: &[Vec2], surface: fn(&str) -> Surface) -> Self {
+        let mut model = Model::new().particle("bead", 1.0);
+        let mut words = String::new();
+        for (i, p) in outline.iter().enumerate() {
+            model = model.point(&format!("ground.P{i}"), [p.x, p.y]);
+            words += &format!(" ground.P{i}");
+        }
+        let ends = points(&["ground.O", "bead.origin"]);
+        let mut model = model.joint("free", "free", &[("of", ends)], &["x", "y"]);
+        model.0.contacts.push(contact("c", [point("bead.origin"), surface(&words)]));
+        Probe { m: model.compile().mechanism }
+    }
+
+    /// The least gap, and its normal.
+    fn at(&self, p: Vec2) -> (f64, Vec2) {
+        let mut balance = Balance::new(&self.m, &[]);
+        balance.place(0.0, &[p.x, p.y], &[0.0; 2]);
+        let at = balance.at();
+        let touches = self.m.limits.iter().filter_map(|limit| match &limit.gap {
+            Gap::Touch(touch) => Some(touch),
+            _ => None,
+        });
+        let told = |touch: &Touch| {
+            (touch.signed_gap(&self.m, &at), touch.contact(&self.m, &at, touch.piece(&self.m, &at)).normal)
+        };
+        touches.map(told).min_by(|a, b| a.0.total_cmp(&b.0)).expect("a touch")
+    }
+}
+
+/// Over a landscape of hills and valleys, a point touches it just where it is: each side with its own normal up to its very
+/// ends, and nothing in front of it.
+#[test]
+fn a_point_touches_a_polyline_just_where_it_is() {
+    for seed in 0..100 {
+        let mut rng = Rng::new(seed);
+        let mut corner = vec2(0.0, 0.0);
+        let mut landscape = vec![corner];
+        for _ in 0..2 + rng.below(5) {
+            corner += vec2(rng.within(0.3, 1.0), rng.about(1.5));
+            landscape.push(corner);
+        }
+        let probe = Probe::over(&landscape, polyline);
+        for (a, b) in landscape.iter().zip(&landscape[1..]) {
+            let normal = (*b - *a).perp() * (1.0 / (*b - *a).norm());
+            for s in [1e-6, rng.within(0.0, 1.0), 1.0 - 1e-6] {
+                let foot = *a + (*b - *a) * s;
+                let (gap, told) = probe.at(foot);
+                assert!(gap.abs() < 1e-14 && (told - normal).norm() < 1e-12, "seed {seed}: {gap} {told:?} {normal:?}");
+                let above = probe.at(foot + vec2(0.0, rng.within(1e-9, 2.0))).0;
+                assert!(above > 0.0, "seed {seed}: {above}");
+                assert!(probe.at(foot - vec2(0.0, 1e-9)).0 < 0.0, "seed {seed}");
+            }
+        }
+    }
+}
+
+/// A polyline that goes round is a room or a block, by the way it is walked; a polygon is a block either way.
+#[test]
+fn a_polyline_that_goes_round_has_an_inside() {
+    let square = [vec2(0.0, 0.0), vec2(2.0, 0.0), vec2(2.0, 1.0), vec2(0.0, 1.0), vec2(0.0, 0.0)];
+    let back: Vec<Vec2> = square.iter().rev().copied().collect();
+    let bent = [vec2(0.0, 0.0), vec2(2.0, 0.0), vec2(2.0, 1.0), vec2(1.0, 0.5), vec2(0.0, 1.0), vec2(0.0, 0.0)];
+    let (inside, near, outside) = (vec2(0.3, 0.4), vec2(0.01, 0.02), vec2(3.0, 0.4));
+    let room = Probe::over(&square, polyline);
+    assert!((room.at(inside).0 - 0.3).abs() < 1e-15 && (room.at(near).0 - 0.01).abs() < 1e-15);
+    assert!(room.at(outside).0 < 0.0);
+    for block in [Probe::over(&back, polyline), Probe::over(&back, polygon), Probe::over(&square[..4], polygon)] {
+        assert!((block.at(outside).0 - 1.0).abs() < 1e-15 && (block.at(inside).0 + 0.3).abs() < 1e-15);
+    }
+    // Convex where the roof hangs in.
+    let tent = Probe::over(&bent, polyline);
+    assert!(tent.at(vec2(1.0, 0.499)).0 > 0.0 && tent.at(vec2(1.0, 0.501)).0 < 0.0 && tent.at(vec2(1.9, 0.9)).0 > 0.0);
+}
