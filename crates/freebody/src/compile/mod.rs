@@ -1,5 +1,6 @@
 //! From the model as data to the mechanism: names resolved, numbers in slots, the tree chosen.
 
+mod cords;
 mod elements;
 mod fields;
 mod joints;
@@ -78,6 +79,7 @@ impl Compiled {
         c.gauges()?;
         c.drives()?;
         c.forces()?;
+        c.cords()?;
         c.events()?;
         c.find_kinks();
         Ok(Compiled { mechanism: c.m, names: c.names })

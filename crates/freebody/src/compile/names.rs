@@ -32,6 +32,8 @@ pub struct Names {
     pub drives: HashMap<String, usize>,
     /// Forces.
     pub forces: HashMap<String, usize>,
+    /// Contacts, stops and strings.
+    pub groups: HashMap<String, usize>,
 }
 
 /// How much an expression may read; each level includes those before.

@@ -2,6 +2,7 @@
 //! thrown together at random. What is new in a list is tested because it is there.
 
 mod closed_forms;
+mod cords;
 mod gauges;
 mod joints;
 mod metamorphic;
@@ -10,6 +11,7 @@ mod random;
 mod random_mechanisms;
 mod redundancy;
 mod rng;
+mod strung;
 mod thrown;
 mod tree_choice;
 mod two_tellings;
