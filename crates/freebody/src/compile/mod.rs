@@ -1,6 +1,7 @@
 //! From the model as data to the mechanism: names resolved, numbers in slots, the tree chosen.
 
 mod contacts;
+mod cords;
 mod elements;
 mod events;
 mod fields;
@@ -85,6 +86,7 @@ impl Compiled {
         c.forces()?;
         c.contacts()?;
         c.stops()?;
+        c.cords()?;
         c.idle()?;
         c.events()?;
         c.find_kinks();

@@ -1,7 +1,7 @@
 //! How a string is drawn, and where its length is.
 
 use super::layout::Layout;
-use super::{Cord, Guide, Way, Winding};
+use super::{Cord, End, Guide, Way, Winding};
 use crate::contact::Piece;
 use crate::gauges::Poses;
 use crate::mechanism::Mechanism;
@@ -58,12 +58,15 @@ impl Cord {
             centre(i) + vec2(sin, -cos) * layout.rounds[i].radius
         };
         let drum = |end: usize| {
-            let leave = layout.leaves[end].as_ref().filter(|_| winding.ways[end] != Way::Pivot)?;
-            let rim = leave.direction - FRAC_PI_2.copysign(leave.turn);
-            let (from, to) = (leave.attached, rim);
-            let [from, to] = if end == 0 { [from, to] } else { [to, from] };
-            let centre = centre(if end == 0 { 0 } else { layout.rounds.len() - 1 });
-            Some(Stretch::Arc { centre, radius: leave.radius, from, to })
+            let (End::Wound { sense, .. }, Some(leave)) = (self.ends[end], &layout.leaves[end]) else { return None };
+            let swept = match winding.ways[end] {
+                Way::Wound => sense * leave.wound / leave.radius,
+                Way::Pivot => return None,
+                Way::Back => -sense * leave.wound / leave.radius,
+            };
+            let (attached, rim) = (leave.attached, leave.attached + swept);
+            let (at, from, to) = if end == 0 { (0, attached, rim) } else { (self.over.len() + 1, rim, attached) };
+            Some(Stretch::Arc { centre: centre(at), radius: leave.radius, from, to })
         };
         let mut stretches: Vec<Stretch> = drum(0).into_iter().collect();
         for (i, free) in layout.free.iter().enumerate() {

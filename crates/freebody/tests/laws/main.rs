@@ -3,6 +3,7 @@
 
 mod closed_forms;
 mod contacts;
+mod cords;
 mod gauges;
 mod joints;
 mod metamorphic;
@@ -11,6 +12,7 @@ mod random;
 mod random_mechanisms;
 mod redundancy;
 mod rng;
+mod strung;
 mod thrown;
 mod touches;
 mod tree_choice;
