@@ -6,7 +6,7 @@ use freebody::balance::Balance;
 use freebody::compile::Compiled;
 use freebody::contact::{Gap, Piece};
 use freebody::gauges::{Moving, Placed, Seeded};
-use freebody::paths::{Cord as Path, Outline, Stretch, Winding};
+use freebody::paths::{Cord as Path, End, Outline, Stretch, Winding};
 use freebody::plane::{vec2, Twist, Vec2, Wrench};
 use freebody::scalar::{Dual, Jet};
 use freebody::spec::{Cord, CordEnd, Guide};
@@ -27,6 +27,15 @@ impl Scene {
             Gap::Cord(cord) => cord,
             other => panic!("a string became {other:?}"),
         }
+    }
+    /// Number, sense and radius of its ends on drums, with the length wound that is given.
+    pub fn drums(&self) -> Vec<(usize, f64, f64, Option<f64>)> {
+        let n = self.0.mechanism.bind(&self.0.mechanism.parameters_with(&[]));
+        let drum = |(i, end): (usize, &End)| match *end {
+            End::Tied(_) => None,
+            End::Wound { sense, radius, wound, .. } => Some((i, sense, n.slots[radius], wound.map(|w| n.slots[w]))),
+        };
+        self.cord().ends.iter().enumerate().filter_map(drum).collect()
     }
     /// What is seen of it while its bodies are at places, with rates.
     pub fn see<R>(&self, at: &[Three], rates: &[Three], look: impl FnOnce(Placed<'_>, &Path) -> R) -> R {
@@ -128,9 +137,10 @@ pub fn threes(rng: &mut Rng, n: usize, size: f64) -> Vec<Three> {
     (0..n).map(|_| std::array::from_fn(|_| rng.about(size))).collect()
 }
 
-/// Strings of all kinds over bodies thrown apart from each other, each at its start.
+/// Strings of all kinds over bodies thrown apart from each other, each just taut: at its start, or after some of the drums
+/// have been turned until they are empty and further.
 pub fn every_string(mut visit: impl FnMut(&Scene, &[Three], Piece, &str, &mut Rng)) {
-    for seed in 0..120 {
+    for seed in 0..200 {
         let mut rng = Rng::new(seed);
         let n = 2 + rng.below(3);
         let sense = |rng: &mut Rng| rng.sign() as i8;
@@ -151,10 +161,19 @@ pub fn every_string(mut visit: impl FnMut(&Scene, &[Three], Piece, &str, &mut Rn
         let arms: Vec<[f64; 2]> = (0..n).map(|_| [rng.about(0.3), rng.about(0.3)]).collect();
         let scene = Scene::new(&arms, string(ends, over));
         // To and fro, three metres up each time.
-        let at: Vec<Three> = (0..n)
+        let mut at: Vec<Three> = (0..n)
             .map(|i| [(i % 2) as f64 * 3.0 + rng.about(0.8), 3.0 * i as f64 + rng.about(0.4), rng.about(4.0)])
             .collect();
-        let piece = scene.start(&at);
+        let mut piece = scene.start(&at);
+        let wound = scene.outline(&at, piece).wound_length;
+        for (end, sense, radius, given) in scene.drums() {
+            assert!(given.is_none_or(|given| (given - wound[end]).abs() < 1e-12), "seed {seed}: {given:?} {wound:?}");
+            if rng.chance(0.7) {
+                at[end * (n - 1)][2] += sense * (wound[end] / radius + rng.within(0.0, 4.6));
+            }
+        }
+        piece.index = scene.see(&at, &[], |placed, cord| cord.piece(placed.m, &placed, piece));
+        piece.phase[2] -= scene.gap(&at, piece);
         // Where a pulley is about to be told with another turn, nothing is smooth.
         let outline = scene.outline(&at, piece);
         let stretches = &outline.stretches;
