@@ -268,7 +268,7 @@ impl System for Machine<'_> {
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
-        if !self.balance.is_closed() {
+        if !self.balance.is_closed() || self.balance.mode.resting {
             return Ok(0.0);
         }
         let n = self.balance.m.freedom();

@@ -14,8 +14,9 @@ use crate::plane::Vec2;
 const REACHED: f64 = 1e-10;
 /// Speed, over the mechanism's own, below which there is none.
 const STILL: f64 = 1e-10;
-/// Time within which bounces that are still to come count as over, s.
-const ACCUMULATED: f64 = 1e-10;
+/// Time, over that in which the mechanism moves its own length, within which bounces that are still to come are over.
+/// The height of such bounces comes near the round-off of the gap; when they end is told by their geometric series.
+const ACCUMULATED: f64 = 1e-5;
 /// Impacts that one instant may hold.
 const ROUNDS: usize = 100;
 /// Guards of each limit: gap or force, two for friction, border.
@@ -244,11 +245,12 @@ impl Machine<'_> {
         let mut of: Vec<String> = struck.iter().map(|&i| self.balance.m.groups[group(i)].name.clone()).collect();
         of.dedup();
         let note = match last {
-            Some(end) => Some(format!("bounces without end would be over at t = {end:.12} s")),
+            Some(_) => Some(format!("bounces without end, from t = {t:.12} s on, are over")),
             None => blow.note.clone(),
         };
-        self.note_jump(Change {
-            t,
+        self.begin_stretch(t, 0.0, -lost);
+        self.note(Change {
+            t: last.unwrap_or(t),
             kind,
             of,
             lost,
@@ -281,12 +283,13 @@ impl Machine<'_> {
             return Ok((given, None));
         }
         let free = self.balance.free_accelerations(reached)?;
+        let pace = self.balance.length / self.speed;
         let mut last = None;
         let taken = (0..given.len()).map(|i| {
             let (e, speed) = (given[i], -reached.rates[i]);
             // Each flight lasts e times the one before.
             let left = 2.0 * e * speed / (-free[i] * (1.0 - e));
-            if e > 0.0 && e < 1.0 && speed > 0.0 && free[i] < 0.0 && left <= ACCUMULATED * (1.0 + t.abs()) {
+            if e > 0.0 && e < 1.0 && speed > 0.0 && free[i] < 0.0 && left <= ACCUMULATED * pace {
                 last = Some(last.unwrap_or(t).max(t + left));
                 return 0.0;
             }
@@ -330,7 +333,7 @@ impl Machine<'_> {
 
     /// Whether a blow of this instant has told of a limit already.
     fn has_struck(&self, t: f64, name: &String) -> bool {
-        self.changes.iter().rev().take_while(|c| c.t == t).any(|c| c.impulses.is_some() && c.of.contains(name))
+        self.changes.iter().rev().take_while(|c| c.t >= t).any(|c| c.impulses.is_some() && c.of.contains(name))
     }
 
     fn note(&mut self, change: Change) {

@@ -76,7 +76,7 @@ impl Trajectory {
     }
 
     fn stretch(&self, t: f64) -> &Stretch {
-        let later = self.stretches.partition_point(|s| s.from < t || s.from == f64::NEG_INFINITY);
+        let later = self.stretches.partition_point(|s| s.from <= t);
         &self.stretches[later.max(1) - 1]
     }
 
@@ -111,7 +111,7 @@ impl Trajectory {
             }
             self.balance_at(m, t, &mut last);
             let (_, balance) = last.as_mut().expect("made above");
-            if balance.is_closed() {
+            if balance.is_closed() && !balance.mode.resting {
                 let (q, rest) = y.split_at_mut(n);
                 balance.close(t, q, &rest[..n])?;
                 balance.align(t, q, &mut rest[..n])?;
@@ -214,8 +214,8 @@ impl Trajectory {
         self.each(m, times, |balance, t, y| {
             let (kinetic, potential) = (balance.kinetic_energy(), balance.potential_energy());
             let works = &y[2 * m.freedom()..];
-            let jumps: f64 = self.stretches.iter().filter(|s| s.from < t).map(|s| s.jump).sum();
-            let blows: f64 = self.stretches.iter().filter(|s| s.from < t).map(|s| s.blow).sum();
+            let jumps: f64 = self.stretches.iter().filter(|s| s.from <= t).map(|s| s.jump).sum();
+            let blows: f64 = self.stretches.iter().filter(|s| s.from <= t).map(|s| s.blow).sum();
             let left = kinetic + potential - start - works.iter().sum::<f64>() - jumps - blows;
             let mut row = vec![kinetic, potential];
             row.extend_from_slice(works);
