@@ -198,8 +198,8 @@ impl Probe {
         Probe { m: model.compile().mechanism }
     }
 
-    /// The least gap, and its normal.
-    fn at(&self, p: Vec2) -> (f64, Vec2) {
+    /// All gaps, each with its normal and the distance to its nearest border.
+    fn all(&self, p: Vec2) -> Vec<(f64, Vec2, f64)> {
         let mut balance = Balance::new(&self.m, &[]);
         balance.place(0.0, &[p.x, p.y], &[0.0; 2]);
         let at = balance.at();
@@ -208,17 +208,24 @@ impl Probe {
             _ => None,
         });
         let told = |touch: &Touch| {
-            (touch.signed_gap(&self.m, &at), touch.contact(&self.m, &at, touch.piece(&self.m, &at)).normal)
+            let piece = touch.piece(&self.m, &at);
+            let border = touch.borders(&self.m, &at, piece).iter().fold(f64::INFINITY, |least, b| least.min(b.value));
+            (touch.signed_gap(&self.m, &at), touch.contact(&self.m, &at, piece).normal, border)
         };
-        touches.map(told).min_by(|a, b| a.0.total_cmp(&b.0)).expect("a touch")
+        touches.map(told).collect()
+    }
+
+    /// The least gap, and its normal.
+    fn at(&self, p: Vec2) -> (f64, Vec2, f64) {
+        self.all(p).into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("a touch")
     }
 }
 
 /// Over a landscape of hills and valleys, a point touches it just where it is: each side with its own normal up to its very
-/// ends, and nothing in front of it.
+/// ends, and nothing in front of it. A point that slides down to a concave corner meets the side beyond with its normal, too.
 #[test]
 fn a_point_touches_a_polyline_just_where_it_is() {
-    for seed in 0..100 {
+    for seed in 0..300 {
         let mut rng = Rng::new(seed);
         let mut corner = vec2(0.0, 0.0);
         let mut landscape = vec![corner];
@@ -227,16 +234,37 @@ fn a_point_touches_a_polyline_just_where_it_is() {
             landscape.push(corner);
         }
         let probe = Probe::over(&landscape, polyline);
-        for (a, b) in landscape.iter().zip(&landscape[1..]) {
-            let normal = (*b - *a).perp() * (1.0 / (*b - *a).norm());
+        let normal = |(a, b): (&Vec2, &Vec2)| (*b - *a).perp() * (1.0 / (*b - *a).norm());
+        let normals: Vec<Vec2> = landscape.iter().zip(&landscape[1..]).map(normal).collect();
+        for ((a, b), &normal) in landscape.iter().zip(&landscape[1..]).zip(&normals) {
             for s in [1e-6, rng.within(0.0, 1.0), 1.0 - 1e-6] {
                 let foot = *a + (*b - *a) * s;
-                let (gap, told) = probe.at(foot);
+                let (gap, told, _) = probe.at(foot);
                 assert!(gap.abs() < 1e-14 && (told - normal).norm() < 1e-12, "seed {seed}: {gap} {told:?} {normal:?}");
+                for (_, told, _) in probe.all(foot).iter().filter(|(gap, ..)| *gap < 1e-5) {
+                    assert!(normals.iter().any(|n| (*n - *told).norm() < 1e-12), "seed {seed}: {told:?}");
+                }
                 let above = probe.at(foot + vec2(0.0, rng.within(1e-9, 2.0))).0;
                 assert!(above > 0.0, "seed {seed}: {above}");
                 assert!(probe.at(foot - vec2(0.0, 1e-9)).0 < 0.0, "seed {seed}");
             }
+        }
+    }
+}
+
+/// A point that rests in a concave corner is held by both sides, and no noise takes it off their pieces.
+#[test]
+fn a_point_rests_in_a_valley() {
+    for seed in 0..100 {
+        let mut rng = Rng::new(seed);
+        let slopes = [-rng.within(0.1, 3.0), rng.within(0.1, 3.0)];
+        let valley = vec2(rng.about(1.0), rng.about(1.0));
+        let outline = [valley + vec2(-1.0, -slopes[0]), valley, valley + vec2(1.0, slopes[1])];
+        let probe = Probe::over(&outline, polyline);
+        for (told, slope) in probe.all(valley).iter().zip(slopes) {
+            let normal = vec2(-slope, 1.0) * (1.0 / slope.hypot(1.0));
+            let right = told.0.abs() < 1e-15 && (told.1 - normal).norm() < 1e-12 && told.2 > 1e-3;
+            assert!(right, "seed {seed}: {told:?} {normal:?}");
         }
     }
 }

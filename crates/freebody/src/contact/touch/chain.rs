@@ -7,6 +7,10 @@ use crate::mechanism::Mechanism;
 use crate::plane::Vec2;
 use crate::scalar::Scalar;
 
+/// Depth to which both chains at a concave corner go on behind each other, in parts of the height of the one over the
+/// other: far more than round-off, and less than any blade is thin.
+const INSET: f64 = 0.01;
+
 /// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their right.
 /// Each corner turns to the right, so a closed one has its corners clockwise.
 ///
@@ -16,8 +20,8 @@ use crate::scalar::Scalar;
 /// A disk touches corners as circles of radius 0, and its gap is the distance. A point cannot: its distance from a corner
 /// has no direction there. It has pieces for sides only, each prolonged until it meets the next, and its gap is the largest
 /// of its heights over them: 0 just on the sides, and outside a corner less than the distance. The ends of an open chain are
-/// then bounds of the solid too: the line of the side that follows in a concave corner, else straight back, or across to
-/// the other end where that would leave corners outside.
+/// then bounds of the solid too: along the side that follows in a concave corner, a little behind it, else straight back, or
+/// across to the other end where that would leave corners outside.
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// Sites of its corners.
@@ -76,45 +80,75 @@ impl Chain {
             let Seen { to, along, .. } = self.seen(m, poses, disk, piece / 2);
             return Face::Flat { to, along };
         }
-        let corner = if first { self.corners[0] } else { self.corner(piece / 2 + 1) };
-        let to = poses.span(corner, disk.centre, m);
         match disk.radius {
-            Some(_) => Face::Round { to, radius: T::zero(), side: 1.0 },
-            None => self.back(m, poses, to, first).0,
+            Some(_) => {
+                let corner = if first { self.corners[0] } else { self.corner(piece / 2 + 1) };
+                Face::Round { to: poses.span(corner, disk.centre, m), radius: T::zero(), side: 1.0 }
+            }
+            None => self.back(m, poses, disk, first),
         }
     }
 
-    /// What bounds an open chain for points at its start or at its end, for the vector from there to the point; and
-    /// whether that is the line to its other end.
-    fn back<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, to: Vec2<T>, start: bool) -> (Face<T>, bool) {
+    /// What bounds an open chain for points at its start or at its end.
+    fn back<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, start: bool) -> Face<T> {
         let [first, last] = [self.corners[0], self.corner(self.sides())];
-        let next = self.beyond[usize::from(!start)];
-        let along = match (next, start) {
-            (Some(before), true) => heading(m, poses, first, before),
-            (None, true) => heading(m, poses, first, self.corner(1)).perp(),
-            (Some(after), false) => heading(m, poses, after, last),
-            (None, false) => -heading(m, poses, self.corner(self.sides() - 1), last).perp(),
+        let flat = |from: usize, along: Vec2<T>| Face::Flat { to: poses.span(from, disk.centre, m), along };
+        let bound = |start: bool| {
+            let along = self.bound(m, poses, start);
+            let to = poses.span(if start { first } else { last }, disk.centre, m);
+            Face::Flat { to: to - along.perp() * self.inset(poses, start), along }
         };
-        let home = heading(m, poses, last, first);
-        let (straight, across) = (Face::Flat { to, along }, Face::Flat { to, along: home });
-        let bends_past = along.cross(if start { -home } else { home }).value() > 0.0;
-        // Where a side follows, only what lies before both is outside.
-        let nearer = next.is_none() || across.gap(T::zero()).value() < straight.gap(T::zero()).value();
-        if bends_past && nearer {
-            (across, next.is_none())
-        } else {
-            (straight, false)
+        if !self.bends_past(m, poses, start) {
+            return bound(start);
         }
+        // Where a side follows, only what lies behind both its line and the line home is outside.
+        let followed = |&start: &bool| self.beyond[usize::from(!start)].is_some() && self.bends_past(m, poses, start);
+        let nearer = |a: Face<T>, b: Face<T>| match b.gap(T::zero()).value() < a.gap(T::zero()).value() {
+            true => b,
+            false => a,
+        };
+        let home = flat(last, heading(m, poses, last, first));
+        [true, false].into_iter().filter(followed).map(bound).fold(home, nearer)
+    }
+
+    /// Direction of the bound at the start or at the end: along the side that follows, or straight back.
+    fn bound<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, start: bool) -> Vec2<T> {
+        let n = self.sides();
+        match (self.beyond, start) {
+            ([Some(before), _], true) => heading(m, poses, self.corner(0), before),
+            ([None, _], true) => heading(m, poses, self.corner(0), self.corner(1)).perp(),
+            ([_, Some(after)], false) => heading(m, poses, after, self.corner(n)),
+            ([_, None], false) => -heading(m, poses, self.corner(n - 1), self.corner(n)).perp(),
+        }
+    }
+
+    /// How far that bound lies behind the side that follows, so that a point that rests in the concave corner is well
+    /// within its pieces, m.
+    fn inset<T: Scalar>(&self, poses: &impl Poses<T>, start: bool) -> T {
+        let n = self.sides();
+        let [corner, next, i] = if start { [0, 0, 0] } else { [n, 1, n - 1] };
+        let way = |from: usize, to: usize| poses.arm(to) - poses.arm(from);
+        let side = way(self.corner(i), self.corner(i + 1));
+        let height = |beyond: usize| side.cross(way(self.corner(corner), beyond)) * (T::one() / side.norm());
+        self.beyond[next].map_or(T::zero(), |beyond| height(beyond).scale(INSET))
+    }
+
+    /// Whether that bound would leave the other end outside.
+    fn bends_past<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, start: bool) -> bool {
+        let ends = [self.corner(self.sides()), self.corner(0)];
+        let [from, to] = if start { [ends[1], ends[0]] } else { ends };
+        self.bound(m, poses, start).cross(heading(m, poses, from, to)).value() > 0.0
     }
 
     /// The pieces for points, in order round the solid.
     fn round(&self, m: &Mechanism, poses: &impl Poses<f64>) -> Vec<usize> {
         let sides = (0..self.sides()).map(|i| 2 * i);
-        let is_line_home = |start| self.back(m, poses, Vec2::zero(), start).1;
         match self.closed {
             true => sides.collect(),
-            // One line is one piece.
-            false if is_line_home(true) && is_line_home(false) => sides.chain([2 * self.sides()]).collect(),
+            // The line home bounds both ends, and is one piece.
+            false if [true, false].iter().all(|&start| self.bends_past(m, poses, start)) => {
+                sides.chain([2 * self.sides()]).collect()
+            }
             false => sides.chain([2 * self.sides() - 1, 2 * self.sides()]).collect(),
         }
     }
