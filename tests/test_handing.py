@@ -16,7 +16,7 @@ bodies:
 joints:
   pivot: {type: hinge, of: [ground.O, rod.start], coordinate: angle}
 gauges: {x: x(rod.G), y: y(rod.G)}
-initial: {angle: 0, rates: {angle: 3}}
+initial: {angle: 0, rates: {angle: 6}}
 events:
   lets go: {when: angle - 0.5, direction: rising, then: {hand_over: flight.yaml}}
 run: {until: 1 s}

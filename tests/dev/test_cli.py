@@ -22,6 +22,7 @@ AT_RUN_TIME = {
     "division_by_nothing",
     "loop_that_cannot_close",
     "no_end",
+    "no_equilibrium",
     "spin_without_inertia",
 }
 COMMANDS = ["run", "solve", "validate", "animate", "compare", "systems", "schema", "version"]
