@@ -107,6 +107,12 @@ def test_the_example_of_the_page_runs():
     assert m.report_items()[0].at == "leaves"
 
 
+def test_every_example_of_the_page_is_in_the_language():
+    page = (Path(__file__).parents[2] / "docs" / "model_file.md").read_text()
+    examples = [text.split("```")[0] for text in page.split("```yaml\n")[2:]]
+    assert examples and all(file.loads(f"freebody: 1\n{text}") for text in examples)
+
+
 def test_json_with_tabs_is_accepted():
     text = json.dumps(new_gun().model.written(), indent="\t")
     assert file.loads(text) == new_gun().model

@@ -196,6 +196,11 @@ def test_every_joint_can_come_later_and_only_pushers_are_one_sided(word):
     assert "engaged" in fields and ("one_sided" in fields) == bool(cards.joints()[word].pushes)
 
 
+def test_an_event_cannot_have_the_name_of_one_that_a_joint_makes():
+    with pytest.raises(ModelFileError, match="the joint `track` has an event `track leaves end`"):
+        lowered(("coordinate: R", "coordinate: R, ends: free"), ("  e: {when", "  track leaves end: {when"))
+
+
 # -- events ----------------------------------------------------------------------------------------
 
 DEEDS = {
