@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -66,11 +67,18 @@ def carried(before: Builder, run: Run, after: Builder) -> dict[str, Any]:
     from freebody.model.start import parameter_values
 
     end, core = run.end, run.source.core
-    start, known = after.lowered().start, before.lowered()
-    told = {*known.start.coordinates, *(gauge["name"] for gauge in known.spec["gauges"])}
-    names = [name for name in start.coordinates if name in told]
+    gauges = [gauge["name"] for gauge in before.lowered().spec["gauges"]]
+    known = {*coordinates(core), *gauges}
+    names = [name for name in coordinates(after.compile()) if name in known]
     texts = [quote(name) for name in names] + [f"rate({quote(name)})" for name in names]
     values = core.evaluate(texts, end.p, end.t, end.q, end.u).tolist() if texts else []
-    parameters = {name: value for name, value in parameter_values(core, end.p).items() if name in start.parameters}
+    taken = after.lowered().start.parameters
+    parameters = {name: value for name, value in parameter_values(core, end.p).items() if name in taken}
     rates = {"rates": dict(zip(names, values[len(names) :], strict=True))} if names else {}
     return parameters | dict(zip(names, values, strict=False)) | rates
+
+
+def coordinates(core: _core.Mechanism) -> list[str]:
+    """The names of all coordinates, also of those that only close loops."""
+    about = json.loads(core.describe())
+    return [coordinate["name"] for coordinate in about["coordinates"] + about["closure_coordinates"]]

@@ -66,6 +66,8 @@ class Moving:
         state, notes = self.start(initial, t)
         if initial is None and self.lowered().start.equilibrium:
             self.check_equilibrium(state)
+        for file in self.lowered().hand_over.values():
+            self.handed(file).compile()  # what is wrong there is told before anything moves
         leg = Leg(self, self.run_plan(until, settings), settings, t_eval, progress)
         with self.told():
             return follow(leg, leg.run(state, notes))

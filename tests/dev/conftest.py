@@ -27,6 +27,15 @@ forces:
 initial: {ball.x: 1 m}
 run: {until: 100 s}
 """
+FALLING = """\
+freebody: 1
+bodies:
+  ball: {shape: particle, mass: 1 kg}
+joints:
+  fall: {type: slot, along: {through: ground.O, angle: 90 deg}, point: ball.centre, coordinate: h}
+initial: {h: 1 m}
+run: {until: 1 s}
+"""
 
 
 @pytest.fixture
@@ -45,6 +54,14 @@ def door(tmp_path):
 def bursting(tmp_path):
     """A motion that leaves every bound in finite time."""
     return _written(tmp_path / "bursting.yaml", BURSTING)
+
+
+@pytest.fixture
+def handing(tmp_path):
+    """A fall that goes on as another model."""
+    _written(tmp_path / "second.yaml", FALLING)
+    event = "events: {over: {when: h - 0.5 m, then: {hand_over: second.yaml}}}\n"
+    return _written(tmp_path / "first.yaml", FALLING + event)
 
 
 def _written(path, text):

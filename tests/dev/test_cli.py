@@ -21,6 +21,7 @@ AT_RUN_TIME = {
     "contradictory_motions": "fast:",
     "contradictory_start": "drive:",
     "loop_that_cannot_close": "C:",
+    "no_equilibrium": "initial:",
     "spin_without_inertia": "crank:",
 }
 COMMANDS = ["run", "solve", "validate", "animate", "compare", "systems", "schema", "version"]
@@ -145,3 +146,13 @@ def test_our_own_slips_are_not_hidden(error):
 
 def test_version_is_the_installed_one(command):
     assert command("version").output.strip()[0].isdigit()
+
+
+def test_a_model_that_hands_over_is_shown_with_its_successor(command, handing, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = command("run", handing, "-o", str(tmp_path / "run.csv"))
+    assert done.exit_code == 0
+    assert done.output.index("the event `over` ended the run") < done.output.index("the end time was reached")
+    assert {"run.csv", "run-2.csv", "first.html", "first-2.html"} <= {path.name for path in tmp_path.iterdir()}
+    both = json.loads(command("run", handing, "--no-report", "--json").stdout)
+    assert [run["outcome"]["name"] for run in both] == ["StoppedByEvent", "Completed"]

@@ -107,6 +107,12 @@ def test_the_example_of_the_page_runs():
     assert m.report_items()[0].at == "leaves"
 
 
+def test_every_example_of_the_page_is_in_the_language():
+    page = (Path(__file__).parents[2] / "docs" / "model_file.md").read_text()
+    examples = [text.split("```")[0] for text in page.split("```yaml\n")[2:]]
+    assert examples and all(file.loads(f"freebody: 1\n{text}") for text in examples)
+
+
 def test_json_with_tabs_is_accepted():
     text = json.dumps(new_gun().model.written(), indent="\t")
     assert file.loads(text) == new_gun().model
@@ -147,6 +153,22 @@ joints = st.one_of(
         {"type": st.just("gear"), "of": st.lists(refs, min_size=2, max_size=2), "radii": pairs, "internal": st.booleans()}
     ),
 )
+surfaces = st.one_of(
+    refs,
+    st.lists(refs, min_size=2, max_size=2),
+    st.fixed_dictionaries({"centre": refs, "radius": numbers}, optional={"hollow": st.booleans()}),
+    st.fixed_dictionaries({"polyline": st.lists(refs, min_size=2, max_size=3)}),
+)
+ends = st.one_of(
+    refs,
+    st.fixed_dictionaries({"drum": refs, "radius": numbers, "sense": st.sampled_from(["ccw", "clockwise"]), "wound": numbers}),
+)
+several = st.one_of(words, st.lists(words, min_size=1, max_size=2))
+deeds = st.one_of(
+    st.sampled_from(["record", "stop"]),
+    st.fixed_dictionaries({"cut": several}, optional={"set": named(numbers), "lock": words, "reset": named(numbers)}),
+    st.fixed_dictionaries({"weld": st.lists(words, min_size=2, max_size=3)}, optional={"release": several, "hand_over": words}),
+)
 models = st.fixed_dictionaries(
     {"freebody": st.just(1)},
     optional={
@@ -158,9 +180,20 @@ models = st.fixed_dictionaries(
         "initial": st.dictionaries(words, numbers, max_size=3),
         "events": named(
             st.fixed_dictionaries(
-                {"when": numbers.map(str)}, optional={"then": st.just([{"set": {"T": 0}}, "stop"]), "if": words}
+                {"when": numbers.map(str)}, optional={"then": st.one_of(deeds, st.lists(deeds, max_size=2)), "if": words}
             )
         ),
+        "contacts": named(
+            st.fixed_dictionaries(
+                {"of": st.lists(surfaces, min_size=2, max_size=2)}, optional={"friction": numbers, "engaged": st.booleans()}
+            )
+        ),
+        "strings": named(
+            st.fixed_dictionaries(
+                {"ends": st.lists(ends, min_size=2, max_size=2)}, optional={"over": st.lists(refs, max_size=2), "length": numbers}
+            )
+        ),
+        "stops": named(st.fixed_dictionaries({"of": words, "least": numbers}, optional={"most": numbers})),
         "report": named(st.one_of(words, st.fixed_dictionaries({"max": words}, optional={"over": pairs, "unit": words}))),
     },
 )

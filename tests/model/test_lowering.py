@@ -149,7 +149,7 @@ events:
     ).spec
     assert made["gravity"] == [0.0, "-(g)"]
     assert made["joints"][0]["coordinates"] == [{"name": "th", "zero": "-pi/2", "sense": -1, "absolute": True}]
-    assert made["motions"][0] == {"name": "m", "of": "th", "is": "w*t", "level": "position", "by": None}
+    assert made["motions"][0] == {"name": "m", "of": "th", "is": "w*t", "level": "position", "by": None, "engaged": True}
     assert made["events"][0]["then"] == [{"set": {"g": "2*g"}}, "stop"]
     assert (made["events"][0]["direction"], made["events"][0]["condition"]) == (-1, "t > 1")
     assert made["events"][1]["then"] == []

@@ -233,7 +233,21 @@ class FakeMechanism:
         return float(eval(text.replace("^", "**"), {**functions, "nan": np.nan, "pi": np.pi}, lookup))
 
     def simulate(
-        self, p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=0, progress=None
+        self,
+        p,
+        t,
+        q,
+        u,
+        until,
+        method="dop853",
+        rtol=1e-9,
+        step=None,
+        max_step=None,
+        route="auto",
+        max_steps=0,
+        progress=None,
+        impacts="stop",
+        painleve="stop",
     ):
         return FakeTrajectory(self, p, t, np.asarray(q), np.asarray(u), until)
 

@@ -89,7 +89,7 @@ class Builder:
         self._file: str | None = None
         self._text = ""
         self.others: dict[str, Builder] = {}
-        self._opened: dict[str, Builder] = {}
+        self._opened: dict[FilePath, Builder] = {}
         self._lowered: tuple[str, Lowered] | None = None
         self._compiled: tuple[str, _core.Mechanism] | None = None
         self.ground = Ground(self, "ground", ("O",))
@@ -228,9 +228,13 @@ class Builder:
         """The mechanism of a model that this one hands over to; its file as the model names it. Raises ``ModelFileError``."""
         if file in self.others:
             return self.others[file]
-        if file not in self._opened:
-            self._opened[file] = type(self).load(Folder.of(self._file).beside(file))
-        return self._opened[file]
+        folder = Folder.of(self._file)
+        path = folder.beside(file)
+        self._opened |= dict.fromkeys(folder.opened, self)
+        if path not in self._opened:
+            self._opened[path] = type(self).load(path)
+            self._opened[path]._opened = self._opened
+        return self._opened[path]
 
     def initial(self, **values: Any) -> None:
         """Sets coordinates at the start, and ``rates``, ``guess``, ``points``, ``branch``, ``at_rest``, ``equilibrium``; adds

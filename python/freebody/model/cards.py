@@ -51,7 +51,9 @@ class Card:
 
     @property
     def pushes(self) -> tuple[int, ...]:
-        """The constraints, counted from 1, whose force is that of one side pushing the other."""
+        """The constraints, counted from 1, whose force is that of one side pushing the other; a curve holds its point for good."""
+        if any(field.kind == "curve" for field in self.fields):
+            return ()
         return tuple(i for i, row in enumerate(self.rows, 1) if row == "normal force" or "roller" in row)
 
 

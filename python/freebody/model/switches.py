@@ -59,12 +59,13 @@ _NO_SURFACE = (
     "`{polyline: [P, …]}` or `{polygon: [P, …]}`",
 )
 Surface = one_of(*_NO_SURFACE, text=Name, pair=TwoPoints, mapping=SurfaceShape)
+Surfaces = two_of(Surface, "a contact is of two surfaces: `[ball, ground.floor]`")
 
 
 class Contact(Section):
     """Two surfaces that can push each other."""
 
-    of: two_of(Surface, "a contact is of two surfaces: `[ball, ground.floor]`") = Field(description="The two surfaces.")
+    of: Surfaces = Field(description="The two surfaces.")
     restitution: Restitution = Field(0, description="Speed of parting over speed of approach, 0 to 1.")
     friction: Number = Field(0, description="Coefficient of sliding friction.")
     static_friction: Number = Field(None, description="Coefficient of friction at rest; by default that of sliding.")
@@ -108,6 +109,7 @@ CordEnd = one_of(
     text=Name,
     mapping=Drum,
 )
+CordEnds = two_of(CordEnd, "a string has two ends: `[P, Q]`")
 Guide = one_of(
     "a string cannot pass over this",
     "write `body.point`, or `{pulley: P, radius: r, sense: clockwise}`",
@@ -119,7 +121,7 @@ Guide = one_of(
 class String(Section):
     """A string: it can only pull, and has no mass."""
 
-    ends: two_of(CordEnd, "a string has two ends: `[P, Q]`") = Field(description="Its two ends.")
+    ends: CordEnds = Field(description="Its two ends.")
     over: list[Guide] = Field([], description="Points and pulleys that it passes without friction, from its first end.")
     length: Length = Field(None, description="Its length; just taut at the start when left out.")
     restitution: Restitution = Field(0, description="Speed of return over speed of stretching when it goes taut, 0 to 1.")

@@ -136,8 +136,7 @@ def _draw_points(sheet: _Drawing) -> None:
     seen = [place for place in used if place is not None]
     for name in sheet.sketch.at:
         place = sheet.sketch.place(name)
-        last = name.rpartition(".")[2]
-        told = last not in _UNTOLD and not last.startswith("outline[")  # corners that only contacts know
+        told = name.rpartition(".")[2] not in _UNTOLD
         if told and not any(np.allclose(place, other, atol=0.2 * sheet.scene.size) for other in seen):
             seen.append(place)
             sheet.line(np.array([place, place]), INK, marker="o", ms=3)

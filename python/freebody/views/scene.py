@@ -148,7 +148,7 @@ class Sketch:
         self.pairs: list[Pair] = []
         self.at: dict[str, tuple[str, Array]] = {}
         for name, place in json.loads(source.core.points(state.p)).items():
-            if isinstance(place, list) and len(place) == 3:
+            if isinstance(place, list) and len(place) == 3 and ".outline[" not in name:  # a corner that only contacts know
                 self.at[name] = (place[0], np.array(place[1:], float))
                 self.figures[place[0]].points[name] = (float(place[1]), float(place[2]))
         self.outlines = {body: value for body, value in _outlines(source.model).items() if body in self.figures}
