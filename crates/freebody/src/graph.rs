@@ -26,16 +26,17 @@ pub struct Branch {
 /// Grows a tree from node 0, most wanted edges first, breadth first among equals (Prim's algorithm).
 ///
 /// Nodes that no edge reaches are attached by `adopt`, which is told the node and returns the index of a
-/// new edge from node 0; the lowest-numbered such node is asked first. Branches come parents first.
-pub fn spanning_tree(nodes: usize, edges: &[Edge], mut adopt: impl FnMut(usize) -> usize) -> Vec<Branch> {
+/// new edge from node 0; `orphans`, all nodes but 0, says which is asked first. Branches come parents first.
+pub fn spanning_tree(orphans: &[usize], edges: &[Edge], mut adopt: impl FnMut(usize) -> usize) -> Vec<Branch> {
+    let nodes = orphans.len() + 1;
     let mut at: Vec<Vec<usize>> = vec![vec![]; nodes];
     for (i, e) in edges.iter().enumerate() {
         e.ends.iter().for_each(|&end| at[end].push(i));
     }
     let mut frontier = std::collections::BinaryHeap::new();
     let mut reached = vec![false; nodes];
-    let mut tree = Vec::with_capacity(nodes.saturating_sub(1));
-    let mut next_orphan = 1;
+    let mut tree = Vec::with_capacity(orphans.len());
+    let mut orphans = orphans.iter();
     let arrive = |node: usize, reached: &mut Vec<bool>, frontier: &mut std::collections::BinaryHeap<_>, age: usize| {
         reached[node] = true;
         for &i in &at[node] {
@@ -46,9 +47,7 @@ pub fn spanning_tree(nodes: usize, edges: &[Edge], mut adopt: impl FnMut(usize) 
             }
         }
     };
-    if nodes > 0 {
-        arrive(0, &mut reached, &mut frontier, 0);
-    }
+    arrive(0, &mut reached, &mut frontier, 0);
     loop {
         while let Some(std::cmp::Reverse((_, _, i, side))) = frontier.pop() {
             let (parent, child) = (edges[i].ends[side], edges[i].ends[1 - side]);
@@ -57,15 +56,10 @@ pub fn spanning_tree(nodes: usize, edges: &[Edge], mut adopt: impl FnMut(usize) 
                 arrive(child, &mut reached, &mut frontier, tree.len());
             }
         }
-        while next_orphan < nodes && reached[next_orphan] {
-            next_orphan += 1;
-        }
-        if next_orphan >= nodes {
-            return tree;
-        }
-        let edge = adopt(next_orphan);
-        tree.push(Branch { parent: 0, child: next_orphan, edge, reversed: false });
-        arrive(next_orphan, &mut reached, &mut frontier, tree.len());
+        let Some(&child) = orphans.find(|&&node| !reached[node]) else { return tree };
+        let edge = adopt(child);
+        tree.push(Branch { parent: 0, child, edge, reversed: false });
+        arrive(child, &mut reached, &mut frontier, tree.len());
     }
 }
 
@@ -80,7 +74,7 @@ mod tests {
     #[test]
     fn a_loop_is_cut_at_its_least_wanted_edge() {
         let edges = [edge(0, 1, 1), edge(1, 2, 1), edge(2, 3, 5), edge(3, 0, 1)];
-        let tree = spanning_tree(4, &edges, |_| unreachable!());
+        let tree = spanning_tree(&[1, 2, 3], &edges, |_| unreachable!());
         let mut used: Vec<_> = tree.iter().map(|b| b.edge).collect();
         used.sort();
         assert_eq!(used, [0, 1, 3]);
@@ -89,7 +83,7 @@ mod tests {
 
     #[test]
     fn unreached_nodes_are_adopted_parents_first() {
-        let tree = spanning_tree(4, &[edge(3, 2, 0)], |node| 100 + node);
+        let tree = spanning_tree(&[1, 2, 3], &[edge(3, 2, 0)], |node| 100 + node);
         assert_eq!(tree.iter().map(|b| b.child).collect::<Vec<_>>(), [1, 2, 3]);
         assert_eq!(tree[2], Branch { parent: 2, child: 3, edge: 0, reversed: true });
     }

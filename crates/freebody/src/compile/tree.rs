@@ -118,8 +118,11 @@ fn end(
     Err(CompileError::from(path, super::names::unknown("point", name, known.iter())))
 }
 
-/// How much a joint is wanted in the tree; None when it can only close loops.
-fn rank(pair: &Pair) -> [Option<u32>; 2] {
+/// Rank of a joint that would hang a body on a particle and pass it a couple: taken last, and then refused.
+const THROUGH_PARTICLE: u32 = 100;
+
+/// How much a joint between bodies, of which some are particles, is wanted in the tree; None when it can only close loops.
+fn rank(pair: &Pair, particle: [bool; 2]) -> [Option<u32>; 2] {
     let card = pair.kind.card();
     if card.coordinates.len() + card.rows.len() != 3 || !pair.stays {
         return [None, None];
@@ -133,7 +136,10 @@ fn rank(pair: &Pair) -> [Option<u32>; 2] {
         _ => 2,
     };
     let absolute = pair.element.coordinates.iter().any(|c| c.absolute);
-    [Some(forward), Some(if absolute { forward + 4 } else { forward })]
+    let turns = card.coordinates.iter().any(|c| c.turn);
+    let passes_couple = |parent: usize| particle[parent] && !particle[1 - parent] && !turns;
+    let last = |parent| if passes_couple(parent) { THROUGH_PARTICLE } else { 0 };
+    [Some(forward + last(0)), Some(forward + last(1) + if absolute { 4 } else { 0 })]
 }
 
 impl Compiler<'_> {
@@ -146,6 +152,7 @@ impl Compiler<'_> {
                 return Err(super::twice(format!("bodies.{}", body.name), &body.name));
             }
         }
+        let particle = |node: usize| node > 0 && self.spec.bodies[node - 1].particle;
         let mut edges = vec![];
         for pair in pairs {
             let side = |s: usize| {
@@ -153,10 +160,14 @@ impl Compiler<'_> {
                 let missing = || CompileError::from(&pair.path, super::names::unknown("body", &pair.ends[s], known));
                 index.get(pair.ends[s].as_str()).copied().ok_or_else(missing)
             };
-            edges.push(Edge { ends: [side(0)?, side(1)?], rank: rank(pair) });
+            let ends = [side(0)?, side(1)?];
+            edges.push(Edge { ends, rank: rank(pair, ends.map(particle)) });
         }
         let mut extra = pairs.len();
-        let mut branches = spanning_tree(self.spec.bodies.len() + 1, &edges, |_| {
+        // Particles last: a body can carry a particle, and not the other way round.
+        let mut orphans: Vec<usize> = (1..=self.spec.bodies.len()).collect();
+        orphans.sort_by_key(|&node| particle(node));
+        let mut branches = spanning_tree(&orphans, &edges, |_| {
             extra += 1;
             extra - 1
         });

@@ -2,6 +2,7 @@
 
 use super::{Law, Leaf};
 use crate::expr::Env;
+use crate::joints::Joint as _;
 use crate::kinematics::{relative, JointView, Kinematics};
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
@@ -82,6 +83,18 @@ impl<S: Scalar> Poses<S> for Placed<'_, S> {
 }
 
 impl<S: Scalar> Placed<'_, S> {
+    /// −1 for a distance that the tree carries below 0, which its measure cannot tell; else 1.
+    fn side(&self, joint: usize, k: usize) -> f64 {
+        let j = &self.m.joints[joint];
+        let c = &j.coordinates[k];
+        let told = self.m.place_in_q(joint, k).filter(|_| j.kind.unsigned(c.card));
+        let below = told.is_some_and(|i| self.n.slots[c.zero].value() + c.sense * self.q[i].value() < 0.0);
+        if below {
+            -1.0
+        } else {
+            1.0
+        }
+    }
     /// The way from the pin of `carrier` to a site on `body`: its first part, on the carrier itself, and the rest.
     fn reach(&self, site: usize, body: usize, carrier: usize) -> (Vec2<S>, Vec2<S>) {
         let own = self.k.pose[body].turn.apply(self.n.arms[site]);
@@ -158,7 +171,7 @@ impl<S: Scalar> Moving<'_, S> {
         let (m, n) = (self.at.m, self.at.n);
         let measured = match m.joints[joint].curve {
             Some(_) => self.along_curve(joint, k),
-            None => measured(m, n, self, joint, k, Jet::constant),
+            None => measured(m, n, self, joint, k, Jet::constant).scale(self.at.side(joint, k)),
         };
         Jet { d0: self.at.coordinate(joint, k), ..measured }
     }
@@ -226,7 +239,7 @@ impl<S: Scalar> Poses<Dual<3, S>> for Seeded<'_, S> {
     fn coordinate(&self, joint: usize, k: usize) -> Dual<3, S> {
         let (m, n) = (self.at.m, self.at.n);
         let du = match m.joints[joint].curve {
-            None => measured(m, n, self, joint, k, Dual::constant).du,
+            None => measured(m, n, self, joint, k, Dual::constant).scale(self.at.side(joint, k)).du,
             Some(_) => self.along_curve(joint, k),
         };
         Dual { re: self.at.coordinate(joint, k), du }

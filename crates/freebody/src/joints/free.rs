@@ -24,7 +24,7 @@ impl Joint for Free {
     }
 }
 
-/// Polar coordinates; singular where the distance is 0.
+/// Polar coordinates; singular where the distance is 0. A motion through the pole carries a distance below 0.
 pub struct Polar;
 
 impl Joint for Polar {
@@ -44,5 +44,8 @@ impl Joint for Polar {
     }
     fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         Some(Few::of(&[r.at().norm(), r.y.atan2(r.x), r.angle]))
+    }
+    fn unsigned(&self, k: usize) -> bool {
+        k == 0
     }
 }

@@ -81,6 +81,10 @@ pub trait Joint {
     fn measure<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Few<S>> {
         None
     }
+    /// Whether `measure` gives coordinate `k` without its sign, as a distance; `pose` takes either sign.
+    fn unsigned(&self, _k: usize) -> bool {
+        false
+    }
     /// Where the reaction acts, in the first marker's axes; the second marker by default.
     fn contact(&self, _n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
         r.at()
@@ -118,6 +122,9 @@ macro_rules! list {
             #[inline]
             fn measure<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.measure(n, r)),* }
+            }
+            fn unsigned(&self, k: usize) -> bool {
+                match self { $(Kind::$Joint => $module::$Joint.unsigned(k)),* }
             }
             fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
                 match self { $(Kind::$Joint => $module::$Joint.contact(n, r)),* }

@@ -240,3 +240,36 @@ fn forces_do_the_work_that_their_potential_loses() {
     }
     assert!(conservative >= 60);
 }
+
+/// A body that flies through the pole of its polar coordinates: beyond it the distance is below 0, and a force along the
+/// distance, its rate and its acceleration still say the same.
+#[test]
+fn a_distance_below_0_is_a_gauge_like_any_other() {
+    let model = Model::new()
+        .gravity(0.4, -9.81)
+        .body("plate", 2.0, 0.3, [0.2, -0.1])
+        .point("ground.O", [0.1, 0.3])
+        .point("plate.P", [0.4, 0.2])
+        .joint("flight", "polar", &[("of", points(&["ground.O", "plate.P"]))], &["r", "phi", "turn"])
+        .force("pull", "law", &[("along", text("r")), ("value", text("3.0"))]);
+    let mut compiled = model.compile();
+    let law = compiled.observable("r").expect("a coordinate");
+    let m = &compiled.mechanism;
+    let mut balance = Balance::new(m, &[]);
+    // The same state told from either side of the pole.
+    let mut solved = |r: f64, phi: f64, rate: f64| {
+        balance.place(0.0, &[r, phi, 0.7], &[rate, 0.5, -0.8]);
+        let going = Moving { at: balance.at(), bodies: None, accelerations: None };
+        let read = jet(&going, &law);
+        assert!((read.d0 - r).abs() < 1e-15 && (read.d1 - rate).abs() < 1e-14, "{read:?}");
+        balance.instant(freebody::balance::Route::Minimal).expect("it flies freely")
+    };
+    let (ahead, behind) = (solved(0.6, 0.2, 1.1), solved(-0.6, 0.2 + std::f64::consts::PI, -1.1));
+    // What drives it away from the pole in the one telling draws it there in the other.
+    for (a, sense) in [(&ahead, 1.0), (&behind, -1.0)] {
+        let free = [a.bodies[0][0] - 0.4, a.bodies[0][1] + 9.81];
+        let (sin, cos) = 0.2_f64.sin_cos();
+        let off = (2.0 * free[0] - sense * 3.0 * cos).hypot(2.0 * free[1] - sense * 3.0 * sin);
+        assert!(off < 1e-13, "{off:e}");
+    }
+}

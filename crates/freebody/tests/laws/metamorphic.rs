@@ -5,6 +5,8 @@ use crate::random::*;
 use crate::random_mechanisms::{loads, motion, recipe, HOME, MECHANISMS};
 use crate::rng::Rng;
 use freebody::balance::{Instant, Route};
+use freebody::joints::{Joint, Kind};
+use freebody::spec::{Element, Number, Place, Spec, Value};
 
 /// Two solutions whose numbers all differ by round-off, through masses that differ by 1e4.
 const AGREE: f64 = 1e-9;
@@ -117,4 +119,94 @@ fn a_power_of_two_in_the_masses_changes_no_bit_of_the_motion() {
             assert_eq!(told, loads(&other), "seed {seed}, factor {factor}; {}", bench.told());
         }
     }
+}
+
+/// The same world seen in a mirror, y → −y. In body frames as in the fixed axes y changes sign, and angles with it; lines
+/// and curves that have something on their left run the other way.
+fn mirrored(mut spec: Spec) -> Spec {
+    let minus = |x: &mut Number| {
+        *x = match x {
+            Number::Literal(x) => Number::Literal(-*x),
+            Number::Expression(text) => Number::Expression(format!("-({text})")),
+        }
+    };
+    spec.gravity.iter_mut().for_each(|[_, y]| minus(y));
+    spec.points.iter_mut().for_each(|point| minus(&mut point.at[1]));
+    spec.bodies.iter_mut().flat_map(|body| &mut body.pieces).for_each(|piece| minus(&mut piece.at[1]));
+    for curve in &mut spec.curves {
+        let back = |text: &str| text.replace("sin", "S").replace('s', "(-s)").replace('S', "sin");
+        (curve.x, curve.y) = (back(&curve.x), format!("-({})", back(&curve.y)));
+    }
+    for Element { fields, .. } in &mut spec.joints {
+        for (word, field) in fields {
+            match (word.as_str(), field) {
+                ("on", Value::Line(Place { angle: Some(Number::Literal(angle)), .. })) => {
+                    *angle = std::f64::consts::PI - *angle;
+                }
+                (_, Value::Line(Place { angle: Some(angle), .. })) => minus(angle),
+                ("angle" | "flank" | "strand", Value::Number(number)) => minus(number),
+                _ => {}
+            }
+        }
+    }
+    for Element { kind, fields, .. } in &mut spec.forces {
+        for (word, field) in fields {
+            let Value::Number(number) = field else { continue };
+            if let Number::Expression(text) = number {
+                if let Some((a, rest)) = text.split_once(" - angle(") {
+                    // What is measured from one body to the other is measured the other way.
+                    let (head, a) = a.rsplit_once("angle(").expect("a difference of two angles");
+                    let (b, tail) = rest.split_once(')').expect("of two bodies");
+                    *text = format!("{head}angle({b}) - angle({a}{tail}");
+                }
+            }
+            match (kind.as_str(), word.as_str()) {
+                ("torque", "value") | (_, "direction" | "rest_angle" | "y") => minus(number),
+                _ => {}
+            }
+        }
+    }
+    spec
+}
+
+#[test]
+fn the_world_in_a_mirror_is_as_good() {
+    let mut seen_there = 0;
+    for seed in 0..3 * MECHANISMS {
+        let thrown = ideal(seed).draw(seed, HOME);
+        let bench = Bench::new(&thrown);
+        let mut balance = bench.balance();
+        let told = bench.told();
+        // The angle of a wheel is counted from the way of its line, which the mirror turns round.
+        if bench.compiled.mechanism.joints.iter().any(|j| j.kind == Kind::Rolling && j.child.is_some()) {
+            continue;
+        }
+        seen_there += 1;
+        let s = bench.state(&mut balance, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("no state: {told}"));
+        balance.place(s.t, &s.q, &s.u);
+        let here = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}"));
+
+        let there = Model(mirrored(thrown.model.0)).compile();
+        let m = &there.mechanism;
+        let (mut q, mut u) = (s.q, s.u);
+        for (i, &(joint, k)) in m.coordinates.iter().enumerate() {
+            let joint = &m.joints[joint];
+            let name = joint.kind.card().coordinates[joint.coordinates[k].card].name;
+            let other_way = name == "s" && matches!(joint.kind, Kind::CurvedSlot | Kind::Cam);
+            if matches!(name, "angle" | "direction" | "y") || other_way {
+                (q[i], u[i]) = (-q[i], -u[i]);
+            }
+        }
+        let mut balance = freebody::balance::Balance::new(m, &bench.p);
+        balance.place(s.t, &q, &u);
+        let there = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}, mirrored: {e:?}"));
+        let seen = |x: Vec<f64>| x.chunks(3).flat_map(|b| [b[0], -b[1], -b[2]]).collect::<Vec<_>>();
+        let (a, f) = (
+            apart(&motion_of(&here), &seen(motion_of(&there)), 1.0),
+            apart(&loads(&here), &seen(loads(&there)), 1e-300),
+        );
+        assert!(a < AGREE && f < AGREE, "seed {seed}: accelerations {a:e}, reactions {f:e}; {told}");
+        assert_eq!(here.determinate, there.determinate, "{told}");
+    }
+    assert!(seen_there > MECHANISMS, "only {seen_there} mechanisms have a mirror image");
 }

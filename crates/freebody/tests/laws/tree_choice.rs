@@ -132,3 +132,44 @@ fn a_massless_link_may_be_cut_loose() {
         }
     }
 }
+
+/// A particle passes no couple: what is welded to it is pinned, and a slider along a body's line is a slot. No tree that
+/// would hang the body on the particle is chosen where another will do.
+#[test]
+fn no_couple_goes_through_a_particle() {
+    let bead = |m: Model| {
+        m.particle("bead", 0.7).point("bead.C", [0.0, 0.0]).body("rod", 1.5, 0.2, [0.4, 0.1]).point("rod.A", [0.0, 0.0])
+    };
+    let guided = |kind: &str| {
+        let (far, names): (_, &[&str]) = match kind {
+            "slider" => (("line", line("bead.C", 0.0)), &["r"]),
+            _ => (("point", text("bead.C")), &[]),
+        };
+        let upright = [("along", line("ground.B", std::f64::consts::FRAC_PI_2)), ("point", text("bead.C"))];
+        bead(Model::new().gravity(0.3, -9.81).point("ground.A", [0.0, 0.0]).point("ground.B", [1.0, 0.0]))
+            .joint("pivot", "hinge", &[("of", points(&["ground.A", "rod.A"]))], &[])
+            .joint("wall", "slot", &upright, &["y"])
+            .joint("between", kind, &[("along", line("rod.A", 0.0)), far], names)
+    };
+    let floating = |kind: &str| {
+        let push = [("at", text("rod.A")), ("x", value(3.0)), ("y", value(-1.0))];
+        bead(Model::new().gravity(0.0, 0.0).point("rod.B", [0.9, -0.2]))
+            .joint("between", kind, &[("of", points(&["rod.B", "bead.C"]))], &[])
+            .force("push", "force", &push)
+    };
+    let cases = [
+        (guided("slider"), guided("slot"), vec![0.4, 0.4_f64.tan()]),
+        (floating("weld"), floating("hinge"), vec![0.2, -0.1, 0.7]),
+    ];
+    for (one, other, q) in cases {
+        let [one, other] = [one.compile(), other.compile()];
+        let [m, n] = [&one.mechanism, &other.mechanism];
+        let solved = |m: &Mechanism| {
+            let mut balance = freebody::balance::Balance::new(m, &[]);
+            balance.place(0.0, &q, &vec![0.0; q.len()]);
+            assert!(balance.worst_gap() < 1e-15);
+            balance.instant(Route::Minimal).expect("nothing is singular here")
+        };
+        compare("a particle", [m, n], [&solved(m), &solved(n)]);
+    }
+}
