@@ -14,6 +14,10 @@ const TOLERANCES: [f64; 2] = [2e-13, 1e-10];
 /// Accelerations that differ by less are the same.
 const SAME: f64 = 1e-9;
 
+/// Round-off can close the gap of an acceleration in which touches that oppose each other all move freely, so
+/// pivoting is tried again with the touches moved apart by this.
+const APART: [f64; 2] = [0.0, 1e-9];
+
 /// What there is to find.
 #[derive(Clone, Debug)]
 pub(super) enum Outcome {
@@ -79,26 +83,37 @@ fn most_at_rest(task: &Task) -> Outcome {
 
 /// Decides a task in which static and kinetic friction are the same.
 fn bounded(task: &Task) -> Outcome {
-    let proposal = propose(task);
-    let pivoted = match &proposal {
-        Proposal::Modes(modes) => TOLERANCES.iter().find_map(|t| vertex(task, modes, *t)),
-        Proposal::Impossible | Proposal::None => None,
-    };
     let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
     let n = task.len();
-    match pivoted {
-        Some(found) if unique || n > ALWAYS => Outcome::Found(vec![found]),
-        None if matches!(proposal, Proposal::Impossible) => Outcome::Nothing,
-        None if n > ENUMERABLE => Outcome::Unknown,
-        _ => match enumerate(task, pivoted.into_iter().collect()) {
+    match pivot(task) {
+        Outcome::Found(found) if unique || n > ALWAYS => Outcome::Found(found),
+        Outcome::Found(found) => Outcome::Found(enumerate(task, found)),
+        Outcome::Unknown if n <= ENUMERABLE => match enumerate(task, Vec::new()) {
             all if all.is_empty() => Outcome::Nothing,
             all => Outcome::Found(all),
         },
+        outcome => outcome,
     }
 }
 
+/// What pivoting alone finds.
+pub(super) fn pivot(task: &Task) -> Outcome {
+    for apart in APART {
+        match propose(task, apart) {
+            Proposal::Modes(modes) => {
+                if let Some(found) = TOLERANCES.iter().find_map(|t| vertex(task, &modes, *t)) {
+                    return Outcome::Found(vec![found]);
+                }
+            }
+            Proposal::Impossible => return Outcome::Nothing,
+            Proposal::None => {}
+        }
+    }
+    Outcome::Unknown
+}
+
 /// What all modes add to the findings.
-fn enumerate(task: &Task, mut all: Vec<Found>) -> Vec<Found> {
+pub(super) fn enumerate(task: &Task, mut all: Vec<Found>) -> Vec<Found> {
     let lists: Vec<Vec<Mode>> = (0..task.len()).map(|i| admissible(task.holds[i], task.pressed[i])).collect();
     for tolerance in TOLERANCES {
         choices(&lists, |modes| {
