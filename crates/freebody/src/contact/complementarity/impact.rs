@@ -63,7 +63,7 @@ pub enum NoImpact {
     Ambiguous(Vec<Impulses>),
     /// None were found among too many touches to try everything; or a number is not finite.
     Unknown,
-    /// One touch hits after the other without coming to rest.
+    /// One touch hits after the other without coming to rest, or ever faster.
     Endless,
 }
 
@@ -168,6 +168,9 @@ fn sequential(s: &Strike) -> Result<Impulse, NoImpact> {
         for (row, p) in rows.into_iter().zip(newton(&one)?) {
             total[row] += p;
             (0..2 * k).for_each(|i| velocity[i] += s.g[(i, row)] * p);
+        }
+        if velocity.iter().any(|v| !v.is_finite()) {
+            break;
         }
     }
     Err(NoImpact::Endless)

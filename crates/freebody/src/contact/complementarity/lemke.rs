@@ -8,7 +8,7 @@ const PIVOT: f64 = 1e-10;
 /// closed all together only.
 const RESIDUE: f64 = 1e-10;
 /// Ratios that differ by less, relative to their size, tie.
-const TIE: f64 = 1e-12;
+const TIE: f64 = 3e-14;
 
 /// Where the path of complementary bases ends.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The decision on a task: pivoting, enumeration, and the order of static before kinetic friction.
 
 use super::form::{propose, Proposal};
-use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal};
+use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal, Tangent};
 use super::task::{Hold, Task};
 use super::{Grip, Status};
 
@@ -17,6 +17,9 @@ const SAME: f64 = 1e-9;
 /// Round-off can close the gap of an acceleration in which touches that oppose each other all move freely, so
 /// pivoting is tried again with the touches moved apart by this.
 const APART: [f64; 2] = [0.0, 1e-9];
+
+/// Vertices tried of forces that their equations do not determine: all, for six touches.
+const TRIES: usize = 4_096;
 
 /// What there is to find.
 #[derive(Clone, Debug)]
@@ -71,24 +74,30 @@ fn slide(task: &Task, found: Found, all: &mut Vec<Found>) {
 /// Of all findings with static friction at rest and kinetic in motion, those with most touches at rest.
 fn most_at_rest(task: &Task) -> Outcome {
     let at_rest = |f: &Found| f.status.iter().filter(|s| **s == Status::Stick).count();
-    let mut all = enumerate(task, Vec::new());
+    let all = TOLERANCES.iter().map(|t| enumerate(task, Vec::new(), *t)).find(|all| !all.is_empty());
+    let Some(mut all) = all else { return Outcome::Nothing };
     let most = all.iter().map(at_rest).max();
     all.retain(|f| Some(at_rest(f)) == most);
-    if all.is_empty() {
-        Outcome::Nothing
-    } else {
-        Outcome::Found(all)
-    }
+    Outcome::Found(all)
 }
 
 /// Decides a task in which static and kinetic friction are the same.
 fn bounded(task: &Task) -> Outcome {
+    let [tight, loose] = TOLERANCES;
+    match within(task, tight) {
+        Outcome::Found(found) => Outcome::Found(found),
+        Outcome::Nothing | Outcome::Unknown => within(task, loose),
+    }
+}
+
+/// Decides it with conditions that hold to a tolerance.
+fn within(task: &Task, tolerance: f64) -> Outcome {
     let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
     let n = task.len();
-    match pivot(task) {
+    match pivot(task, tolerance) {
         Outcome::Found(found) if unique || n > ALWAYS => Outcome::Found(found),
-        Outcome::Found(found) => Outcome::Found(enumerate(task, found)),
-        Outcome::Unknown if n <= ENUMERABLE => match enumerate(task, Vec::new()) {
+        Outcome::Found(found) => Outcome::Found(enumerate(task, found, tolerance)),
+        Outcome::Unknown if n <= ENUMERABLE => match enumerate(task, Vec::new(), tolerance) {
             all if all.is_empty() => Outcome::Nothing,
             all => Outcome::Found(all),
         },
@@ -97,11 +106,11 @@ fn bounded(task: &Task) -> Outcome {
 }
 
 /// What pivoting alone finds.
-pub(super) fn pivot(task: &Task) -> Outcome {
+pub(super) fn pivot(task: &Task, tolerance: f64) -> Outcome {
     for apart in APART {
         match propose(task, apart) {
             Proposal::Modes(modes) => {
-                if let Some(found) = TOLERANCES.iter().find_map(|t| vertex(task, &modes, *t)) {
+                if let Some(found) = vertex(task, &modes, tolerance) {
                     return Outcome::Found(vec![found]);
                 }
             }
@@ -113,17 +122,12 @@ pub(super) fn pivot(task: &Task) -> Outcome {
 }
 
 /// What all modes add to the findings.
-pub(super) fn enumerate(task: &Task, mut all: Vec<Found>) -> Vec<Found> {
+pub(super) fn enumerate(task: &Task, mut all: Vec<Found>, tolerance: f64) -> Vec<Found> {
     let lists: Vec<Vec<Mode>> = (0..task.len()).map(|i| admissible(task.holds[i], task.pressed[i])).collect();
-    for tolerance in TOLERANCES {
-        choices(&lists, |modes| {
-            vertex(task, modes, tolerance).into_iter().for_each(|found| add(&mut all, found));
-            false
-        });
-        if !all.is_empty() {
-            break;
-        }
-    }
+    choices(&lists, |modes| {
+        vertex(task, modes, tolerance).into_iter().for_each(|found| add(&mut all, found));
+        false
+    });
     all
 }
 
@@ -132,12 +136,28 @@ fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(task, modes, tolerance);
     if matches!(result, Err(Refusal::Singular)) {
         let lists: Vec<Vec<Mode>> = modes.iter().zip(&task.holds).map(|(m, h)| vertices(*h, *m)).collect();
+        let mut tries = 0;
         choices(&lists, |modes| {
+            tries += 1;
             result = evaluate(task, modes, tolerance);
-            result.is_ok()
+            result.is_ok() || tries == TRIES
         });
     }
-    result.ok()
+    let found = result.ok()?;
+    // On the edge of its cone but held by others, a touch may not need a tangential force at all.
+    match held(task, modes, &found) {
+        Some(modes) => vertex(task, &modes, tolerance).or(Some(found)),
+        None => Some(found),
+    }
+}
+
+/// The modes with the touches stuck that were to slip and do not, if there are such.
+fn held(task: &Task, modes: &[Mode], found: &Found) -> Option<Vec<Mode>> {
+    let resting = |i: usize| matches!(task.holds[i], Hold::Grip(Grip::Resting { .. }));
+    let still =
+        |i: usize| matches!(modes[i].tangent, Tangent::Slip(_)) && found.status[i] == Status::Stick && resting(i);
+    let stick = |i: usize| if still(i) { Mode { tangent: Tangent::Stick, ..modes[i] } } else { modes[i] };
+    (0..modes.len()).any(still).then(|| (0..modes.len()).map(stick).collect())
 }
 
 /// Adds a finding whose accelerations are new.

@@ -55,15 +55,11 @@ fn block_on_incline() {
             let w = if touches == 1 { rows(&[touch(0.0, 0.0, UP)]) } else { rows(&corners) };
             let g = delassus(&w, &[1.0, 1.0, 3.0]);
             let free = w.mul_vec(&[9.81 * alpha.sin(), -9.81 * alpha.cos(), 0.0]);
-            let slides = |excess: f64| {
-                let a = solved(&Problem {
-                    g: &g,
-                    free: &free,
-                    grips: &vec![resting(alpha.tan() * (1.0 - excess)); touches],
-                });
-                a.acceleration[touches] > 0.0
+            // Friction falls short of the pull down the plane by this part of the weight.
+            let slides = |short: f64| {
+                let grips = vec![resting((alpha.sin() - short) / alpha.cos()); touches];
+                solved(&Problem { g: &g, free: &free, grips: &grips }).acceleration[touches] > 0.0
             };
-            // The pull down the plane exceeds friction by the part 1e-12 of itself.
             assert!(!slides(0.0) && !slides(-1e-12) && slides(1e-12), "{alpha} {touches}");
         }
     }
@@ -82,7 +78,7 @@ fn redundant_touches_are_basic() {
             let a = solved(&Problem { g: &g, free: &free, grips: &vec![grip; k] });
             let forces = a.normal.iter().chain(&a.tangent).filter(|f| **f != 0.0).count();
             assert!(forces <= 3, "{a:?}");
-            assert!(a.acceleration.iter().all(|a| *a == 0.0), "{a:?}");
+            assert!(a.acceleration.iter().all(|a| a.abs() <= 1e-14), "{a:?}");
             assert!((a.normal.iter().sum::<f64>() - 9.81).abs() < 1e-12);
         }
     }
@@ -188,8 +184,7 @@ fn painleve_rod() {
     assert!(seen.iter().all(|n| *n > 500), "{seen:?}");
 }
 
-/// A rod that rests on a wall and the floor slides down under μ = tan(45° − φ/2)…: with equal μ it holds from
-/// the ground angle θ with tan θ = (1 − μ²)/(2 μ) on.
+/// A rod against a wall, with the same friction there and on the floor, holds if tan θ ≥ (1 − μ²)/(2 μ).
 #[test]
 fn ladder() {
     let mu: f64 = 0.5;

@@ -18,8 +18,8 @@ fn pivoting_agrees_with_enumeration() {
         let k = 1 + r.below(3);
         let c = case(&mut r, k, any_grip);
         let task = task(&c);
-        let all = enumerate(&task, Vec::new());
-        match pivot(&task) {
+        let all = enumerate(&task, Vec::new(), 1e-12);
+        match pivot(&task, 1e-12) {
             Outcome::Found(found) => {
                 let same = |f: &Found| agree(&f.acceleration, &found[0].acceleration, 1e-9);
                 assert!(all.iter().any(same), "case {n}: {:?}\n{found:?}\n{all:?}", c.problem());
@@ -44,11 +44,11 @@ fn pivoting_agrees_with_enumeration() {
 fn touches_at_rest_always_have_a_motion() {
     let mut r = Random(2);
     for n in 0..20_000 {
-        let k = 1 + r.below(6);
+        let k = 1 + r.below(10);
         let mu = r.unit(false).abs() * 2.0;
         let c = case(&mut r, k, |_| if n % 4 == 0 { Grip::Smooth } else { Grip::Resting { fixed: mu, kinetic: mu } });
         if c.consistent {
-            assert!(matches!(pivot(&task(&c)), Outcome::Found(_)), "case {n}: {:?}", c.problem());
+            assert!(matches!(pivot(&task(&c), 1e-12), Outcome::Found(_)), "case {n}: {:?}", c.problem());
             assert!(matches!(verified(&c.problem(), 1e-9), Verdict::Solved(_) | Verdict::Indeterminate(_)));
         }
     }
