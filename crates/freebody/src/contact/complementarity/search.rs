@@ -9,8 +9,8 @@ use super::{Grip, Status};
 const ALWAYS: usize = 3;
 /// Up to this many all modes are tried when pivoting fails.
 const ENUMERABLE: usize = 6;
-/// Conditions hold to round-off of the solver; only if nothing does, to that of the data.
-const TOLERANCES: [f64; 2] = [2e-13, 1e-10];
+/// Conditions hold to round-off of the solver; only if no modes do, to that of ever worse data.
+const TOLERANCES: [f64; 3] = [4e-14, 1e-12, 1e-10];
 /// Accelerations that differ by less are the same.
 const SAME: f64 = 1e-9;
 
@@ -83,11 +83,14 @@ fn most_at_rest(task: &Task) -> Outcome {
 
 /// Decides a task in which static and kinetic friction are the same.
 fn bounded(task: &Task) -> Outcome {
-    let [tight, loose] = TOLERANCES;
-    match within(task, tight) {
-        Outcome::Found(found) => Outcome::Found(found),
-        Outcome::Nothing | Outcome::Unknown => within(task, loose),
+    let mut outcome = Outcome::Unknown;
+    for tolerance in TOLERANCES {
+        outcome = within(task, tolerance);
+        if matches!(outcome, Outcome::Found(_)) {
+            break;
+        }
     }
+    outcome
 }
 
 /// Decides it with conditions that hold to a tolerance.

@@ -79,7 +79,8 @@ fn landing_disc() {
 }
 
 /// Newton's law with friction creates energy: an elastic rod at 45° that sticks. With H = G⁻¹ the
-/// work is −½ vT (2 HNT vN + HTT vT) (after Kane 1984).
+/// work is −½ vT (2 HNT vN + HTT vT) (after Kane 1984). Poisson's law returns the normal impulse of compression,
+/// which moves the end of the rod by 1/HNN.
 #[test]
 fn newton_with_friction_creates_energy() {
     let w = rows(&[touch(0.5_f64.sqrt(), -(0.5_f64.sqrt()), std::f64::consts::FRAC_PI_2)]);
@@ -94,6 +95,8 @@ fn newton_with_friction_creates_energy() {
         let settled = settle(&s, Law::Newton).unwrap();
         assert!(settled.law == Law::Poisson && !settled.plastic && settled.impulses.work <= 0.0, "{settled:?}");
         assert_eq!(settled.notes.len(), 1);
+        let compression = -(g[(1, 1)] * vn - g[(0, 1)] * vt) / det;
+        assert!(agree(&settled.impulses.after, &[det / g[(1, 1)] * compression, 0.0], 1e-14), "{settled:?}");
     }
 }
 
@@ -101,8 +104,8 @@ fn newton_with_friction_creates_energy() {
 /// without restitution a law never needs to be replaced.
 #[test]
 fn settled_impacts() {
-    let (mut r, mut replaced, mut failed) = (Random(21), 0, 0);
-    for n in 0..20_000 {
+    let (mut r, cases, mut replaced, mut ambiguous) = (Random(21), 4_000, 0, 0);
+    for n in 0..cases {
         let k = 1 + r.below(3);
         let c = case(&mut r, k, any_grip);
         if !c.consistent {
@@ -113,12 +116,13 @@ fn settled_impacts() {
         let s = Strike { g: &c.g, before: &c.free, restitution: &e, friction: &mu };
         let law = [Law::Newton, Law::Poisson, Law::Sequential][r.below(3)];
         let settled = match settle(&s, law) {
-            Ok(s) => s,
-            Err(e) => {
-                println!("{e} {k} {:?}", strike(&s, law).map(|s| s.gains).map_err(|e| e.to_string()));
-                failed += 1;
+            Ok(settled) => settled,
+            Err(NoImpact::Ambiguous(all)) => {
+                ambiguous += 1;
+                assert!(all.len() > 1);
                 continue;
             }
+            Err(trouble) => panic!("case {n}: {trouble}: {s:?}"),
         };
         replaced += usize::from(!settled.notes.is_empty());
         let p = &settled.impulses;
@@ -131,6 +135,5 @@ fn settled_impacts() {
         let plastic = strike(&Strike { restitution: &none, ..s }, Law::Newton);
         assert!(plastic.is_err() || plastic.is_ok_and(|p| !p.gains));
     }
-    println!("replaced {replaced}, failed {failed}");
-    assert!(failed < 500);
+    assert!(replaced > 10 && ambiguous < cases / 10, "{replaced} {ambiguous}");
 }

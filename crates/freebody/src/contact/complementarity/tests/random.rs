@@ -43,7 +43,7 @@ fn pivoting_agrees_with_enumeration() {
 #[test]
 fn touches_at_rest_always_have_a_motion() {
     let mut r = Random(2);
-    for n in 0..20_000 {
+    for n in 0..10_000 {
         let k = 1 + r.below(10);
         let mu = r.unit(false).abs() * 2.0;
         let c = case(&mut r, k, |_| if n % 4 == 0 { Grip::Smooth } else { Grip::Resting { fixed: mu, kinetic: mu } });
@@ -77,7 +77,7 @@ fn units_do_not_matter() {
 fn static_friction_has_precedence() {
     let mut r = Random(4);
     let mut slips = 0;
-    for _ in 0..10_000 {
+    for _ in 0..3_000 {
         let k = 1 + r.below(3);
         let c = case(&mut r, k, |r| {
             let fixed = 1.0 + r.unit(false);
@@ -95,7 +95,7 @@ fn static_friction_has_precedence() {
             assert!(slides(&a) == slides(&b) || slides(&b));
         }
     }
-    assert!(slips > 1_000);
+    assert!(slips > 300);
 }
 
 /// Groups without influence on each other are decided each on its own scale.
