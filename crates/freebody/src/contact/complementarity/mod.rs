@@ -69,6 +69,17 @@ pub enum Grip {
     },
 }
 
+impl Grip {
+    /// Whether its numbers are what they should be.
+    fn is_sound(&self) -> bool {
+        match *self {
+            Grip::Smooth | Grip::Rough => true,
+            Grip::Sliding { sense, kinetic } => sense.abs() == 1.0 && (0.0..f64::INFINITY).contains(&kinetic),
+            Grip::Resting { fixed, kinetic } => fixed.is_finite() && (0.0..=fixed).contains(&kinetic),
+        }
+    }
+}
+
 /// What a touch does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Status {
@@ -108,7 +119,8 @@ pub enum Verdict {
     Indeterminate(Vec<Answer>),
     /// No forces satisfy the conditions.
     Inconsistent,
-    /// Pivoting found nothing and there are too many touches to try all modes; or a number is not finite.
+    /// Pivoting found nothing and there are too many touches to try all modes; or a number is not what it
+    /// should be: not finite, a negative coefficient, a static one below the kinetic.
     Unknown,
 }
 
@@ -125,7 +137,8 @@ pub fn solve(problem: &Problem) -> Verdict {
 fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict {
     let k = grips.len();
     assert_eq!((g.rows(), g.cols(), free.len()), (2 * k, 2 * k, 2 * k), "a normal and a tangential row for each touch");
-    if !g.data().iter().chain(free).chain(pressed).all(|v| v.is_finite()) {
+    let finite = g.data().iter().chain(free).chain(pressed).all(|v| v.is_finite());
+    if !finite || !grips.iter().all(Grip::is_sound) {
         return Verdict::Unknown;
     }
     let nothing = Answer {

@@ -14,8 +14,8 @@ const TOLERANCES: [f64; 3] = [4e-14, 1e-12, 1e-10];
 /// Accelerations that differ by less are the same.
 const SAME: f64 = 1e-9;
 
-/// Round-off can close the gap of an acceleration in which touches that oppose each other all move freely, so
-/// pivoting is tried again with the touches moved apart by this.
+/// Where touches oppose each other, round-off can leave no motion that opens or closes all; so pivoting is
+/// tried again with touches moved apart by this, and what it proposes is judged without.
 const APART: [f64; 2] = [0.0, 1e-9];
 
 /// Vertices tried of forces that their equations do not determine: all, for six touches.
