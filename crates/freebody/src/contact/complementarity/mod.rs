@@ -119,8 +119,9 @@ pub enum Verdict {
     Indeterminate(Vec<Answer>),
     /// No forces satisfy the conditions.
     Inconsistent,
-    /// Pivoting found nothing and there are too many touches to try all modes; or a number is not what it
-    /// should be: not finite, a negative coefficient, a static one below the kinetic.
+    /// Pivoting found nothing and there are too many touches to try all modes; or masses differ so much that the
+    /// rank of G is in doubt; or a number is not what it should be: not finite, a negative coefficient, a
+    /// static one below the kinetic.
     Unknown,
 }
 
@@ -152,8 +153,8 @@ fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict
         let task = Task::new(g, free, grips, pressed, &group);
         match search::decide(&task) {
             search::Outcome::Found(found) => answers = combine(answers, &task, &found),
-            search::Outcome::Nothing => return Verdict::Inconsistent,
-            search::Outcome::Unknown => unknown = true,
+            search::Outcome::Nothing if !task.rank_is_doubtful() => return Verdict::Inconsistent,
+            search::Outcome::Nothing | search::Outcome::Unknown => unknown = true,
         }
     }
     match answers.len() {

@@ -43,8 +43,11 @@ pub(super) fn decide(task: &Task) -> Outcome {
         return first;
     }
     let mut all = Vec::new();
-    if let Outcome::Found(found) = first {
-        found.into_iter().for_each(|f| slide(task, f, &mut all));
+    match first {
+        Outcome::Found(found) => found.into_iter().for_each(|f| slide(task, f, &mut all)),
+        // Proved without regard to friction.
+        Outcome::Nothing if task.len() > ENUMERABLE => return Outcome::Nothing,
+        Outcome::Nothing | Outcome::Unknown => {}
     }
     match all.len() {
         0 if task.len() <= ENUMERABLE => most_at_rest(task),
