@@ -42,10 +42,12 @@ enum Variable {
     Speed(usize),
 }
 
-/// Follows Lemke's path.
-pub(super) fn propose(task: &Task) -> Proposal {
+/// Follows Lemke's path, with `apart` added to the free normal accelerations.
+pub(super) fn propose(task: &Task, apart: f64) -> Proposal {
     let variables = variables(task);
-    let (m, q) = assemble(task, &variables);
+    let (m, mut q) = assemble(task, &variables);
+    let normals = q.iter_mut().zip(&variables).filter(|(_, v)| matches!(v, Variable::Normal(_)));
+    normals.for_each(|(q, _)| *q += apart);
     match lemke(&m, &q) {
         End::Solution { basic, slack } => Proposal::Modes(modes(task, &variables, &basic, &slack)),
         End::Ray(z) if self_stressed(task, &variables, &z) => Proposal::Impossible,

@@ -61,9 +61,9 @@ pub enum NoImpact {
     Impossible,
     /// Several do, with these velocities after.
     Ambiguous(Vec<Impulses>),
-    /// None were found among too many touches to try everything; or a number is not finite.
+    /// None were found, without proof that there are none; or a number is not what it should be.
     Unknown,
-    /// One touch hits after the other without coming to rest.
+    /// One touch hits after the other without coming to rest, or ever faster.
     Endless,
 }
 
@@ -85,6 +85,9 @@ type Impulse = Vec<f64>;
 
 /// The impulses by one law. Those that create energy are flagged; see [`settle`](super::settle).
 pub fn strike(s: &Strike, law: Law) -> Result<Impulses, NoImpact> {
+    if !s.is_sound() {
+        return Err(NoImpact::Unknown);
+    }
     let p = match law {
         Law::Newton => newton(s),
         Law::Poisson => poisson(s),
@@ -96,6 +99,13 @@ pub fn strike(s: &Strike, law: Law) -> Result<Impulses, NoImpact> {
 impl Strike<'_> {
     fn len(&self) -> usize {
         self.friction.len()
+    }
+
+    /// Whether its numbers are what they should be.
+    fn is_sound(&self) -> bool {
+        self.g.data().iter().chain(self.before).all(|v| v.is_finite())
+            && self.restitution.iter().all(|e| (0.0..=1.0).contains(e))
+            && self.friction.iter().all(|mu| *mu >= 0.0)
     }
 
     /// What the impulses do.
@@ -168,6 +178,9 @@ fn sequential(s: &Strike) -> Result<Impulse, NoImpact> {
         for (row, p) in rows.into_iter().zip(newton(&one)?) {
             total[row] += p;
             (0..2 * k).for_each(|i| velocity[i] += s.g[(i, row)] * p);
+        }
+        if velocity.iter().any(|v| !v.is_finite()) {
+            break;
         }
     }
     Err(NoImpact::Endless)

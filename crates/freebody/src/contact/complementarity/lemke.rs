@@ -4,8 +4,11 @@ use crate::solve::Matrix;
 
 /// An entry of the tableau below this is round-off and no pivot.
 const PIVOT: f64 = 1e-10;
+/// A ray that starts this near to a solution has missed it by round-off: redundant touches can often be
+/// closed all together only.
+const RESIDUE: f64 = 1e-10;
 /// Ratios that differ by less, relative to their size, tie.
-const TIE: f64 = 1e-12;
+const TIE: f64 = 3e-14;
 
 /// Where the path of complementary bases ends.
 #[derive(Clone, Debug)]
@@ -49,6 +52,7 @@ pub(super) fn lemke(m: &Matrix, q: &[f64]) -> End {
         enter = if leave < n { leave + n } else { leave - n };
         match t.ratio_test(enter) {
             Some(r) => row = r,
+            None if t.artificial() <= RESIDUE => return t.solution(),
             None => return End::Ray(t.ray(enter)),
         }
     }
@@ -74,6 +78,11 @@ impl Tableau {
 
     fn right(&self, i: usize) -> f64 {
         self.rows[(i, 2 * self.n + 1)]
+    }
+
+    /// z₀, by which w = M z + q is still missed.
+    fn artificial(&self) -> f64 {
+        self.basis.iter().position(|&v| v == 2 * self.n).map_or(0.0, |i| self.right(i))
     }
 
     /// The variable `enter` takes the place of the one of `row`, which is returned.
@@ -120,7 +129,8 @@ impl Tableau {
         let (mut basic, mut slack) = (vec![false; self.n], vec![0.0; self.n]);
         for (i, &v) in self.basis.iter().enumerate() {
             match v.checked_sub(self.n) {
-                Some(z) => basic[z] = true,
+                Some(z) if z < self.n => basic[z] = true,
+                Some(_) => {}
                 None => slack[v] = self.right(i),
             }
         }

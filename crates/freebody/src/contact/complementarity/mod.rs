@@ -69,6 +69,17 @@ pub enum Grip {
     },
 }
 
+impl Grip {
+    /// Whether its numbers are what they should be.
+    fn is_sound(&self) -> bool {
+        match *self {
+            Grip::Smooth | Grip::Rough => true,
+            Grip::Sliding { sense, kinetic } => sense.abs() == 1.0 && (0.0..f64::INFINITY).contains(&kinetic),
+            Grip::Resting { fixed, kinetic } => fixed.is_finite() && (0.0..=fixed).contains(&kinetic),
+        }
+    }
+}
+
 /// What a touch does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Status {
@@ -108,7 +119,9 @@ pub enum Verdict {
     Indeterminate(Vec<Answer>),
     /// No forces satisfy the conditions.
     Inconsistent,
-    /// Pivoting found nothing and there are too many touches to try all modes; or a number is not finite.
+    /// Pivoting found nothing and there are too many touches to try all modes; or masses differ so much that the
+    /// rank of G is in doubt; or a number is not what it should be: not finite, a negative coefficient, a
+    /// static one below the kinetic.
     Unknown,
 }
 
@@ -125,7 +138,8 @@ pub fn solve(problem: &Problem) -> Verdict {
 fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict {
     let k = grips.len();
     assert_eq!((g.rows(), g.cols(), free.len()), (2 * k, 2 * k, 2 * k), "a normal and a tangential row for each touch");
-    if !g.data().iter().chain(free).chain(pressed).all(|v| v.is_finite()) {
+    let finite = g.data().iter().chain(free).chain(pressed).all(|v| v.is_finite());
+    if !finite || !grips.iter().all(Grip::is_sound) {
         return Verdict::Unknown;
     }
     let nothing = Answer {
@@ -139,8 +153,8 @@ fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict
         let task = Task::new(g, free, grips, pressed, &group);
         match search::decide(&task) {
             search::Outcome::Found(found) => answers = combine(answers, &task, &found),
-            search::Outcome::Nothing => return Verdict::Inconsistent,
-            search::Outcome::Unknown => unknown = true,
+            search::Outcome::Nothing if !task.rank_is_doubtful() => return Verdict::Inconsistent,
+            search::Outcome::Nothing | search::Outcome::Unknown => unknown = true,
         }
     }
     match answers.len() {

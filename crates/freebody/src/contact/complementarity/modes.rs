@@ -66,7 +66,7 @@ impl Column {
 }
 
 /// Solves the equations of `modes` and checks every condition to `tolerance`, relative to the terms that
-/// make up an acceleration and to the largest force.
+/// make up an acceleration, the largest free acceleration, and the largest force.
 pub(super) fn evaluate(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
     let force = forces(task, modes)?;
     Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
@@ -153,15 +153,15 @@ struct Check<'a> {
 impl<'a> Check<'a> {
     fn new(task: &'a Task, modes: &'a [Mode], force: &'a [f64], tolerance: f64) -> Check<'a> {
         let rows = 0..force.len();
-        let terms =
-            |r: usize| task.free[r].abs() + task.g.row(r).iter().zip(force).map(|(g, l)| (g * l).abs()).sum::<f64>();
+        // Free accelerations are of order one, and as uncertain as the largest.
+        let terms = |r: usize| 1.0 + task.g.row(r).iter().zip(force).map(|(g, l)| (g * l).abs()).sum::<f64>();
         Check {
             task,
             modes,
             force,
             acceleration: rows.clone().map(|r| accelerated(task, r, force)).collect(),
             noise: rows.map(|r| tolerance * terms(r)).collect(),
-            nothing: tolerance * force.iter().fold(0.0_f64, |m, f| m.max(f.abs())),
+            nothing: tolerance * force.iter().fold(1.0_f64, |m, f| m.max(f.abs())),
         }
     }
 
@@ -211,7 +211,7 @@ impl<'a> Check<'a> {
         match self.modes[i].tangent {
             Tangent::Free => Some(Status::Closed),
             Tangent::Slip(s) => match hold {
-                Hold::Grip(Grip::Resting { .. }) if still => Some(Status::Stick),
+                Hold::Grip(Grip::Resting { .. }) | Hold::Starting(..) if still => Some(Status::Stick),
                 Hold::Grip(Grip::Resting { .. }) | Hold::Starting(..) if s * a < -noise => None,
                 _ => Some(Status::Slip(s)),
             },

@@ -1,7 +1,7 @@
 //! The decision on a task: pivoting, enumeration, and the order of static before kinetic friction.
 
 use super::form::{propose, Proposal};
-use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal};
+use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal, Tangent};
 use super::task::{Hold, Task};
 use super::{Grip, Status};
 
@@ -9,10 +9,17 @@ use super::{Grip, Status};
 const ALWAYS: usize = 3;
 /// Up to this many all modes are tried when pivoting fails.
 const ENUMERABLE: usize = 6;
-/// Conditions hold to round-off of the solver; only if nothing does, to that of the data.
-const TOLERANCES: [f64; 2] = [2e-13, 1e-10];
+/// Conditions hold to round-off of the solver; only if no modes do, to that of ever worse data.
+const TOLERANCES: [f64; 3] = [4e-14, 1e-12, 1e-10];
 /// Accelerations that differ by less are the same.
 const SAME: f64 = 1e-9;
+
+/// Where touches oppose each other, round-off can leave no motion that opens or closes all; so pivoting is
+/// tried again with touches moved apart by this, and what it proposes is judged without.
+const APART: [f64; 2] = [0.0, 1e-9];
+
+/// Vertices tried of forces that their equations do not determine: all, for six touches.
+const TRIES: usize = 4_096;
 
 /// What there is to find.
 #[derive(Clone, Debug)]
@@ -36,8 +43,11 @@ pub(super) fn decide(task: &Task) -> Outcome {
         return first;
     }
     let mut all = Vec::new();
-    if let Outcome::Found(found) = first {
-        found.into_iter().for_each(|f| slide(task, f, &mut all));
+    match first {
+        Outcome::Found(found) => found.into_iter().for_each(|f| slide(task, f, &mut all)),
+        // Proved without regard to friction.
+        Outcome::Nothing if task.len() > ENUMERABLE => return Outcome::Nothing,
+        Outcome::Nothing | Outcome::Unknown => {}
     }
     match all.len() {
         0 if task.len() <= ENUMERABLE => most_at_rest(task),
@@ -67,48 +77,63 @@ fn slide(task: &Task, found: Found, all: &mut Vec<Found>) {
 /// Of all findings with static friction at rest and kinetic in motion, those with most touches at rest.
 fn most_at_rest(task: &Task) -> Outcome {
     let at_rest = |f: &Found| f.status.iter().filter(|s| **s == Status::Stick).count();
-    let mut all = enumerate(task, Vec::new());
+    let all = TOLERANCES.iter().map(|t| enumerate(task, Vec::new(), *t)).find(|all| !all.is_empty());
+    let Some(mut all) = all else { return Outcome::Nothing };
     let most = all.iter().map(at_rest).max();
     all.retain(|f| Some(at_rest(f)) == most);
-    if all.is_empty() {
-        Outcome::Nothing
-    } else {
-        Outcome::Found(all)
-    }
+    Outcome::Found(all)
 }
 
 /// Decides a task in which static and kinetic friction are the same.
 fn bounded(task: &Task) -> Outcome {
-    let proposal = propose(task);
-    let pivoted = match &proposal {
-        Proposal::Modes(modes) => TOLERANCES.iter().find_map(|t| vertex(task, modes, *t)),
-        Proposal::Impossible | Proposal::None => None,
-    };
-    let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
-    let n = task.len();
-    match pivoted {
-        Some(found) if unique || n > ALWAYS => Outcome::Found(vec![found]),
-        None if matches!(proposal, Proposal::Impossible) => Outcome::Nothing,
-        None if n > ENUMERABLE => Outcome::Unknown,
-        _ => match enumerate(task, pivoted.into_iter().collect()) {
-            all if all.is_empty() => Outcome::Nothing,
-            all => Outcome::Found(all),
-        },
-    }
-}
-
-/// What all modes add to the findings.
-fn enumerate(task: &Task, mut all: Vec<Found>) -> Vec<Found> {
-    let lists: Vec<Vec<Mode>> = (0..task.len()).map(|i| admissible(task.holds[i], task.pressed[i])).collect();
+    let mut outcome = Outcome::Unknown;
     for tolerance in TOLERANCES {
-        choices(&lists, |modes| {
-            vertex(task, modes, tolerance).into_iter().for_each(|found| add(&mut all, found));
-            false
-        });
-        if !all.is_empty() {
+        outcome = within(task, tolerance);
+        if matches!(outcome, Outcome::Found(_)) {
             break;
         }
     }
+    outcome
+}
+
+/// Decides it with conditions that hold to a tolerance.
+fn within(task: &Task, tolerance: f64) -> Outcome {
+    let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
+    let n = task.len();
+    match pivot(task, tolerance) {
+        Outcome::Found(found) if unique || n > ALWAYS => Outcome::Found(found),
+        Outcome::Found(found) => Outcome::Found(enumerate(task, found, tolerance)),
+        Outcome::Unknown if n <= ENUMERABLE => match enumerate(task, Vec::new(), tolerance) {
+            all if all.is_empty() => Outcome::Nothing,
+            all => Outcome::Found(all),
+        },
+        outcome => outcome,
+    }
+}
+
+/// What pivoting alone finds.
+pub(super) fn pivot(task: &Task, tolerance: f64) -> Outcome {
+    for apart in APART {
+        match propose(task, apart) {
+            Proposal::Modes(modes) => {
+                if let Some(found) = vertex(task, &modes, tolerance) {
+                    return Outcome::Found(vec![found]);
+                }
+            }
+            Proposal::Impossible => return Outcome::Nothing,
+            Proposal::None => {}
+        }
+    }
+    Outcome::Unknown
+}
+
+/// What all modes add to the findings.
+pub(super) fn enumerate(task: &Task, mut all: Vec<Found>, tolerance: f64) -> Vec<Found> {
+    let lists: Vec<Vec<Mode>> = (0..task.len()).map(|i| admissible(task.holds[i], task.pressed[i])).collect();
+    choices(&lists, |modes| {
+        vertex(task, modes, tolerance).into_iter().for_each(|found| add(&mut all, found));
+        false
+    });
     all
 }
 
@@ -117,12 +142,28 @@ fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(task, modes, tolerance);
     if matches!(result, Err(Refusal::Singular)) {
         let lists: Vec<Vec<Mode>> = modes.iter().zip(&task.holds).map(|(m, h)| vertices(*h, *m)).collect();
+        let mut tries = 0;
         choices(&lists, |modes| {
+            tries += 1;
             result = evaluate(task, modes, tolerance);
-            result.is_ok()
+            result.is_ok() || tries == TRIES
         });
     }
-    result.ok()
+    let found = result.ok()?;
+    // On the edge of its cone but held by others, a touch may not need a tangential force at all.
+    match held(task, modes, &found) {
+        Some(modes) => vertex(task, &modes, tolerance).or(Some(found)),
+        None => Some(found),
+    }
+}
+
+/// The modes with the touches stuck that were to slip and do not, if there are such.
+fn held(task: &Task, modes: &[Mode], found: &Found) -> Option<Vec<Mode>> {
+    let resting = |i: usize| matches!(task.holds[i], Hold::Grip(Grip::Resting { .. }));
+    let still =
+        |i: usize| matches!(modes[i].tangent, Tangent::Slip(_)) && found.status[i] == Status::Stick && resting(i);
+    let stick = |i: usize| if still(i) { Mode { tangent: Tangent::Stick, ..modes[i] } } else { modes[i] };
+    (0..modes.len()).any(still).then(|| (0..modes.len()).map(stick).collect())
 }
 
 /// Adds a finding whose accelerations are new.

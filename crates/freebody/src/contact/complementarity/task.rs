@@ -2,10 +2,12 @@
 
 use super::modes::Found;
 use super::{Answer, Grip};
-use crate::solve::Matrix;
+use crate::solve::{Matrix, Orthogonal};
 
 /// A diagonal entry of G below this fraction of the largest is round-off: nothing moves there.
 const IMMOVABLE: f64 = 1e-14;
+/// A direction of G' that counts as dependent, but is larger than this, may be real.
+const DOUBTFUL: f64 = 1e-13;
 
 /// How a touch of a task resists sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +53,11 @@ impl Task {
             force_units: scales.iter().map(|d| d * unit).collect(),
             acceleration_units: scales.iter().map(|d| unit / d).collect(),
         }
+    }
+
+    /// Whether G may have more independent rows than the solvers see, as when masses differ by ten orders.
+    pub fn rank_is_doubtful(&self) -> bool {
+        Orthogonal::factor(&self.g).rank().dropped > DOUBTFUL
     }
 
     /// The number of touches.

@@ -1,0 +1,139 @@
+//! Impacts with answers on paper, and what no impact may do.
+
+use super::*;
+
+/// Touches between balls in a row, smooth: gaps open with v₂ − v₁, …; the tangential rows do not move.
+fn row_of_balls(masses: &[f64], velocities: &[f64]) -> (Matrix, Matrix, Vec<f64>) {
+    let k = masses.len() - 1;
+    let w = Matrix::from_fn(2 * k, k + 1, |i, j| if i >= k { 0.0 } else { f64::from(j == i + 1) - f64::from(j == i) });
+    let g = delassus(&w, &masses.iter().map(|m| 1.0 / m).collect::<Vec<_>>());
+    let before = w.mul_vec(velocities);
+    (w, g, before)
+}
+
+/// The velocities of the balls after.
+fn after(w: &Matrix, masses: &[f64], velocities: &[f64], p: &Impulses) -> Vec<f64> {
+    let mut push = vec![0.0; masses.len()];
+    w.add_t_mul_vec(&[&p.normal[..], &p.tangent[..]].concat(), &mut push);
+    (0..masses.len()).map(|i| velocities[i] + push[i] / masses[i]).collect()
+}
+
+#[test]
+fn cradle() {
+    let (masses, velocities) = ([1.0; 3], [1.0, 0.0, 0.0]);
+    let (w, g, before) = row_of_balls(&masses, &velocities);
+    let s = Strike { g: &g, before: &before, restitution: &[1.0; 2], friction: &[0.0; 2] };
+    let together = [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    for (law, expected) in [(Law::Newton, together), (Law::Poisson, together), (Law::Sequential, [0.0, 0.0, 1.0])] {
+        let p = strike(&s, law).unwrap();
+        assert!(agree(&after(&w, &masses, &velocities, &p), &expected, 1e-15));
+        assert!(p.work.abs() < 1e-15 && !p.gains);
+    }
+    let all = undecided(&s).unwrap();
+    assert_eq!(all.iter().map(|(law, _)| *law).collect::<Vec<_>>(), [Law::Newton, Law::Poisson, Law::Sequential]);
+    assert_eq!(undecided(&Strike { restitution: &[0.0; 2], ..s }), None);
+    let (_, g, before) = row_of_balls(&[1.0; 2], &[1.0, 0.0]);
+    assert_eq!(undecided(&Strike { g: &g, before: &before, restitution: &[1.0], friction: &[0.0] }), None);
+}
+
+/// Plastic carts go on together with the velocity of their mass centre; elastic ones exchange momentum.
+#[test]
+fn carts() {
+    let (masses, velocities) = ([2.0, 3.0, 1.0, 0.5], [4.0, 1.0, 0.0, -2.0]);
+    let (w, g, before) = row_of_balls(&masses, &velocities);
+    let s = Strike { g: &g, before: &before, restitution: &[0.0; 3], friction: &[0.0; 3] };
+    let momentum: f64 = masses.iter().zip(velocities).map(|(m, v)| m * v).sum();
+    let common = momentum / masses.iter().sum::<f64>();
+    for law in [Law::Newton, Law::Poisson] {
+        let p = strike(&s, law).unwrap();
+        assert!(agree(&after(&w, &masses, &velocities, &p), &[common; 4], 1e-15));
+        assert!(p.after.iter().all(|v| *v == 0.0));
+    }
+    let e = 0.6;
+    let (w, g, before) = row_of_balls(&masses[..2], &velocities[..2]);
+    let s = Strike { g: &g, before: &before, restitution: &[e], friction: &[0.0] };
+    for law in [Law::Newton, Law::Poisson, Law::Sequential] {
+        let p = strike(&s, law).unwrap();
+        let mean = 11.0 / 5.0;
+        let expected = [mean - 3.0 * e * 3.0 / 5.0, mean + 3.0 * e * 2.0 / 5.0];
+        assert!(agree(&after(&w, &masses[..2], &velocities[..2], &p), &expected, 1e-15));
+        assert!((p.work + 0.5 * 1.2 * 9.0 * (1.0 - e * e)).abs() < 1e-14);
+    }
+}
+
+/// A disc that lands without spin slides on if vT/|vN| > 3 μ (1 + e); otherwise it rolls.
+#[test]
+fn landing_disc() {
+    let w = rows(&[touch(0.0, -1.0, std::f64::consts::FRAC_PI_2)]);
+    let g = delassus(&w, &[1.0, 1.0, 2.0]);
+    let (mu, e) = (0.2, 0.7);
+    for (slip, slides) in [(3.0 * mu * (1.0 + e) + 1e-9, true), (3.0 * mu * (1.0 + e) - 1e-9, false)] {
+        let s = Strike { g: &g, before: &[-1.0, slip], restitution: &[e], friction: &[mu] };
+        for law in [Law::Newton, Law::Poisson, Law::Sequential] {
+            let p = strike(&s, law).unwrap();
+            assert!((p.after[0] - e).abs() < 1e-15 && (p.normal[0] - 1.0 - e).abs() < 1e-15);
+            assert_eq!(p.after[1] > 0.0, slides);
+            assert!(p.tangent[0].abs() <= mu * p.normal[0] * (1.0 + 1e-15) && !p.gains);
+        }
+    }
+}
+
+/// Newton's law with friction creates energy: an elastic rod at 45° that sticks. With H = G⁻¹ the
+/// work is −½ vT (2 HNT vN + HTT vT) (after Kane 1984). Poisson's law returns the normal impulse of compression,
+/// which moves the end of the rod by 1/HNN.
+#[test]
+fn newton_with_friction_creates_energy() {
+    let w = rows(&[touch(0.5_f64.sqrt(), -(0.5_f64.sqrt()), std::f64::consts::FRAC_PI_2)]);
+    let g = delassus(&w, &[1.0, 1.0, 3.0]);
+    let det = g[(0, 0)] * g[(1, 1)] - g[(0, 1)] * g[(0, 1)];
+    let (vn, vt) = (-1.0, -0.2);
+    let expected = -0.5 * vt * (-2.0 * g[(0, 1)] * vn + g[(0, 0)] * vt) / det;
+    for friction in [f64::INFINITY, 5.0] {
+        let s = Strike { g: &g, before: &[vn, vt], restitution: &[1.0], friction: &[friction] };
+        let p = strike(&s, Law::Newton).unwrap();
+        assert!(expected > 0.0 && p.gains && (p.work - expected).abs() < 1e-14, "{p:?} {expected}");
+        let settled = settle(&s, Law::Newton).unwrap();
+        assert!(settled.law == Law::Poisson && !settled.plastic && settled.impulses.work <= 0.0, "{settled:?}");
+        assert_eq!(settled.notes.len(), 1);
+        let compression = -(g[(1, 1)] * vn - g[(0, 1)] * vt) / det;
+        assert!(agree(&settled.impulses.after, &[det / g[(1, 1)] * compression, 0.0], 1e-14), "{settled:?}");
+    }
+}
+
+/// What is settled creates no energy, leaves no touch approaching, and pushes within the friction cones;
+/// without restitution a law never needs to be replaced.
+#[test]
+fn settled_impacts() {
+    let (mut r, cases, mut replaced, mut ambiguous) = (Random(21), 4_000, 0, 0);
+    for n in 0..cases {
+        let k = 1 + r.below(3);
+        let c = case(&mut r, k, any_grip);
+        if !c.consistent {
+            continue;
+        }
+        let e: Vec<f64> = (0..k).map(|_| r.unit(true).abs()).collect();
+        let mu: Vec<f64> = (0..k).map(|_| 1.0 + r.unit(true)).collect();
+        let s = Strike { g: &c.g, before: &c.free, restitution: &e, friction: &mu };
+        let law = [Law::Newton, Law::Poisson, Law::Sequential][r.below(3)];
+        let settled = match settle(&s, law) {
+            Ok(settled) => settled,
+            Err(NoImpact::Ambiguous(all)) => {
+                ambiguous += 1;
+                assert!(all.len() > 1);
+                continue;
+            }
+            Err(trouble) => panic!("case {n}: {trouble}: {s:?}"),
+        };
+        replaced += usize::from(!settled.notes.is_empty());
+        let p = &settled.impulses;
+        assert!(!p.gains && p.work <= 1e-9, "case {n}: {s:?} {settled:?}");
+        for (i, mu) in mu.iter().enumerate() {
+            assert!(p.after[i] >= -1e-9 && p.normal[i] >= 0.0, "case {n}: {s:?} {settled:?}");
+            assert!(p.tangent[i].abs() <= mu * p.normal[i] + 1e-9, "case {n}: {s:?} {settled:?}");
+        }
+        let none = vec![0.0; k];
+        let plastic = strike(&Strike { restitution: &none, ..s }, Law::Newton);
+        assert!(plastic.is_err() || plastic.is_ok_and(|p| !p.gains));
+    }
+    assert!(replaced > 10 && ambiguous < cases / 10, "{replaced} {ambiguous}");
+}
