@@ -11,6 +11,7 @@ mod random;
 mod random_mechanisms;
 mod redundancy;
 mod rng;
+mod scenes;
 mod thrown;
 mod touches;
 mod tree_choice;
