@@ -12,6 +12,7 @@ mod random;
 mod random_mechanisms;
 mod redundancy;
 mod rng;
+mod scenes;
 mod strung;
 mod thrown;
 mod touches;

@@ -1,6 +1,6 @@
 //! Straight sides with convex corners.
 
-use super::{heading, Disk, Face};
+use super::{turn, Disk, Face};
 use crate::contact::Border;
 use crate::gauges::Poses;
 use crate::mechanism::Mechanism;
@@ -71,7 +71,11 @@ impl Chain {
     fn seen<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, side: usize) -> Seen<T> {
         let [from, to] = [side, side + 1].map(|i| self.corner(i));
         let length = (poses.arm(to) - poses.arm(from)).norm().value();
-        Seen { to: poses.span(from, disk.centre, m), along: heading(m, poses, from, to), length }
+        Seen {
+            to: poses.span(from, disk.centre, m),
+            along: turn(m, poses, m.body_of(from)).apply(way(poses, from, to)),
+            length,
+        }
     }
 
     pub(super) fn face<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, piece: usize) -> Face<T> {
@@ -92,33 +96,34 @@ impl Chain {
     /// What bounds an open chain for points at its start or at its end.
     fn back<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, start: bool) -> Face<T> {
         let [first, last] = [self.corners[0], self.corner(self.sides())];
-        let flat = |from: usize, along: Vec2<T>| Face::Flat { to: poses.span(from, disk.centre, m), along };
+        let axes = turn(m, poses, m.body_of(first));
         let bound = |start: bool| {
-            let along = self.bound(m, poses, start);
             let to = poses.span(if start { first } else { last }, disk.centre, m);
+            let along = axes.apply(self.bound(poses, start));
             Face::Flat { to: to - along.perp() * self.inset(poses, start), along }
         };
-        if !self.bends_past(m, poses, start) {
+        if !self.bends_past(poses, start) {
             return bound(start);
         }
         // Where a side follows, only what lies behind both its line and the line home is outside.
-        let followed = |&start: &bool| self.beyond[usize::from(!start)].is_some() && self.bends_past(m, poses, start);
+        let followed = |&start: &bool| self.beyond[usize::from(!start)].is_some() && self.bends_past(poses, start);
         let nearer = |a: Face<T>, b: Face<T>| match b.gap(T::zero()).value() < a.gap(T::zero()).value() {
             true => b,
             false => a,
         };
-        let home = flat(last, heading(m, poses, last, first));
+        let home = Face::Flat { to: poses.span(last, disk.centre, m), along: axes.apply(way(poses, last, first)) };
         [true, false].into_iter().filter(followed).map(bound).fold(home, nearer)
     }
 
-    /// Direction of the bound at the start or at the end: along the side that follows, or straight back.
-    fn bound<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, start: bool) -> Vec2<T> {
+    /// Direction, in the body's axes, of the bound at the start or at the end: along the side that follows, or straight
+    /// back.
+    fn bound<T: Scalar>(&self, poses: &impl Poses<T>, start: bool) -> Vec2<T> {
         let n = self.sides();
         match (self.beyond, start) {
-            ([Some(before), _], true) => heading(m, poses, self.corner(0), before),
-            ([None, _], true) => heading(m, poses, self.corner(0), self.corner(1)).perp(),
-            ([_, Some(after)], false) => heading(m, poses, after, self.corner(n)),
-            ([_, None], false) => -heading(m, poses, self.corner(n - 1), self.corner(n)).perp(),
+            ([Some(before), _], true) => way(poses, self.corner(0), before),
+            ([None, _], true) => way(poses, self.corner(0), self.corner(1)).perp(),
+            ([_, Some(after)], false) => way(poses, after, self.corner(n)),
+            ([_, None], false) => -way(poses, self.corner(n - 1), self.corner(n)).perp(),
         }
     }
 
@@ -126,27 +131,26 @@ impl Chain {
     /// within its pieces, m.
     fn inset<T: Scalar>(&self, poses: &impl Poses<T>, start: bool) -> T {
         let n = self.sides();
-        let [corner, next, i] = if start { [0, 0, 0] } else { [n, 1, n - 1] };
-        let way = |from: usize, to: usize| poses.arm(to) - poses.arm(from);
-        let side = way(self.corner(i), self.corner(i + 1));
-        let height = |beyond: usize| side.cross(way(self.corner(corner), beyond)) * (T::one() / side.norm());
+        let [corner, next, side] = if start { [0, 0, 0] } else { [n, 1, n - 1] };
+        let along = way(poses, self.corner(side), self.corner(side + 1));
+        let height = |beyond: usize| along.cross(poses.arm(beyond) - poses.arm(self.corner(corner)));
         self.beyond[next].map_or(T::zero(), |beyond| height(beyond).scale(INSET))
     }
 
-    /// Whether that bound would leave the other end outside.
-    fn bends_past<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, start: bool) -> bool {
-        let ends = [self.corner(self.sides()), self.corner(0)];
-        let [from, to] = if start { [ends[1], ends[0]] } else { ends };
-        self.bound(m, poses, start).cross(heading(m, poses, from, to)).value() > 0.0
+    /// Whether that bound would leave the other end outside; the same wherever the body is.
+    fn bends_past<T: Scalar>(&self, poses: &impl Poses<T>, start: bool) -> bool {
+        let [first, last] = [self.corner(0), self.corner(self.sides())];
+        let across = if start { way(poses, first, last) } else { way(poses, last, first) };
+        self.bound(poses, start).cross(across).value() > 0.0
     }
 
     /// The pieces for points, in order round the solid.
-    fn round(&self, m: &Mechanism, poses: &impl Poses<f64>) -> Vec<usize> {
+    fn round(&self, poses: &impl Poses<f64>) -> Vec<usize> {
         let sides = (0..self.sides()).map(|i| 2 * i);
         match self.closed {
             true => sides.collect(),
             // The line home bounds both ends, and is one piece.
-            false if [true, false].iter().all(|&start| self.bends_past(m, poses, start)) => {
+            false if [true, false].iter().all(|&start| self.bends_past(poses, start)) => {
                 sides.chain([2 * self.sides()]).collect()
             }
             false => sides.chain([2 * self.sides() - 1, 2 * self.sides()]).collect(),
@@ -156,7 +160,7 @@ impl Chain {
     pub(super) fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> Vec<Border> {
         let all = 2 * self.sides();
         if disk.radius.is_none() {
-            let round = self.round(m, poses);
+            let round = self.round(poses);
             let at = round.iter().position(|&p| p == piece).unwrap_or(0);
             let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
             let border = |beyond| Border { value: height(piece) - height(beyond), beyond };
@@ -180,7 +184,7 @@ impl Chain {
     pub(super) fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> usize {
         let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
         if disk.radius.is_none() {
-            return nearest(self.round(m, poses).into_iter().map(|piece| (piece, -height(piece))));
+            return nearest(self.round(poses).into_iter().map(|piece| (piece, -height(piece))));
         }
         let seen: Vec<Seen<f64>> = (0..self.sides()).map(|i| self.seen(m, poses, disk, i)).collect();
         let (first, last) = (&seen[0], &seen[seen.len() - 1]);
@@ -195,6 +199,12 @@ impl Chain {
         let corners = sides().map(|(piece, _)| piece + 1).chain(start);
         nearest(over.chain(corners.map(|piece| (piece, height(piece)))))
     }
+}
+
+/// Direction, in their body's axes, from one site to another of the same body.
+fn way<T: Scalar>(poses: &impl Poses<T>, from: usize, to: usize) -> Vec2<T> {
+    let way = poses.arm(to) - poses.arm(from);
+    way * (T::one() / way.norm())
 }
 
 /// The piece of least distance, the first of equals.

@@ -11,7 +11,7 @@ pub use chain::Chain;
 use super::{Border, Contact};
 use crate::gauges::Poses;
 use crate::mechanism::{Marker, Mechanism, Slot};
-use crate::plane::{vec2, Turn, Vec2};
+use crate::plane::{vec2, Turn};
 use crate::scalar::Scalar;
 use face::Face;
 
@@ -153,10 +153,4 @@ fn turn<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, body: usize) -> Turn<T>
         true => Turn::none(),
         false => poses.pose(body).turn,
     }
-}
-
-/// The direction, in fixed axes, from one site of a body to another.
-fn heading<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, from: usize, to: usize) -> Vec2<T> {
-    let way = poses.arm(to) - poses.arm(from);
-    turn(m, poses, m.body_of(from)).apply(way * (T::one() / way.norm()))
 }
