@@ -40,7 +40,8 @@ pub struct Problem<'a> {
     /// contact forces (columns), all other constraints eliminated. Row i < k is the normal of touch i,
     /// positive when it parts; row k + i its tangent.
     pub g: &'a Matrix,
-    /// 2k: the accelerations without contact forces.
+    /// 2k: the accelerations without contact forces. They are judged against each other, so where nothing
+    /// moves the touches they must be zero, and not round-off of something that cancels.
     pub free: &'a [f64],
     /// k: how each touch resists sliding.
     pub grips: &'a [Grip],

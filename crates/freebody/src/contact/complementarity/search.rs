@@ -86,29 +86,29 @@ fn most_at_rest(task: &Task) -> Outcome {
 
 /// Decides a task in which static and kinetic friction are the same.
 fn bounded(task: &Task) -> Outcome {
-    let mut outcome = Outcome::Unknown;
-    for tolerance in TOLERANCES {
-        outcome = within(task, tolerance);
-        if matches!(outcome, Outcome::Found(_)) {
-            break;
+    let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
+    let few = task.len() <= ALWAYS && !unique;
+    for tolerance in TOLERANCES.into_iter().filter(|_| !few) {
+        match pivot(task, tolerance) {
+            Outcome::Unknown => {}
+            decided => return decided,
         }
     }
-    outcome
-}
-
-/// Decides it with conditions that hold to a tolerance.
-fn within(task: &Task, tolerance: f64) -> Outcome {
-    let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
-    let n = task.len();
-    match pivot(task, tolerance) {
-        Outcome::Found(found) if unique || n > ALWAYS => Outcome::Found(found),
-        Outcome::Found(found) => Outcome::Found(enumerate(task, found, tolerance)),
-        Outcome::Unknown if n <= ENUMERABLE => match enumerate(task, Vec::new(), tolerance) {
-            all if all.is_empty() => Outcome::Nothing,
-            all => Outcome::Found(all),
-        },
-        outcome => outcome,
+    if task.len() > ENUMERABLE {
+        return Outcome::Unknown;
     }
+    for tolerance in TOLERANCES {
+        let pivoted = match pivot(task, tolerance) {
+            Outcome::Found(found) => found,
+            Outcome::Nothing => return Outcome::Nothing,
+            Outcome::Unknown => Vec::new(),
+        };
+        let all = enumerate(task, pivoted, tolerance);
+        if !all.is_empty() {
+            return Outcome::Found(all);
+        }
+    }
+    Outcome::Nothing
 }
 
 /// What pivoting alone finds.

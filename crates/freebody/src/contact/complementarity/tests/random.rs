@@ -58,6 +58,35 @@ fn touches_at_rest_always_have_a_motion() {
     }
 }
 
+/// Nor does round-off of G and of the free accelerations make redundant touches impossible.
+#[test]
+fn round_off_is_no_contradiction() {
+    let mut r = Random(5);
+    for n in 0..1_500 {
+        let (k, noise) = (1 + r.below(8), [1e-16, 1e-14, 1e-12][n % 3]);
+        let mut c = case(&mut r, k, |r| {
+            if n % 4 == 0 {
+                Grip::Smooth
+            } else {
+                Grip::Resting { fixed: 1.0, kinetic: r.unit(true).abs() }
+            }
+        });
+        for (a, b) in (0..2 * k).flat_map(|a| (0..=a).map(move |b| (a, b))) {
+            c.g[(a, b)] += noise * r.unit(false);
+            c.g[(b, a)] = c.g[(a, b)];
+        }
+        c.free.iter_mut().for_each(|f| *f += noise * r.unit(false));
+        if c.consistent && c.free.iter().any(|f| f.abs() > 0.1) {
+            let verdict = solve(&c.problem());
+            assert!(
+                matches!(verdict, Verdict::Solved(_) | Verdict::Indeterminate(_)),
+                "case {n}: {:?} {verdict:?}",
+                c.problem()
+            );
+        }
+    }
+}
+
 /// Other units of the rows change nothing but units.
 #[test]
 fn units_do_not_matter() {
