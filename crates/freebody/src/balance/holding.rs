@@ -1,7 +1,7 @@
 //! What limits do in the last solution.
 
 use super::limits::force_on_first;
-use super::rows::slide_row;
+use super::rows::{gap_row, slide_row};
 use super::{Balance, Source, Spread};
 use crate::contact::Friction;
 use crate::gauges::{Axis, Bound};
@@ -38,6 +38,16 @@ impl Balance<'_> {
     /// The speed of sliding of a limit at the present state, m/s; 0 where it cannot rub.
     pub fn slide_rate(&self, limit: usize) -> f64 {
         slide_row(self.at(), limit, None).and_then(|row| row.rate).unwrap_or(0.0)
+    }
+
+    /// Accelerations of gaps in the last solution, m/s².
+    pub fn gap_accelerations(&self, limits: &[usize]) -> Vec<f64> {
+        limits.iter().map(|&l| gap_row(self.at(), l, Some(&self.solved.bodies)).bias).collect()
+    }
+
+    /// The restitution of a limit.
+    pub fn restitution(&self, limit: usize) -> f64 {
+        self.n.slots[self.m.limits[limit].restitution]
     }
 
     /// Something of a contact, stop or string.

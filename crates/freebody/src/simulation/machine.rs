@@ -38,6 +38,8 @@ pub struct Machine<'m> {
     pub(super) rule: Rule,
     /// What has switched.
     pub(super) changes: Vec<Change>,
+    /// How long the flight after the last bounce lasts, where bounces grow short, s.
+    pub(super) flight: Option<f64>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
@@ -67,6 +69,7 @@ impl<'m> Machine<'m> {
             rubs,
             rule: Rule::Stop,
             changes: vec![],
+            flight: None,
             strength: 1.0,
             speed: 1.0,
             set: m.overruled(p),

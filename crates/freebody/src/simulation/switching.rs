@@ -14,9 +14,9 @@ use crate::plane::Vec2;
 const REACHED: f64 = 1e-10;
 /// Speed, over the mechanism's own, below which there is none.
 const STILL: f64 = 1e-10;
-/// Time, over that in which the mechanism moves its own length, within which bounces that are still to come are over.
-/// The height of such bounces comes near the round-off of the gap; when they end is told by their geometric series.
-const ACCUMULATED: f64 = 1e-5;
+/// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more: its
+/// height comes near the round-off of the gap.
+const BRIEF: f64 = 1e-5;
 /// Impacts that one instant may hold.
 const ROUNDS: usize = 100;
 /// Guards of each limit: gap or force, two for friction, border.
@@ -153,6 +153,7 @@ impl Machine<'_> {
     pub(super) fn settle(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
+        let mut struck = false;
         for _ in 0..ROUNDS {
             self.place(t, y);
             self.balance.find_pieces();
@@ -165,11 +166,15 @@ impl Machine<'_> {
             let still = STILL * self.speed;
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
                 self.impact(t, y, &reached)?;
+                struck = true;
                 continue;
             }
-            let staying: Vec<usize> = (0..k).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
+            let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
             if !staying.is_empty() {
-                self.take_holds(t, y, staying)?;
+                self.take_holds(t, y, staying.iter().map(|&i| reached.limits[i]).collect())?;
+            }
+            if struck && !parting.is_empty() && self.capture(t, y, &reached, &parting)? {
+                continue;
             }
             return self.take_mode(t, &before);
         }
@@ -226,7 +231,7 @@ impl Machine<'_> {
     /// The limits reached strike.
     fn impact(&mut self, t: f64, y: &mut [f64], reached: &Reached) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
-        let (restitution, last) = self.restitutions(t, reached)?;
+        let restitution: Vec<f64> = reached.limits.iter().map(|&l| self.balance.restitution(l)).collect();
         let names = self.balance.names_of(&reached.limits);
         let rule = self.rule;
         let before = y.to_vec();
@@ -235,28 +240,19 @@ impl Machine<'_> {
         y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
         self.place(t, y);
         let lost = energy - self.balance.kinetic_energy();
-        let struck: Vec<usize> = (0..reached.limits.len()).filter(|&i| blow.normal[i] > 0.0).collect();
-        let group = |i: usize| self.balance.m.limits[reached.limits[i]].group;
-        let kind = match struck.iter().all(|&i| self.balance.m.groups[group(i)].word == "string") {
-            true => "taut",
-            false if last.is_some() => "rest",
-            false => "impact",
-        };
-        let mut of: Vec<String> = struck.iter().map(|&i| self.balance.m.groups[group(i)].name.clone()).collect();
-        of.dedup();
-        let note = match last {
-            Some(_) => Some(format!("bounces without end, from t = {t:.12} s on, are over")),
-            None => blow.note.clone(),
-        };
+        let struck = reached.limits.iter().zip(&blow.normal).filter(|(_, &p)| p > 0.0);
+        let struck: Vec<usize> = struck.map(|(&l, _)| l).collect();
+        let m = self.balance.m;
+        let string = |&l: &usize| m.groups[m.limits[l].group].word == "string";
         self.begin_stretch(t, 0.0, -lost);
         self.note(Change {
-            t: last.unwrap_or(t),
-            kind,
-            of,
+            t,
+            kind: if struck.iter().all(string) { "taut" } else { "impact" },
+            of: self.names(&struck),
             lost,
             states: Some([before, y.to_vec()]),
             impulses: Some(self.impulses(reached, &blow)),
-            note,
+            note: blow.note,
         });
         Ok(())
     }
@@ -275,28 +271,51 @@ impl Machine<'_> {
         Impulses { limits, joints: blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect() }
     }
 
-    /// The restitution of each limit reached: none where all bounces to come are over within a moment; and then when.
-    fn restitutions(&mut self, t: f64, reached: &Reached) -> Result<(Vec<f64>, Option<f64>), Trouble> {
-        let m = self.balance.m;
-        let given: Vec<f64> = reached.limits.iter().map(|&l| self.balance.n.slots[m.limits[l].restitution]).collect();
-        if given.iter().all(|&e| e == 0.0) {
-            return Ok((given, None));
+    /// Whether bounces without end are over within a moment: then all that touches comes to rest.
+    ///
+    /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
+    /// lasts a constant part of the one before.
+    fn capture(&mut self, t: f64, y: &mut [f64], reached: &Reached, parting: &[usize]) -> Result<bool, Trouble> {
+        self.place(t, y);
+        self.balance.solve()?;
+        let limits: Vec<usize> = parting.iter().map(|&i| reached.limits[i]).collect();
+        let back = self.balance.gap_accelerations(&limits);
+        let flights = parting.iter().zip(&back).map(|(&i, &a)| if a < 0.0 { -2.0 * reached.rates[i] / a } else { f64::INFINITY });
+        let flight = flights.fold(0.0, f64::max);
+        let (brief, before) = (BRIEF * self.balance.length / self.speed, self.flight.take());
+        if flight > brief {
+            self.flight = (flight <= 1e3 * brief).then_some(flight);
+            return Ok(false);
         }
-        let free = self.balance.free_accelerations(reached)?;
-        let pace = self.balance.length / self.speed;
-        let mut last = None;
-        let taken = (0..given.len()).map(|i| {
-            let (e, speed) = (given[i], -reached.rates[i]);
-            // Each flight lasts e times the one before.
-            let left = 2.0 * e * speed / (-free[i] * (1.0 - e));
-            if e > 0.0 && e < 1.0 && speed > 0.0 && free[i] < 0.0 && left <= ACCUMULATED * pace {
-                last = Some(last.unwrap_or(t).max(t + left));
-                return 0.0;
-            }
-            e
+        let part = before.map_or(0.0, |before| (flight / before).min(0.999));
+        let n = self.balance.m.freedom();
+        let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
+        for &limit in &reached.limits {
+            self.balance.mode.limits[limit].hold = Hold::Smooth;
+        }
+        let (q, rest) = y.split_at_mut(n);
+        self.balance.align(t, q, &mut rest[..n])?;
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        self.begin_stretch(t, 0.0, -lost);
+        self.note(Change {
+            t: t + flight / (1.0 - part),
+            kind: "rest",
+            of: self.names(&limits),
+            lost,
+            states: Some([earlier, y.to_vec()]),
+            impulses: None,
+            note: Some(format!("the bounces from t = {t:.12} s on, without end, are over")),
         });
-        let taken = taken.collect();
-        Ok((taken, last))
+        Ok(true)
+    }
+
+    /// The names of the contacts, stops and strings of limits, each once.
+    fn names(&self, limits: &[usize]) -> Vec<String> {
+        let m = self.balance.m;
+        let mut of: Vec<String> = limits.iter().map(|&l| m.groups[m.limits[l].group].name.clone()).collect();
+        of.dedup();
+        of
     }
 
     /// Notes what changed of the mode, and begins another stretch.
