@@ -23,7 +23,7 @@ def watched(end: float) -> Iterator[Callable[[float], bool]]:
             task = bar.add_task("", total=end, reached="")
 
             def progress(t: float) -> bool:
-                bar.update(task, completed=t, reached=f"t = {t:.4g} of {end:.4g} s")
+                bar.update(task, completed=t, reached=f"t = {t:.6g} of {end:.6g} s")
                 return not interrupted.is_set()
 
             yield progress

@@ -89,7 +89,7 @@ impl fmt::Display for Outcome {
             Self::StiffSuspected => {
                 write!(out, "the system looks stiff and the steps allowed do not suffice; use the method radau")
             }
-            Self::Interrupted => write!(out, "the caller ended the run"),
+            Self::Interrupted => write!(out, "the run was interrupted"),
             Self::Trouble(trouble) => write!(out, "{}", trouble.sentence),
             Self::Unsupported { method, reason } => {
                 write!(out, "{method} cannot do this because {reason}")

@@ -1,0 +1,32 @@
+"""Writes what the commands print now into README.md and docs/*.md: `.venv/bin/python docs/refresh.py`.
+
+A console block that begins with one `$ ./dev …` and goes on with output is run again; one of commands alone is left as it is.
+Output that ends in `…` is cut at as many lines as before.
+"""
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+BLOCK = re.compile(r"^```console\n(\$ (\./dev .*)\n)((?:(?!\$ |```).*\n)+)```$", re.MULTILINE)
+
+
+def again(block: re.Match[str]) -> str:
+    """The block with what its command prints now."""
+    prompt, command, before = block.groups()
+    print(command)
+    wide = os.environ | {"COLUMNS": "80"}
+    done = subprocess.run(command, shell=True, cwd=ROOT, env=wide, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"`{command}` ended with {done.returncode}:\n{done.stderr}")
+    lines = [line.rstrip() for line in done.stdout.strip().splitlines()]
+    shown = before.splitlines()
+    if shown[-1] == "…":
+        lines = [*lines[: len(shown) - 1], "…"]
+    return "\n".join(["```console", prompt + lines[0], *lines[1:], "```"])
+
+
+for path in (ROOT / "README.md", *sorted(ROOT.glob("docs/*.md"))):
+    path.write_text(BLOCK.sub(again, path.read_text(encoding="utf-8")), encoding="utf-8")
