@@ -13,6 +13,8 @@ pub struct Mode {
     pub phases: HashMap<(usize, usize), f64>,
     /// How each limit is held.
     pub limits: Vec<Held>,
+    /// How each joint that rubs is held: stuck, sliding, or open while nothing is decided.
+    pub rubs: Vec<Hold>,
     /// At rest by friction: nothing moves until the mode changes.
     pub resting: bool,
 }
@@ -68,6 +70,7 @@ impl Mode {
             off: m.idle.clone(),
             phases: HashMap::new(),
             limits: m.limits.iter().map(|limit| held(limit.group)).collect(),
+            rubs: vec![Hold::Open; m.rubs.len()],
             resting: false,
         }
     }

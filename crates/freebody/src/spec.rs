@@ -205,6 +205,23 @@ pub struct Element {
     /// Whether it is in place from the start.
     #[serde(default = "yes")]
     pub engaged: bool,
+    /// Friction along the first coordinate of a joint.
+    #[serde(default)]
+    pub friction: Option<JointFriction>,
+}
+
+/// Coulomb friction in a joint, by the size of the force that the joint carries.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointFriction {
+    /// Coefficient of sliding.
+    pub kinetic: Number,
+    /// Coefficient at rest; that of sliding when absent.
+    #[serde(default)]
+    pub fixed: Option<Number>,
+    /// Radius of the bearing of a hinge, m.
+    #[serde(default)]
+    pub radius: Option<Number>,
 }
 
 fn yes() -> bool {

@@ -88,6 +88,14 @@ impl Balance<'_> {
         borders.iter().map(|b| (b.value, b.beyond)).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
+    /// Whether a part is in place.
+    pub fn has(&self, part: Part) -> bool {
+        match part {
+            Part::Group(g) => self.m.groups[g].limits.clone().any(|l| self.mode.limits[l].hold != Hold::Off),
+            _ => self.mode.has(part),
+        }
+    }
+
     /// Takes a part away or puts it in place, joints as they are now; answers whether that changed anything.
     pub fn put(&mut self, part: Part, there: bool) -> bool {
         let changed = match part {

@@ -32,7 +32,8 @@ impl Balance<'_> {
     pub fn friction_power(&self) -> f64 {
         let rubs = self.rows.iter().zip(&self.solved.lambda).filter(|(row, _)| matches!(row.source, Source::Limit(_)));
         let power = |loads: &Spread<f64>| -> f64 { loads.iter().map(|(b, w)| w.power(self.k.twist[*b])).sum() };
-        rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum()
+        let contacts: f64 = rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum();
+        contacts + self.rub_power()
     }
 
     /// The speed of sliding of a limit at the present state, m/s; 0 where it cannot rub.

@@ -133,7 +133,7 @@ impl<'b, 'm> Observer<'b, 'm> {
                 needs_reactions |=
                     matches!(reading, Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_));
                 needs_solution |= matches!(reading, Reading::Limit(_, bound) if !bound.is_geometric());
-                needs_solution |= needs_reactions;
+                needs_solution |= needs_reactions || matches!(reading, Reading::Rub(_));
             }
         }
         Observer { balance, needs_solution, needs_reactions }
@@ -188,6 +188,10 @@ impl<'b, 'm> Observer<'b, 'm> {
                 Reading::Centre(Axis::X) => b.mass_centre().x,
                 Reading::Centre(_) => b.mass_centre().y,
                 Reading::Limit(group, bound) => b.read_limit(group, bound),
+                Reading::Rub(joint) => {
+                    let rub = b.m.rubs.iter().position(|rub| rub.joint == joint);
+                    rub.map_or(0.0, |rub| b.rub_force(rub))
+                }
                 Reading::FrictionWork => works.get(b.m.forces.len() + b.m.drives.len()).copied().unwrap_or(0.0),
             }
         };

@@ -141,7 +141,7 @@ impl Balance<'_> {
         let closes = |s: Source| match s {
             Source::Joint(..) => true,
             Source::Drive(d) => self.m.drives[d].coupling,
-            Source::Limit(_) | Source::Friction(_) => false,
+            Source::Limit(_) | Source::Friction(_) | Source::Rub(_) => false,
         };
         closing_rows(self.at(), None).into_iter().filter(|r| closes(r.source)).collect()
     }

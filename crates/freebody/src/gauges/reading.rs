@@ -33,6 +33,8 @@ pub enum Reading {
     Centre(Axis),
     /// Something of a contact, stop or string.
     Limit(usize, Bound),
+    /// Friction of a joint along its coordinate.
+    Rub(usize),
     /// Work of all friction since the start.
     FrictionWork,
 }

@@ -59,7 +59,7 @@ impl Runner<'_> {
                 // A kink has changed to the arm beyond.
                 Role::Event | Role::Kink => hit.direction * self.sign() as i8,
             };
-            self.watcher.spend(hit.index, side);
+            self.watcher.spend(hit.index, side, self.now.t);
         }
         Ok(())
     }

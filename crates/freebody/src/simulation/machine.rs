@@ -2,7 +2,7 @@
 
 use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
-use super::switching::{Change, Rule, GUARDS};
+use super::switching::{Change, Rule, GUARDS, RUB_GUARDS};
 use crate::mechanism::{Deed, Event, Kink};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
@@ -60,7 +60,7 @@ impl<'m> Machine<'m> {
         let worked = (0..m.forces.len()).filter(|&f| m.forces[f].potential.is_none() || m.forces[f].pulls.len() > 1);
         let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
-        let rubs = m.limits.iter().any(|limit| limit.friction.is_some());
+        let rubs = !m.rubs.is_empty() || m.limits.iter().any(|limit| limit.friction.is_some());
         let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(rubs);
         Machine {
             balance,
@@ -194,6 +194,12 @@ impl<'m> Machine<'m> {
         works
     }
 
+    /// Whether all that an event would release is gone already.
+    fn is_spent(&self, event: &Event) -> bool {
+        let gone = |deed: &Deed| matches!(deed, Deed::Release(part) if !self.balance.has(*part));
+        event.then.iter().any(|deed| matches!(deed, Deed::Release(_))) && event.then.iter().all(gone)
+    }
+
     /// Takes the other arm of a switch.
     fn turn(&mut self, kink: &Kink, t: f64) {
         if let Kink::Switch(switch, _) = kink {
@@ -213,7 +219,7 @@ impl<'m> Machine<'m> {
         }
         if !values.is_empty() {
             self.change(t, y, &values);
-            if !self.balance.m.limits.is_empty() {
+            if !(self.balance.m.limits.is_empty() && self.balance.m.rubs.is_empty()) {
                 self.settle(t, y)?;
             }
         }
@@ -319,7 +325,8 @@ impl System for Machine<'_> {
     }
 
     fn switches(&self) -> usize {
-        self.balance.m.events.len() + self.balance.m.kinks.len() + GUARDS * self.balance.m.limits.len()
+        let m = self.balance.m;
+        m.events.len() + m.kinks.len() + GUARDS * m.limits.len() + RUB_GUARDS * m.rubs.len()
     }
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
@@ -333,7 +340,7 @@ impl System for Machine<'_> {
                 out[m.events.len() + i] = self.switching(kink);
             }
         }
-        if !m.limits.is_empty() {
+        if !(m.limits.is_empty() && m.rubs.is_empty()) {
             self.guard_values(t, y, &mut out[m.events.len() + m.kinks.len()..])?;
         }
         Ok(())
@@ -350,6 +357,9 @@ impl System for Machine<'_> {
 
     fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, Trouble> {
         let m = self.balance.m;
+        if m.events.get(i).is_some_and(|event| event.guard && self.is_spent(event)) {
+            return Ok(false);
+        }
         let Some(condition) = m.events.get(i).and_then(|e| e.condition.as_ref()) else { return Ok(true) };
         Ok(self.read(&[condition.as_expr()], t, y)?[0] > 0.5)
     }
@@ -361,7 +371,10 @@ impl System for Machine<'_> {
                 Some(kink) => self.turn(kink, t),
                 None => {
                     let guard = i - m.events.len() - m.kinks.len();
-                    self.switch_limit(guard / GUARDS, guard % GUARDS, t, y)?;
+                    match guard.checked_sub(GUARDS * m.limits.len()) {
+                        None => self.switch_limit(guard / GUARDS, guard % GUARDS, t, y)?,
+                        Some(rub) => self.switch_rub(rub / RUB_GUARDS, rub % RUB_GUARDS, t, y)?,
+                    }
                 }
             }
             return Ok(After::Restart);
