@@ -83,18 +83,13 @@ def _switches(card: cards.Card) -> dict[str, Any]:
         told = "What happens where the line ends: it is free and the joint released, or there are stops."
         words["ends"] = (Literal["free", "stop"], Field(None, description=told))
         words["end_restitution"] = (Number, Field(0, description="Restitution of the stops at the ends, 0 to 1."))
-    if rubs(card):
+    if card.rubs:
         told = "Coefficient of sliding friction, by the size of the force that the joint carries."
         words["friction"] = (Number, Field(None, description=told))
         words["static_friction"] = (Number, Field(None, description="Coefficient of friction at rest; that of sliding by default."))
         if card.coordinates[0].unit == "rad":
             words["bearing_radius"] = (number_in("m"), Field(None, description="Radius at which the friction of a hinge acts."))
     return words
-
-
-def rubs(card: cards.Card) -> bool:
-    """Whether it can have friction along its first coordinate."""
-    return bool(card.rows) and bool(card.coordinates) and card.coordinates[0].unit in ("m", "rad")
 
 
 def has_ends(card: cards.Card) -> bool:

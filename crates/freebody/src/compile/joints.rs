@@ -93,9 +93,8 @@ impl Compiler<'_> {
         let Some(friction) = &pair.element.friction else { return Ok(()) };
         let path = format!("{}.friction", pair.path);
         let card = pair.kind.card();
-        let dimension = self.m.joints[joint].coordinates.first().map(|c| c.dimension);
-        let (turns, slides) = (dimension == Some("rad"), dimension == Some("m") && !card.rows.is_empty());
-        if !(turns || slides) {
+        let turns = card.coordinates.first().is_some_and(|c| c.turn);
+        if !card.rubs || self.m.joints[joint].coordinates.is_empty() {
             let what = format!("a {} has no friction of its own", card.word);
             return Err(CompileError::new(path, what, "give it to a hinge, a slot or a slider, or write a contact"));
         }

@@ -36,6 +36,8 @@ pub struct Machine<'m> {
     pub(super) rubs: bool,
     /// What is done about impacts that the laws leave open.
     pub(super) rule: Rule,
+    /// Whether contacts that jam by friction strike, instead of ending the run.
+    pub(super) jams_strike: bool,
     /// What has switched.
     pub(super) changes: Vec<Change>,
     /// How long the flight after the last bounce lasts, where bounces grow short, s.
@@ -68,6 +70,7 @@ impl<'m> Machine<'m> {
             driven,
             rubs,
             rule: Rule::Stop,
+            jams_strike: false,
             changes: vec![],
             flight: None,
             strength: 1.0,

@@ -202,7 +202,14 @@ impl Machine<'_> {
             }
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
             let staying: Vec<usize> = staying.iter().map(|&i| reached.limits[i]).collect();
-            self.stick(t, y, &staying, loose)?;
+            match self.stick(t, y, &staying, loose) {
+                Err(trouble) if self.jams_strike && !struck && trouble.name == "painleve_inconsistent" => {
+                    self.seize(t, y, &staying)?;
+                    struck = true;
+                    continue;
+                }
+                done => done?,
+            }
             if struck && !parting.is_empty() && self.capture(t, y, &reached, &parting)? {
                 continue;
             }
@@ -475,6 +482,26 @@ impl Machine<'_> {
         let lost = energy - self.balance.kinetic_energy();
         let states = Some([before, y.to_vec()]);
         self.note_jump(Change { t, kind: "reset", of: vec![], lost, states, impulses: None, note: None });
+        Ok(())
+    }
+
+    /// Contacts that jam seize: the impact without a collision that brings their sliding to an end (Génot & Brogliato
+    /// 1999, *European Journal of Mechanics A* 18).
+    fn seize(&mut self, t: f64, y: &mut [f64], limits: &[usize]) -> Result<(), Trouble> {
+        for &limit in limits {
+            self.balance.mode.limits[limit].hold = Hold::Stuck;
+        }
+        let (n, before) = (self.balance.m.freedom(), y.to_vec());
+        self.place(t, y);
+        let energy = self.balance.kinetic_energy();
+        let blow = self.balance.joining_blow()?;
+        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let note = Some("the contact jammed: an impact without a collision".to_string());
+        let (impulses, states) = (Some(Impulses { limits: vec![], joints }), Some([before, y.to_vec()]));
+        self.note_jump(Change { t, kind: "impact", of: self.names(limits), lost, states, impulses, note });
         Ok(())
     }
 
