@@ -76,7 +76,7 @@ impl Instant {
         let told = |l: &balance::LimitLoad| {
             serde_json::json!({
                 "state": l.state, "gap": l.gap, "normal": l.along[0], "friction": l.along[1],
-                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]),
+                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]), "determinate": l.determinate,
             })
         };
         serde_json::Value::Array(self.solved.limits.iter().map(told).collect()).to_string()

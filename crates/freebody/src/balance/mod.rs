@@ -26,10 +26,10 @@ mod sweep;
 mod teeth;
 
 pub use instant::{Instant, LimitLoad, Observer};
-pub use limits::{Blow, Holding, Reached};
+pub use limits::{Blow, Holding, Reached, Scale};
 pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
-pub use rank::{Freedom, SelfStress};
+pub use rank::{Freedom, Labels, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};
 pub use sizes::Sizes;

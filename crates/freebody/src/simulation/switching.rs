@@ -1,7 +1,7 @@
 //! What switches during a motion: parts released and engaged, impacts, limits that hold and let go.
 
 use super::Machine;
-use crate::balance::{Blow, Reached, Trouble};
+use crate::balance::{Blow, Reached, Scale, Trouble};
 use crate::contact::complementarity::{self, Law, Strike};
 use crate::contact::Friction;
 use crate::gauges::Law as Gauge;
@@ -251,18 +251,18 @@ impl Machine<'_> {
 
     /// Decides how limits that neither approach nor part go on.
     fn take_holds(&mut self, t: f64, y: &[f64], limits: &[usize]) -> Result<(), Trouble> {
-        let still = STILL * self.speed;
+        let scale = Scale { still: STILL * self.speed, pace: self.speed * self.speed / self.balance.length };
         self.place(t, y);
         let reached = self.balance.reach(limits.to_vec())?;
         let slips = reached.slips();
-        let mut holding = self.balance.hold(&reached, &slips, still)?;
+        let mut holding = self.balance.hold(&reached, &slips, scale)?;
         if holding.close {
             // What nothing decides now is decided by what comes next.
             self.balance.take(&reached, &holding);
             let (q, u) = self.ahead(t, y)?;
             self.balance.place(t + self.glimpse(), &q, &u);
             let next = self.balance.reach(reached.limits.clone())?;
-            holding = self.balance.hold(&next, &slips, still)?;
+            holding = self.balance.hold(&next, &slips, scale)?;
             self.place(t, y);
         }
         self.balance.take(&reached, &holding);

@@ -158,7 +158,7 @@ impl Trajectory {
         let mut rows = vec![];
         self.each(m, times, |balance, _, _| {
             balance.solve()?;
-            let (sure, _) = balance.labels();
+            let sure = balance.labels().joints;
             let loads = balance.joint_loads();
             rows.push(loads.iter().zip(sure).map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
             Ok(())
