@@ -84,6 +84,8 @@ def later(case):
         if mR:
             spin = run.evaluate("omega(rod)", t)
             yield Answer(f"spin of the rod, {of}", spin, "rad/s", exit_.omega, "conservation: no moment on it", 1e-10)
+        else:
+            yield Answer(f"angle of the rod, {of}: held", run.evaluate("theta", t), "rad", exit_.theta, "quadrature", 1e-10)
 
 
 @ask("(b) Path of the collar on a rod without mass, from the cut until it has left")
