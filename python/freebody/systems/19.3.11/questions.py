@@ -75,7 +75,9 @@ def two_balls(case):
         yield Answer(f"cart, both at once, {of}", value, "m/s", together, CONSERVED, 1e-10)
         run = case.run("two.yaml", {"M": M, "m": m})
         w, first = shot(M + m, m)
-        yield Answer(f"cart, one has left, {of}", run.evaluate("vx(cart.C)", leaving(run, "exit 1")), "m/s", first, CONSERVED, 1e-10)
+        yield Answer(
+            f"cart, one has left, {of}", run.evaluate("vx(cart.C)", leaving(run, "exit 1")), "m/s", first, CONSERVED, 1e-10
+        )
         held = run.evaluate("x(second.centre) - x(cart.C)", leaving(run, "exit 1"))
         yield Answer(f"the second held at, from the middle, {of}", held, "m", -R, "it is held", 1e-10)
         end = leaving(run, "exit 2")

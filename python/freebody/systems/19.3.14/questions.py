@@ -93,7 +93,9 @@ def left_behind(case):
     gamma, a0, t = pi / 3, 12.0, 0.3
     run = case.run(parameters={"a0": a0})
     against = "closed form: free fall from v₀ along the ramp"
-    yield Answer("force of the cart on the mass at 0, 0.3 s", run.evaluate("top.N", [0.0, t]), "N", [0.0] * 2, "it cannot pull", 0, M)
+    yield Answer(
+        "force of the cart on the mass at 0, 0.3 s", run.evaluate("top.N", [0.0, t]), "N", [0.0] * 2, "it cannot pull", 0, M
+    )
     place = [run.evaluate(f"{axis}(mass.centre)", t) for axis in "xy"]
     along = D0 + V0 * t
     check = [along * cos(BETA), along * sin(BETA) - G * t**2 / 2]

@@ -77,7 +77,9 @@ def kept(case):
     tilt = pi / 2 - run.evaluate("angle(rod)", least.t)
     yield Answer("tilt then", tilt, "rad", acos(c), "closed form: dN/dθ = 0", 1e-6)
     times = [0.0, 0.5, 0.8, 1.0, run.events[-1].t]
-    yield Answer("gap over the ice at 0, 0.5, 0.8, 1 s and flat", run.evaluate("foot.gap", times), "m", [0.0] * 5, "N > 0", 1e-13, L)
+    yield Answer(
+        "gap over the ice at 0, 0.5, 0.8, 1 s and flat", run.evaluate("foot.gap", times), "m", [0.0] * 5, "N > 0", 1e-13, L
+    )
     tilts = pi / 2 - run.evaluate("angle(rod)", times)
     check = [force(cos(tilt), c0) for tilt in tilts]
     yield Answer("force at 0, 0.5, 0.8, 1 s and flat", run.evaluate("foot.N", times), "N", check, "closed form: N(θ)", 1e-9)
@@ -87,7 +89,9 @@ def kept(case):
 def one_equation(case):
     for tilt, rate in ((0.02, 0.0), (0.5, 1.0), (1.0, 2.0), (1.5, 4.0)):
         now = case.instant("assumed.yaml", angle=pi / 2 - tilt, x=0.0, rates={"angle": -rate})
-        yield Answer(f"θ̈ at θ = {tilt:g}, θ̇ = {rate:g}", -now["alpha(rod)"], "rad/s²", bend(tilt, rate), "closed form: (c)", 1e-12)
+        yield Answer(
+            f"θ̈ at θ = {tilt:g}, θ̇ = {rate:g}", -now["alpha(rod)"], "rad/s²", bend(tilt, rate), "closed form: (c)", 1e-12
+        )
 
 
 @ask("State at 1 s")
