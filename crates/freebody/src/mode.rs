@@ -36,6 +36,8 @@ pub enum Hold {
     /// Its gap is open.
     #[default]
     Open,
+    /// Its gap is violated, against its spring and damper.
+    Pressed,
     /// Its gap is closed, but others carry the load.
     Idle,
     /// Its gap is closed and it does not rub.
@@ -50,6 +52,10 @@ impl Hold {
     /// Whether it carries load.
     pub fn carries(self) -> bool {
         matches!(self, Hold::Smooth | Hold::Stuck | Hold::Sliding(_))
+    }
+    /// Whether it is reached, closed or pressed.
+    pub fn touches(self) -> bool {
+        self == Hold::Pressed || self.is_closed()
     }
     /// Whether its gap is closed.
     pub fn is_closed(self) -> bool {

@@ -311,6 +311,12 @@ pub struct Contact {
     /// Speed of parting over speed of approach.
     #[serde(default = "nought")]
     pub restitution: Number,
+    /// Stiffness, N/m, of a spring that stands for it; it is rigid when absent.
+    #[serde(default)]
+    pub stiffness: Option<Number>,
+    /// Damping, N·s/m, beside that spring.
+    #[serde(default)]
+    pub damping: Option<Number>,
     /// Whether it is there from the start.
     #[serde(default = "yes")]
     pub engaged: bool,
@@ -357,6 +363,12 @@ pub struct Cord {
     /// Speed of return over speed of stretching when it goes taut.
     #[serde(default = "nought")]
     pub restitution: Number,
+    /// Stiffness, N/m, when it is elastic.
+    #[serde(default)]
+    pub stiffness: Option<Number>,
+    /// Damping, N·s/m, beside that.
+    #[serde(default)]
+    pub damping: Option<Number>,
     /// Whether it is there from the start.
     #[serde(default = "yes")]
     pub engaged: bool,
@@ -413,6 +425,12 @@ pub struct Stop {
     /// Speed of parting over speed of approach.
     #[serde(default = "nought")]
     pub restitution: Number,
+    /// Stiffness, N/m, of a spring that stands for it; it is rigid when absent.
+    #[serde(default)]
+    pub stiffness: Option<Number>,
+    /// Damping, N·s/m, beside that spring.
+    #[serde(default)]
+    pub damping: Option<Number>,
     /// Whether it is there from the start.
     #[serde(default = "yes")]
     pub engaged: bool,

@@ -210,6 +210,7 @@ impl<'m> Balance<'m> {
         load::centre_arms(at, &mut self.arms);
         load::loads(at, &self.arms, &mut self.loads);
         self.add_rubs();
+        self.add_pressed();
         let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         match route {
             Route::Minimal if !self.is_closed() => {

@@ -74,7 +74,7 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
                 rows.push(gap_row(at, limit, base));
                 rows.extend(slide_row(at, limit, base));
             }
-            Hold::Off | Hold::Open | Hold::Idle => {}
+            Hold::Off | Hold::Open | Hold::Pressed | Hold::Idle => {}
         }
     }
     for rub in (0..at.m.rubs.len()).filter(|&rub| at.mode.rubs[rub] == Hold::Stuck) {

@@ -188,7 +188,7 @@ impl Chatter {
         self.count += 1;
         let before = self.instant.1.iter().filter(|&&i| i == index).count();
         if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
-            return Err(Outcome::TooManyEvents);
+            return Err(Outcome::Chatter { index });
         }
         self.instant.1.push(index);
         Ok(())

@@ -3,7 +3,7 @@
 use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
 use super::switching::{Change, Rule, GUARDS, RUB_GUARDS};
-use crate::mechanism::{Deed, Event, Kink};
+use crate::mechanism::{Deed, Event, Kink, Mechanism};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
 
@@ -34,6 +34,8 @@ pub struct Machine<'m> {
     pub(super) driven: Vec<usize>,
     /// Whether the work of friction is integrated.
     pub(super) rubs: bool,
+    /// Whether the work of springs of limits is integrated.
+    pub(super) presses: bool,
     /// What is done about impacts that the laws leave open.
     pub(super) rule: Rule,
     /// Whether contacts that jam by friction strike, instead of ending the run.
@@ -63,12 +65,14 @@ impl<'m> Machine<'m> {
         let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
         let rubs = !m.rubs.is_empty() || m.limits.iter().any(|limit| limit.friction.is_some());
-        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(rubs);
+        let presses = m.limits.iter().any(|limit| limit.soft.is_some());
+        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(rubs) + usize::from(presses);
         Machine {
             balance,
             worked,
             driven,
             rubs,
+            presses,
             rule: Rule::Stop,
             jams_strike: false,
             changes: vec![],
@@ -186,7 +190,7 @@ impl<'m> Machine<'m> {
         let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
         let tail = &y[2 * m.freedom()..];
         if self.rubs {
-            works[m.forces.len() + m.drives.len()] = tail[tail.len() - 1];
+            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
         }
         for (i, &f) in self.worked.iter().enumerate() {
             works[f] = tail[i];
@@ -195,6 +199,21 @@ impl<'m> Machine<'m> {
             works[m.forces.len() + d] = tail[self.worked.len() + i];
         }
         works
+    }
+
+    /// What switching function `i` is about, in the model's words.
+    pub fn switch_name(m: &Mechanism, i: usize) -> String {
+        if let Some(event) = m.events.get(i) {
+            return format!("event `{}`", event.name);
+        }
+        let Some(guard) = (i - m.events.len()).checked_sub(m.kinks.len()) else { return "kink of a law".to_string() };
+        match guard.checked_sub(GUARDS * m.limits.len()) {
+            None => {
+                let group = &m.groups[m.limits[guard / GUARDS].group];
+                format!("{} `{}`", group.word, group.name)
+            }
+            Some(rub) => format!("joint `{}`", m.joints[m.rubs[rub / RUB_GUARDS].joint].name),
+        }
     }
 
     /// Whether all that an event would release is gone already.
@@ -275,6 +294,9 @@ impl System for Machine<'_> {
         }
         if self.rubs {
             dy[2 * n + self.worked.len() + self.driven.len()] = self.balance.friction_power();
+        }
+        if self.presses {
+            dy[self.scales.len() - 1] = self.balance.pressed_power();
         }
         Ok(())
     }

@@ -117,6 +117,8 @@ impl Machine<'_> {
             values.fill(1.0);
             match held.hold {
                 Hold::Off => continue,
+                Hold::Open if m.limits[l].soft.is_some() => values[0] = self.free_of_spring(l),
+                Hold::Pressed => values[0] = self.kept_by_spring(l),
                 Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
                 Hold::Idle => values[0] = self.balance.limit_gap(l) / self.balance.length + REACHED,
                 Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
@@ -152,9 +154,27 @@ impl Machine<'_> {
         }
     }
 
+    /// Positive while the gap of a limit with a spring is open, or its damper would have to pull.
+    fn free_of_spring(&self, l: usize) -> f64 {
+        let gap = self.balance.limit_gap(l) / self.balance.length;
+        gap.max(-self.balance.press(l) / self.strength)
+    }
+
+    /// Positive while the gap of a limit with a spring is violated and the spring pushes.
+    fn kept_by_spring(&self, l: usize) -> f64 {
+        let gap = self.balance.limit_gap(l) / self.balance.length;
+        (-gap).min(self.balance.press(l) / self.strength)
+    }
+
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
+        if self.balance.m.limits[l].soft.is_some() {
+            let before = self.balance.mode.clone();
+            let held = &mut self.balance.mode.limits[l];
+            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
+            return self.take_mode(t, &before);
+        }
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
@@ -382,7 +402,7 @@ impl Machine<'_> {
             let group = &m.groups[limit.group];
             let string = group.word == "string";
             let (was, is) = (before.limits[l].hold, self.balance.mode.limits[l].hold);
-            let kind = match (was.is_closed(), is.is_closed()) {
+            let kind = match (was.touches(), is.touches()) {
                 (true, false) if string => "slack",
                 (true, false) => "lift-off",
                 (false, true) if self.has_struck(t, &group.name) => continue,
