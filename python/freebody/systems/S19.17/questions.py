@@ -105,7 +105,7 @@ def last_digits(case):
     near, _ = exit_of(1.0)
 
     def exact(t, y):
-        theta, r, spin, speed = y
+        _, r, spin, speed = y
         return [spin, speed, (1 - 2 * r * speed * spin) / (mpmath.mpf(1) / 9 + r**2), r * spin**2]
 
     with mpmath.workdps(40):
@@ -138,6 +138,10 @@ def flight(case):
         moving = [later.evaluate(f"v{name}(collar.centre)", t + 0.5) for name in "xy"]
         yield Answer(f"velocity of the collar 0.5 s after, {how}", moving, "m/s", velocity, straight, 1e-11)
         work = theta + spin * 0.5 + 0.5**2 / 2 / I1
-        yield Answer(f"kinetic energy 0.5 s after, {how}", later.evaluate("kinetic()", t + 0.5), "J", work, "conservation: T θ", 1e-11)
+        yield Answer(
+            f"kinetic energy 0.5 s after, {how}", later.evaluate("kinetic()", t + 0.5), "J", work, "conservation: T θ", 1e-11
+        )
     push = case.run("free_end.yaml").evaluate("track.Fn", t + 0.5)
-    yield Answer("force of the rod on the collar 0.5 s after, free end", push, "N", 0.0, "closed form: they are apart", 1e-14, 1.0)
+    yield Answer(
+        "force of the rod on the collar 0.5 s after, free end", push, "N", 0.0, "closed form: they are apart", 1e-14, 1.0
+    )
