@@ -24,7 +24,7 @@ import numpy as np
 from freebody.catalogue import Answer, ask, reference
 
 M, R, m, L, W = 200.0, 0.8, 2.0, 3.0, 5.0
-I = M * R**2 / 2  # noqa: E741
+I = M * R**2 / 2
 KAPPA = (I + 2 * m * R**2) / (2 * m)
 UNWOUND = L / (R * W)
 SENSES = {"(a)": 1, "(b)": -1}
