@@ -98,7 +98,7 @@ def test_ten_thousand_bounces_in_a_circle():
     impacts = changes(run)
     assert {change.kind for change in impacts} == {"impact"} and len(impacts) == count
     k = np.arange(count)
-    q, u = (np.array([getattr(i, "after")[part] for i in impacts]) for part in ("q", "u"))
+    q, u = (np.array([i.after[part] for i in impacts]) for part in ("q", "u"))
     turned = np.arctan2(q[:, 1], q[:, 0]) - (math.pi / 2 - beta) - k * (math.pi - 2 * beta)
     assert np.abs(np.angle(np.exp(1j * turned))).max() < 1e-8
     assert np.abs([i.t for i in impacts] - math.cos(beta) * (1 + 2 * k)).max() < 1e-8

@@ -151,7 +151,7 @@ def test_a_bob_that_does_not_reach_the_top(v):
     """Between √(2gl) and √(5gl) the cord goes slack where v² = gl (2 + 3 sin θ), the bob flies a parabola, and the cord
     jerks taut again where the parabola r = e + u t n − ½ g t² j cuts the circle: r² − 1 = ¼ g² t³ (t − 4 u cos θ/g)."""
     run = motion(SWING, 1.5, {"rtol": 1e-11}, v=v)
-    slack, taut = changes(run, "slack")[0], [c for c in changes(run, "taut") if c.t > 0][0]
+    slack, taut = changes(run, "slack")[0], next(c for c in changes(run, "taut") if c.t > 0)
     sine = (v**2 / G - 2) / 3
     assert run.evaluate("bob.y", slack.t) == pytest.approx(sine, abs=1e-9)
     assert run.evaluate("speed(bob.centre)", slack.t) == pytest.approx(math.sqrt(G * sine), abs=1e-9)
