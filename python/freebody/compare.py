@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from freebody.run import Run
 
 
+_SIDE = 1e-7  # of the common time: nearer than that to a switch, one run may be before it and the other after
+
+
 @dataclass(frozen=True)
 class Difference:
     """How far one column of two runs lies apart: largest |a − b|, when (s), its root mean square, and
@@ -99,7 +102,8 @@ def _by_name(run: Run) -> dict[str, Array]:
 
 
 def common_times(a: Run, b: Run) -> Array:
-    """Output times of one run at which the other is known too: all of them where it is known at any time."""
+    """Output times of one run at which the other is known too: all of them where it is known at any time, but those at which
+    something switches, since the other may be before it."""
     if a.recorded and b.recorded:
         times = np.intersect1d(a.t, b.t)
     else:
