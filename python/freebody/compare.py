@@ -109,6 +109,11 @@ def common_times(a: Run, b: Run) -> Array:
     else:
         grid, other = (b, a) if b.recorded else (a, b)
         times = grid.t[(grid.t >= other.edges[0]) & (grid.t <= other.edges[-1])]
+    if len(times):
+        jumps = np.concatenate([[-np.inf], np.union1d(a.jumps, b.jumps), [np.inf]])
+        after = np.searchsorted(jumps, times)
+        near = np.minimum(jumps[after] - times, times - jumps[after - 1])
+        times = times[near > _SIDE * (times[-1] - times[0])]
     if not len(times):
         raise ValueError("the two runs have no time in common; run.again() makes one of them known at all times")
     return times

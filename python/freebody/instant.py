@@ -270,6 +270,7 @@ class Instant:
             tables.of_accelerations(self._about["coordinates"], self.accelerations),
             tables.of_reactions(self.reactions.values()),
             tables.of_limits(self.limits.values()),
+            tables.of_forces(self.limits.values()),
             tables.of_residuals(self.residuals),
         ]
 

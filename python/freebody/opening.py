@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from freebody import tables
 from freebody.instant import Reaction, Reactions, State
 from freebody.run import Settings, Source, simulate
-from freebody.switched import Change, Limit, limits_at
+from freebody.switched import Change, Limit, limits_at, there
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -51,13 +51,13 @@ class Opening:
             raise ValueError(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
         run = run.at([start.t])
         changes = [change for change in run.changes if change.t == start.t]
-        gone = {name for change in changes if change.kind == "released" for name in change.of}
-        limits = limits_at(lambda texts: run.motion.evaluate(texts, run.t)[0], source.about)
+        place = [limit for limit in source.about["limits"] if there(changes, limit["name"], limit["engaged"], run.t)[0]]
+        limits = limits_at(lambda texts: run.motion.evaluate(texts, run.t)[0], place)
         return cls(
             changes,
             dict(zip(run.coordinates, run.accelerations[0].tolist(), strict=True)),
             Reactions({name: _first(reaction) for name, reaction in run.reactions.items()}),
-            {name: limit for name, limit in limits.items() if name not in gone},
+            limits,
             source.about["coordinates"],
         )
 
@@ -67,4 +67,5 @@ class Opening:
             tables.of_accelerations(self.coordinates, self.accelerations),
             tables.of_reactions(self.reactions.values()),
             tables.of_limits(self.limits.values()),
+            tables.of_forces(self.limits.values()),
         ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
@@ -337,6 +338,8 @@ class Run:
     def __str__(self) -> str:
         lines = [f"{self.name}: {self.outcome.sentence}"]
         lines += [f"  {event.name} at t = {event.t:.6g} s" for event in self.events]
+        if kinds := Counter(change.kind for change in self.changes):
+            lines.append("  what switched: " + ", ".join(f"{count} × {kind}" for kind, count in kinds.items()))
         lines += [f"  {label}: {value}" for label, value in self.report.items()]
         return "\n".join(lines)
 

@@ -12,6 +12,7 @@ import numpy as np
 from freebody.results import Array, quote
 
 _WORDS = {"string": {"open": "slack", "closed": "taut"}, "contact": {"closed": "touching"}, "stop": {"closed": "at its end"}}
+_CLOSED = 1e-9  # m or rad
 
 
 @dataclass(frozen=True)
@@ -81,8 +82,8 @@ def there(changes: Sequence[Change], name: str, engaged: bool, times: Array) -> 
 class Limit:
     """What a contact, string or stop does at an instant.
 
-    ``state``: off, open, touching, stuck or sliding; taut or slack; at its end; empty where it is not known. ``gap``: how far it is
-    from closing, m (rad for a stop of an angle). ``N``: the normal force, tension or force of the stop, ``T``: friction along the
+    ``state``: off, open, touching, stuck or sliding; taut or slack; at its end. ``gap``: how far it is from closing,
+     m (rad for a stop of an angle). ``N``: the normal force, tension or force of the stop, ``T``: friction along the
     tangent, N (N·m at an angle); ``Fx``, ``Fy``: the force on the body ``first``, N; ``at``: where a contact's resultant acts, m.
     """
 
@@ -110,14 +111,16 @@ def limits_of(told: Sequence[Mapping[str, Any]], about: Mapping[str, Any]) -> di
     return {limit.name: limit for limit in found}
 
 
-def limits_at(evaluate: Callable[[list[str]], Array], about: Mapping[str, Any]) -> dict[str, Limit]:
-    """Contacts, strings and stops by name, by their expressions."""
+def limits_at(evaluate: Callable[[list[str]], Array], limits: Sequence[Mapping[str, Any]]) -> dict[str, Limit]:
+    """Contacts, strings and stops by name, by their expressions; open or closed by the gap."""
     found = {}
-    for who in about["limits"]:
-        gap, normal, friction, fx, fy, *at = evaluate(
-            [f"{quote(who['name'])}.{part}" for part in ["gap", "N", "T", "Fx", "Fy", "x", "y"]]
+    for who in limits:
+        parts = [f"{quote(who['name'])}.{part}" for part in ("gap", "N", "T", "Fx", "Fy", "x", "y")]
+        gap, *forces, x, y = evaluate(parts).tolist()
+        state = "open" if gap > _CLOSED else "closed"
+        found[who["name"]] = _limit(
+            who, _WORDS[who["type"]].get(state, state), gap, *forces, (x, y) if np.isfinite(x + y) else None
         )
-        found[who["name"]] = _limit(who, "", gap, normal, friction, fx, fy, tuple(at) if np.isfinite(at).all() else None)
     return found
 
 

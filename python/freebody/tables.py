@@ -42,35 +42,23 @@ def of_reactions(reactions: Iterable[Reaction]) -> Table:
 
 
 def of_limits(limits: Iterable[Limit]) -> Table:
-    """Contacts, strings and stops; forces as they act on the body named."""
-    shown = list(limits)
-    rubs, told = any(limit.kind == "contact" for limit in shown), any(limit.state for limit in shown)
-    heads = [
-        "",
-        *(["state"] if told else []),
-        "gap [m]",
-        "force [N]",
-        *(["friction [N]"] if rubs else []),
-        "on",
-        "Fx [N]",
-        "Fy [N]",
-    ]
-    made = _table("contacts, strings and stops", *heads, *(["x [m]", "y [m]"] if rubs else []))
-    for limit in shown:
-        acts = limit.kind != "stop" and limit.state not in ("off", "open", "slack")
+    """How contacts, strings and stops hold: state, gap, normal force or tension, friction."""
+    made = _table("contacts, strings and stops", "", "state", "gap [m]", "force [N]", "friction [N]")
+    for limit in limits:
         turns = limit.dimension == "rad"
+        friction = figure(limit.T) if limit.kind == "contact" else ""
+        _add(made, limit.name, limit.state, figure(limit.gap) + " rad" * turns, figure(limit.N) + " N·m" * turns, friction)
+    return made
+
+
+def of_forces(limits: Iterable[Limit]) -> Table:
+    """The forces of contacts and strings that carry, on their first body, and where a contact acts."""
+    made = _table("their forces", "", "on", "Fx [N]", "Fy [N]", "at x [m]", "at y [m]")
+    for limit in limits:
         noise = _ROUND_OFF * abs(limit.N)
-        force = [limit.first, *(figure(f if abs(f) > noise else 0.0) for f in (limit.Fx, limit.Fy))] if acts else ["", "", ""]
-        _add(
-            made,
-            limit.name,
-            *([limit.state] if told else []),
-            figure(limit.gap) + " rad" * turns,
-            figure(limit.N) + " N·m" * turns,
-            *([figure(limit.T) if limit.kind == "contact" else ""] if rubs else []),
-            *force,
-            *([*map(figure, limit.at or ())] or ["", ""] if rubs else []),
-        )
+        if limit.kind != "stop" and limit.N:
+            force = [figure(f if abs(f) > noise else 0.0) for f in (limit.Fx, limit.Fy)]
+            _add(made, limit.name, limit.first, *force, *(map(figure, limit.at) if limit.at else ("", "")))
     return made
 
 

@@ -161,10 +161,10 @@ def instants(solved: Sequence[Instant], opening: Opening | None, joint_axes: boo
         data = [_instant_as_dict(instant, joint_axes) | after for instant in solved]
         print(dumped(data if others else data[0]))
         return
-    accelerations, reactions, limits, residuals = first.tables()
+    accelerations, reactions, *limits, residuals = first.tables()
     if opening:
         put(Text("just before the events at the start\n", "bold"))
-    put(accelerations, reactions_along(first.reactions) if joint_axes else reactions, limits)
+    put(accelerations, reactions_along(first.reactions) if joint_axes else reactions, *limits)
     put(table("prescribed motions", ["motion", "force or torque"], first.motions.items()))
     if balance:
         put(residuals, f"Largest relative residual: {first.residual:.1e}")
@@ -172,10 +172,10 @@ def instants(solved: Sequence[Instant], opening: Opening | None, joint_axes: boo
     for other in others:
         put(f"{other.route} agrees with {first.route} to {apart(first, other):.1e}")
     if opening:
-        accelerations, reactions, limits = opening.tables()
+        accelerations, reactions, *limits = opening.tables()
         put(Text("\njust after the events at the start\n", "bold"))
         put(table("what switched", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opening.changes]))
-        put(accelerations, reactions_along(opening.reactions) if joint_axes else reactions, limits)
+        put(accelerations, reactions_along(opening.reactions) if joint_axes else reactions, *limits)
 
 
 def reactions_along(reactions: Mapping[str, Reaction]) -> Table:

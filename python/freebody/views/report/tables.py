@@ -22,7 +22,8 @@ def headline(run: Run) -> str:
     """Name, outcome and its sentence."""
     mood = "ok" if run.outcome.ok else "not-ok"
     badge = f'<span class="badge {mood}">{escape(run.outcome.name)}</span>'
-    return f"<h1>{escape(run.name)}</h1><p>{badge} {escape(_sentence(run.outcome.sentence))}, t = {_figure(run.outcome.t)} s</p>"
+    told, *more = escape(_sentence(run.outcome.sentence)).split("; ")
+    return f"<h1>{escape(run.name)}</h1><p>{badge} {'<br>'.join([f'{told}, t = {_figure(run.outcome.t)} s', *more])}</p>"
 
 
 def aside(run: Run) -> str:
