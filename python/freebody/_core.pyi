@@ -119,6 +119,8 @@ class Trajectory:
         """Frame origin x, y and angle of every body (nt, nb, 3)."""
     def instants(self, times: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Reactions (nt, nj, 3) and whether they are determinate."""
+    def instant(self, t: float, route: str = "minimal") -> Instant:
+        """Everything about one time, with what is in place and holds then."""
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """Column names and values (nt, k): kinetic, potential, work of each non-conservative force and motion, balance."""
     def final(self) -> tuple[float, Array, Array, Array, str]:

@@ -2,6 +2,7 @@
 
 use crate::array;
 use freebody::balance;
+use freebody::mechanism::Mechanism;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -76,7 +77,7 @@ impl Instant {
         let told = |l: &balance::LimitLoad| {
             serde_json::json!({
                 "state": l.state, "gap": l.gap, "normal": l.along[0], "friction": l.along[1],
-                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]),
+                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]), "determinate": l.determinate,
             })
         };
         serde_json::Value::Array(self.solved.limits.iter().map(told).collect()).to_string()
@@ -88,6 +89,11 @@ impl Instant {
 }
 
 impl Instant {
+    pub fn new(m: &Mechanism, solved: balance::Instant, freedom: &balance::Freedom) -> Self {
+        let rank = rank_json(freedom, &solved.self_stress);
+        let motions = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling).collect();
+        Instant { solved, rank, order: m.listed_bodies(), motions }
+    }
     fn loads(&self) -> Vec<[f64; 3]> {
         self.solved.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect()
     }
@@ -95,4 +101,12 @@ impl Instant {
         let flat = self.order.iter().flat_map(|&body| rows[body - 1]).collect();
         array(py, flat, [self.order.len(), 3])
     }
+}
+
+fn rank_json(f: &balance::Freedom, stresses: &[String]) -> String {
+    serde_json::json!({
+        "freedom": f.here, "count": f.count, "rows": f.rows, "redundant": f.redundant, "always_redundant": f.always_redundant, "driven": f.driven,
+        "uncertain": f.uncertain, "explanation": f.explain(), "self_stress": stresses,
+    })
+    .to_string()
 }

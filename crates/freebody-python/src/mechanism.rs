@@ -4,7 +4,7 @@ use crate::instant::Instant;
 use crate::trajectory::Trajectory;
 use crate::{array, errors, json};
 use freebody::assembly::{assemble, Wish};
-use freebody::balance::{Balance, Freedom, Observer, Route, Trouble};
+use freebody::balance::{Balance, Observer, Route, Trouble};
 use freebody::compile::Compiled;
 use freebody::gauges::Law;
 use freebody::simulation::{simulate, Rule, Settings, Start};
@@ -124,16 +124,11 @@ impl Mechanism {
         route: &str,
     ) -> PyResult<Instant> {
         let m = self.0.mechanism();
-        let route = Route::named(route).ok_or_else(|| {
-            let words: Vec<String> = Route::ALL.iter().map(|r| r.0.to_string()).collect();
-            unknown("route", route, words.iter())
-        })?;
+        let route = self::route(route)?;
         let mut balance = self.placed(&m, &p, t, &q, &u)?;
         let solved = balance.instant(route).map_err(errors::motion)?;
         let freedom = balance.freedom();
-        let rank = rank_json(&freedom, &solved.self_stress);
-        let motions = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling).collect();
-        Ok(Instant { solved, rank, order: m.listed_bodies(), motions })
+        Ok(Instant::new(&m, solved, &freedom))
     }
 
     fn evaluate<'py>(
@@ -202,7 +197,7 @@ impl Mechanism {
             max_step: max_step.unwrap_or(f64::INFINITY),
             max_steps,
         };
-        let settings = Settings { method: method.to_string(), options, route: chosen(route)?, impacts };
+        let settings = Settings { method: method.to_string(), options, route: chosen(route)?, impacts, jams_strike: painleve == "impact" };
         let (p, q, u) = (p.as_slice()?.to_vec(), q.as_slice()?.to_vec(), u.as_slice()?.to_vec());
         let of = self.0.clone();
         let mut trouble = None;
@@ -237,6 +232,12 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
     }
 }
 
+/// The route of a word.
+pub fn route(word: &str) -> PyResult<Route> {
+    let words: Vec<String> = Route::ALL.iter().map(|r| r.0.to_string()).collect();
+    Route::named(word).ok_or_else(|| unknown("route", word, words.iter()))
+}
+
 /// The route of a word; None to leave the choice to the program.
 fn chosen(word: &str) -> PyResult<Option<Route>> {
     if word == "auto" {
@@ -258,14 +259,6 @@ fn one_of(what: &str, word: &str, words: &[&str]) -> PyResult<()> {
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> PyErr {
     let message = freebody::compile::unknown(what, name, known);
     errors::ModelError::new_err((name.to_string(), message.what, message.hint))
-}
-
-fn rank_json(f: &Freedom, stresses: &[String]) -> String {
-    serde_json::json!({
-        "freedom": f.here, "count": f.count, "rows": f.rows, "redundant": f.redundant, "always_redundant": f.always_redundant, "driven": f.driven,
-        "uncertain": f.uncertain, "explanation": f.explain(), "self_stress": stresses,
-    })
-    .to_string()
 }
 
 impl Mechanism {

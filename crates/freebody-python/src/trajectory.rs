@@ -1,5 +1,6 @@
 //! A finished run.
 
+use crate::instant::Instant;
 use crate::mechanism::Shared;
 use crate::{array, errors};
 use freebody::simulation;
@@ -33,6 +34,14 @@ impl Trajectory {
         };
         serde_json::Value::Array(self.run.events.iter().map(told).collect()).to_string()
     }
+    /// Everything about one time, by a route.
+    #[pyo3(signature = (t, route="minimal"))]
+    fn instant(&self, t: f64, route: &str) -> PyResult<Instant> {
+        let m = self.of.mechanism();
+        let route = crate::mechanism::route(route)?;
+        let (solved, freedom) = self.run.instant(&m, t, route).map_err(errors::motion)?;
+        Ok(Instant::new(&m, solved, &freedom))
+    }
     #[getter]
     fn changes(&self) -> String {
         let m = self.of.mechanism();
@@ -57,6 +66,10 @@ impl Trajectory {
             freebody::motion::Outcome::StoppedByEvent { index } => {
                 format!("the event `{}` ended the run", self.of.mechanism().events[*index].name)
             }
+            freebody::motion::Outcome::Chatter { index } => format!(
+                "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
+                simulation::Machine::switch_name(&self.of.mechanism(), *index)
+            ),
             other => other.to_string(),
         };
         let path = match o {

@@ -34,6 +34,7 @@ pub fn chain_model(n: usize) -> Spec {
             fields: BTreeMap::from([("of".into(), of)]),
             coordinates: vec![],
             engaged: true,
+            friction: None,
         });
     }
     spec

@@ -54,6 +54,8 @@ pub struct Mechanism {
     pub limits: Vec<Limit>,
     /// The contacts, stops and strings of the model.
     pub groups: Vec<Group>,
+    /// Joints that rub.
+    pub rubs: Vec<Rub>,
     /// Parts that are not in place at the start.
     pub idle: Vec<Part>,
     /// What to watch for.
@@ -254,6 +256,22 @@ pub struct Drive {
     pub feedback: bool,
 }
 
+/// Coulomb friction along a coordinate of a joint: at most a coefficient times the size of the force that the joint
+/// carries (times the radius of its bearing).
+#[derive(Clone, Debug)]
+pub struct Rub {
+    /// The joint.
+    pub joint: usize,
+    /// The coordinate along which it rubs.
+    pub along: Law,
+    /// Coefficient at rest.
+    pub fixed: Slot,
+    /// Coefficient of sliding.
+    pub kinetic: Slot,
+    /// Radius of the bearing of a hinge.
+    pub radius: Option<Slot>,
+}
+
 /// Something that can be released and engaged during a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -336,6 +354,7 @@ impl Mechanism {
             forces: vec![],
             limits: vec![],
             groups: vec![],
+            rubs: vec![],
             idle: vec![],
             events: vec![],
             kinks: vec![],
@@ -343,10 +362,10 @@ impl Mechanism {
             notes: vec![],
         }
     }
-    /// Whether what holds it can change during a motion: limits, or parts that are released and engaged.
+    /// Whether what holds it can change during a motion: limits, friction, or parts that are released and engaged.
     pub fn changes(&self) -> bool {
         let switches = |deed: &Deed| matches!(deed, Deed::Release(_) | Deed::Engage(_));
-        !self.limits.is_empty() || !self.idle.is_empty() || self.events.iter().any(|e| e.then.iter().any(switches))
+        !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty()) || self.events.iter().any(|e| e.then.iter().any(switches))
     }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {

@@ -13,6 +13,8 @@ pub struct Mode {
     pub phases: HashMap<(usize, usize), f64>,
     /// How each limit is held.
     pub limits: Vec<Held>,
+    /// How each joint that rubs is held: stuck, sliding, or open while nothing is decided.
+    pub rubs: Vec<Hold>,
     /// At rest by friction: nothing moves until the mode changes.
     pub resting: bool,
 }
@@ -34,6 +36,8 @@ pub enum Hold {
     /// Its gap is open.
     #[default]
     Open,
+    /// Its gap is violated, against its spring and damper.
+    Pressed,
     /// Its gap is closed, but others carry the load.
     Idle,
     /// Its gap is closed and it does not rub.
@@ -48,6 +52,10 @@ impl Hold {
     /// Whether it carries load.
     pub fn carries(self) -> bool {
         matches!(self, Hold::Smooth | Hold::Stuck | Hold::Sliding(_))
+    }
+    /// Whether it is reached, closed or pressed.
+    pub fn touches(self) -> bool {
+        self == Hold::Pressed || self.is_closed()
     }
     /// Whether its gap is closed.
     pub fn is_closed(self) -> bool {
@@ -68,6 +76,7 @@ impl Mode {
             off: m.idle.clone(),
             phases: HashMap::new(),
             limits: m.limits.iter().map(|limit| held(limit.group)).collect(),
+            rubs: vec![Hold::Open; m.rubs.len()],
             resting: false,
         }
     }

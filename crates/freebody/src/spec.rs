@@ -205,6 +205,23 @@ pub struct Element {
     /// Whether it is in place from the start.
     #[serde(default = "yes")]
     pub engaged: bool,
+    /// Friction along the first coordinate of a joint.
+    #[serde(default)]
+    pub friction: Option<JointFriction>,
+}
+
+/// Coulomb friction in a joint, by the size of the force that the joint carries.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointFriction {
+    /// Coefficient of sliding.
+    pub kinetic: Number,
+    /// Coefficient at rest; that of sliding when absent.
+    #[serde(default)]
+    pub fixed: Option<Number>,
+    /// Radius of the bearing of a hinge, m.
+    #[serde(default)]
+    pub radius: Option<Number>,
 }
 
 fn yes() -> bool {
@@ -294,6 +311,12 @@ pub struct Contact {
     /// Speed of parting over speed of approach.
     #[serde(default = "nought")]
     pub restitution: Number,
+    /// Stiffness, N/m, of a spring that stands for it; it is rigid when absent.
+    #[serde(default)]
+    pub stiffness: Option<Number>,
+    /// Damping, N·s/m, beside that spring.
+    #[serde(default)]
+    pub damping: Option<Number>,
     /// Whether it is there from the start.
     #[serde(default = "yes")]
     pub engaged: bool,
@@ -340,6 +363,12 @@ pub struct Cord {
     /// Speed of return over speed of stretching when it goes taut.
     #[serde(default = "nought")]
     pub restitution: Number,
+    /// Stiffness, N/m, when it is elastic.
+    #[serde(default)]
+    pub stiffness: Option<Number>,
+    /// Damping, N·s/m, beside that.
+    #[serde(default)]
+    pub damping: Option<Number>,
     /// Whether it is there from the start.
     #[serde(default = "yes")]
     pub engaged: bool,
@@ -396,6 +425,12 @@ pub struct Stop {
     /// Speed of parting over speed of approach.
     #[serde(default = "nought")]
     pub restitution: Number,
+    /// Stiffness, N/m, of a spring that stands for it; it is rigid when absent.
+    #[serde(default)]
+    pub stiffness: Option<Number>,
+    /// Damping, N·s/m, beside that spring.
+    #[serde(default)]
+    pub damping: Option<Number>,
     /// Whether it is there from the start.
     #[serde(default = "yes")]
     pub engaged: bool,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -50,20 +51,23 @@ def _ledgers(case: Case) -> Iterator[Answer]:
     """Kinetic + potential − works stays what it was, relative to the largest of them that comes and goes."""
     for name, run in case.runs.items():
         energy = run.energy
-        stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential)]
+        still = 1e-6 * np.abs(energy.potential).max()  # where nothing moves, round-off is all that comes and goes
+        stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential), still]
         size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
         left = float(np.abs(energy.balance).max() / size) if size else 0.0
         yield Answer(f"{name}: left over", left, "", 0.0, "conservation: energy stored − work done", 1e-9, 1.0)
 
 
 def _states(case: Case) -> Iterator[tuple[str, Any, list[Any]]]:
-    """Every instant that was asked for, and a few of every run."""
+    """Every instant that was asked for, and a few of every run, while its parts are those of the model."""
     from freebody.instant import State
 
     for name, instant in case.instants.items():
         yield name, instant.core, [instant.state]
     for name, run in case.runs.items():
         times = np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)
+        exchanged = [change["t"] for change in json.loads(run.motion.changes) if change["kind"] in ("released", "engaged")]
+        times = times[(times < min(exchanged, default=np.inf)) | (times == times[0])]
         rows = zip(times, *run.motion.sample(times), strict=True)
         yield name, run.source.core, [State(run.start.p, float(t), q, u) for t, q, u in rows]
 

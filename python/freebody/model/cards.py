@@ -41,13 +41,15 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Card:
-    """A joint or a force as a person writes it. ``rows`` names the constraints of a joint by their forces."""
+    """A joint or a force as a person writes it. ``rows`` names the constraints of a joint by their forces; ``rubs`` tells whether
+    it can have friction along its first coordinate."""
 
     type: str
     doc: str
     fields: tuple[Field, ...]
     coordinates: tuple[Coordinate, ...] = ()
     rows: tuple[str, ...] = ()
+    rubs: bool = False
 
     @property
     def pushes(self) -> tuple[int, ...]:
@@ -76,7 +78,7 @@ def _section(name: str) -> dict[str, Card]:
 def _card(data: dict[str, Any]) -> Card:
     coordinates = tuple(Coordinate(c["name"], c["dimension"] or "") for c in data.get("coordinates", []))
     rows = tuple(row["name"] for row in data.get("rows", []))
-    return Card(data["type"], data["doc"], tuple(_field(f) for f in data["fields"]), coordinates, rows)
+    return Card(data["type"], data["doc"], tuple(_field(f) for f in data["fields"]), coordinates, rows, data["rubs"])
 
 
 def _field(data: dict[str, Any]) -> Field:

@@ -83,6 +83,12 @@ def _switches(card: cards.Card) -> dict[str, Any]:
         told = "What happens where the line ends: it is free and the joint released, or there are stops."
         words["ends"] = (Literal["free", "stop"], Field(None, description=told))
         words["end_restitution"] = (Number, Field(0, description="Restitution of the stops at the ends, 0 to 1."))
+    if card.rubs:
+        told = "Coefficient of sliding friction, by the size of the force that the joint carries."
+        words["friction"] = (Number, Field(None, description=told))
+        words["static_friction"] = (Number, Field(None, description="Coefficient of friction at rest; that of sliding by default."))
+        if card.coordinates[0].unit == "rad":
+            words["bearing_radius"] = (number_in("m"), Field(None, description="Radius at which the friction of a hinge acts."))
     return words
 
 
@@ -97,6 +103,8 @@ _ONLY_OF = {
     "for others write a stop, under `stops`",
 }
 _ONLY_OF["end_restitution"] = _ONLY_OF["ends"]
+_ONLY_OF |= {word: "friction is for hinges, slots and sliders; for surfaces write a contact" for word in ("friction", "static_friction")}
+_ONLY_OF["bearing_radius"] = "only a hinge has a bearing"
 
 JOINTS = {word: _model(card, _coordinates(card) | _switches(card)) for word, card in cards.joints().items()}
 FORCES = {word: _model(card, {}) for word, card in cards.forces().items()}

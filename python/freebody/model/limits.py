@@ -31,6 +31,15 @@ class LimitWriter:
         self.spec["strings"] += [self._string(name, string) for name, string in model.strings.items()]
         self.spec["stops"] += [made for name, stop in model.stops.items() for made in self._stops(name, stop)]
 
+    def _soft(self, path: Path, limit: Contact | String | Stop) -> Spec:
+        """Spring and damper that stand for it, if it has them."""
+        units = {"stiffness": "N/m", "damping": "N*s/m"}
+        given = {word: getattr(limit, word) for word in units if getattr(limit, word) is not None}
+        if isinstance(limit, Stop):
+            # Of an angle they are couples by rad.
+            units = dict.fromkeys(units)
+        return {word: self.write.number((*path, word), value, units[word]) for word, value in given.items()}
+
     # -- contacts
 
     def _contact(self, name: str, contact: Contact) -> Spec:
@@ -51,6 +60,7 @@ class LimitWriter:
             "static_friction": fixed,
             "rough": contact.rough,
             "restitution": self.write.fraction((*path, "restitution"), contact.restitution, "a restitution"),
+            **self._soft(path, contact),
             "engaged": contact.engaged,
         }
 
@@ -102,6 +112,7 @@ class LimitWriter:
             "over": [self._guide((*path, "over", i), guide) for i, guide in enumerate(string.over)],
             "length": length,
             "restitution": self.write.fraction((*path, "restitution"), string.restitution, "a restitution"),
+            **self._soft(path, string),
             "engaged": string.engaged,
         }
 
@@ -133,6 +144,7 @@ class LimitWriter:
         of, dimension = self.write.expression((*path, "of"), stop.of), self.write.dimension(stop.of)
         of = of if of.isidentifier() else f"({of})"
         restitution = self.write.fraction((*path, "restitution"), stop.restitution, "a restitution")
+        soft = self._soft(path, stop)
         gaps: dict[str, str] = {}
         if stop.least is not None:
             gaps["least"] = f"{of} - {text(self.write.number((*path, 'least'), stop.least, dimension))}"
@@ -148,6 +160,7 @@ class LimitWriter:
                 "name": full if len(gaps) == 1 else f"{full}.{side}",
                 "gap": gap,
                 "restitution": restitution,
+                **soft,
                 "engaged": stop.engaged,
             }
             for side, gap in gaps.items()

@@ -191,7 +191,7 @@ class _Sections:
     def items(self, guides: GuideWriter) -> None:
         """Joints, forces and motions."""
         for name, joint in self.model.joints.items():
-            written = self._element(("joints", name), joint, cards.joints()[joint.type])
+            written = self._element(("joints", name), joint, cards.joints()[joint.type]) | self._friction(name, joint)
             written |= {"coordinates": self._coordinates(name, joint)}
             self.spec["joints"].append(written)
             guides.joint(name, joint, written)
@@ -256,6 +256,19 @@ class _Sections:
             case "law" | "gauge":
                 return write.expression(path, value, unit)
         return value
+
+    def _friction(self, name: str, joint: elements.Element) -> Spec:
+        words = {"kinetic": "friction", "fixed": "static_friction", "radius": "bearing_radius"}
+        given = {key: word for key, word in words.items() if elements.given(joint, word) is not None}
+        if not given:
+            return {}
+        if "kinetic" not in given:
+            word = min(given.values())
+            self.scope.complain(("joints", name, word), f"`{word}` goes with `friction`", "give the coefficient of sliding, too")
+        return {"friction": {key: self._share(name, joint, word) for key, word in given.items()}}
+
+    def _share(self, name: str, joint: elements.Element, word: str) -> Any:
+        return self.write.number(("joints", name, word), elements.given(joint, word), "m" if word == "bearing_radius" else "")
 
     def _coordinates(self, name: str, joint: elements.Element) -> list[Spec]:
         named = scope.coordinate_names(name, joint)

@@ -20,6 +20,7 @@ from .values import (
     Texts,
     Time,
     TwoPoints,
+    number_in,
     one_of,
     refuse,
     two_of,
@@ -27,6 +28,8 @@ from .values import (
 
 Sense = Literal["ccw", "clockwise"]
 Restitution = Number
+Stiffness = number_in("N/m")
+Damping = number_in("N*s/m")
 _THERE = "Whether it is there from the start."
 
 
@@ -70,6 +73,8 @@ class Contact(Section):
     friction: Number = Field(0, description="Coefficient of sliding friction.")
     static_friction: Number = Field(None, description="Coefficient of friction at rest; by default that of sliding.")
     rough: bool = Field(False, description="Whether it never slides while it is closed.")
+    stiffness: Stiffness = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
+    damping: Damping = Field(None, description="Damping beside that spring.")
     engaged: bool = Field(True, description=_THERE)
 
     @model_validator(mode="after")
@@ -125,6 +130,8 @@ class String(Section):
     over: list[Guide] = Field([], description="Points and pulleys that it passes without friction, from its first end.")
     length: Length = Field(None, description="Its length; just taut at the start when left out.")
     restitution: Restitution = Field(0, description="Speed of return over speed of stretching when it goes taut, 0 to 1.")
+    stiffness: Stiffness = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
+    damping: Damping = Field(None, description="Damping beside that spring.")
     engaged: bool = Field(True, description=_THERE)
 
 
@@ -135,6 +142,8 @@ class Stop(Section):
     least: Number = Field(None, description="The least that it can be.")
     most: Number = Field(None, description="The most that it can be.")
     restitution: Restitution = Field(0, description="Speed of parting over speed of approach, 0 to 1.")
+    stiffness: Number = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
+    damping: Number = Field(None, description="Damping beside that spring.")
     engaged: bool = Field(True, description=_THERE)
 
     @model_validator(mode="after")

@@ -285,6 +285,7 @@ impl Balance<'_> {
             Source::Drive(d) => (1, d, 0),
             Source::Limit(l) => (2, l, 0),
             Source::Friction(l) => (2, l, 1),
+            Source::Rub(r) => (3, r, 0),
         };
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         order.sort_by_key(|&i| place(&self.rows[i]));
@@ -314,7 +315,7 @@ fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
 
 /// The row of a joint along a curve, which has no residual: the second body's point has, across the curve, the
 /// acceleration of a point that runs along the curve as the coordinate does.
-fn curve_row(at: Placed<'_>, index: usize) -> Row {
+pub(super) fn curve_row(at: Placed<'_>, index: usize) -> Row {
     let joint = &at.m.joints[index];
     let child = joint.child.expect("a joint along a curve is in the tree");
     let start = at.m.bodies[child].branch.expect("a body of the tree").start;

@@ -30,6 +30,10 @@ impl Balance<'_> {
         for l in 0..self.m.limits.len() {
             self.start_limit(l);
             let gap = self.limit_gap(l);
+            if self.m.limits[l].soft.is_some() {
+                self.lean_on_spring(l);
+                continue;
+            }
             if self.mode.limits[l].hold != Hold::Off && gap < -SHALLOW * self.length {
                 let group = &self.m.groups[self.m.limits[l].group];
                 let what = match group.word {
@@ -51,6 +55,14 @@ impl Balance<'_> {
         self.mode.limits[l].piece = limit.gap.piece(self.m, &self.at(), piece);
     }
 
+    /// Presses a limit with a spring if it is violated.
+    fn lean_on_spring(&mut self, l: usize) {
+        if self.mode.limits[l].hold != Hold::Off {
+            let pressed = self.limit_gap(l) < 0.0 && self.press(l) > 0.0;
+            self.mode.limits[l].hold = if pressed { Hold::Pressed } else { Hold::Open };
+        }
+    }
+
     /// The gap of a limit at the present state, on its piece.
     pub fn limit_gap(&self, l: usize) -> f64 {
         self.m.limits[l].gap.gap(self.m, &self.mode, &self.at(), self.mode.limits[l].piece)
@@ -65,7 +77,7 @@ impl Balance<'_> {
     /// Takes the present pieces of all open limits.
     pub fn find_pieces(&mut self) {
         for l in 0..self.m.limits.len() {
-            if self.mode.limits[l].hold == Hold::Open {
+            if matches!(self.mode.limits[l].hold, Hold::Open | Hold::Pressed) {
                 let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
                 self.mode.limits[l].piece = piece;
             }
@@ -77,7 +89,7 @@ impl Balance<'_> {
         let touches = |l: &usize| {
             let held = self.mode.limits[*l];
             let can = || self.m.limits[*l].gap.can_close(held.piece.index);
-            held.hold.is_closed() || (held.hold == Hold::Open && can() && self.limit_gap(*l) <= most)
+            held.hold.is_closed() || (held.hold == Hold::Open && self.m.limits[*l].soft.is_none() && can() && self.limit_gap(*l) <= most)
         };
         (0..self.m.limits.len()).filter(touches).collect()
     }
@@ -86,6 +98,14 @@ impl Balance<'_> {
     pub fn border(&self, l: usize) -> Option<(f64, usize)> {
         let borders = self.m.limits[l].gap.borders(self.m, &self.at(), self.mode.limits[l].piece);
         borders.iter().map(|b| (b.value, b.beyond)).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Whether a part is in place.
+    pub fn has(&self, part: Part) -> bool {
+        match part {
+            Part::Group(g) => self.m.groups[g].limits.clone().any(|l| self.mode.limits[l].hold != Hold::Off),
+            _ => self.mode.has(part),
+        }
     }
 
     /// Takes a part away or puts it in place, joints as they are now; answers whether that changed anything.

@@ -25,6 +25,9 @@ impl Balance<'_> {
                 _ => {}
             }
         }
+        for l in self.pressed() {
+            forces[l][0] = self.press(l);
+        }
         forces
     }
 
@@ -32,7 +35,8 @@ impl Balance<'_> {
     pub fn friction_power(&self) -> f64 {
         let rubs = self.rows.iter().zip(&self.solved.lambda).filter(|(row, _)| matches!(row.source, Source::Limit(_)));
         let power = |loads: &Spread<f64>| -> f64 { loads.iter().map(|(b, w)| w.power(self.k.twist[*b])).sum() };
-        rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum()
+        let contacts: f64 = rubs.filter_map(|(row, &l)| row.force.as_ref().map(|loads| l * power(loads))).sum();
+        contacts + self.rub_power()
     }
 
     /// The speed of sliding of a limit at the present state, m/s; 0 where it cannot rub.
@@ -66,15 +70,42 @@ impl Balance<'_> {
 
     /// The force of a contact on its first body, of a string on its first end, N, fixed axes.
     pub fn force_on_first(&self, group: usize) -> Vec2 {
+        let (forces, at) = (self.limit_forces(), self.at());
         let mut sum = Vec2::zero();
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
-            if let Source::Limit(l) | Source::Friction(l) = row.source {
-                if self.m.limits[l].group == group {
-                    sum += force_on_first(self.m, l, row.loads()) * lambda;
-                }
+        for l in self.m.groups[group].limits.clone().filter(|&l| forces[l] != [0.0; 2]) {
+            let along = [Some(gap_row(at, l, None)), slide_row(at, l, None)];
+            for (row, force) in along.into_iter().zip(forces[l]).filter_map(|(row, f)| row.map(|row| (row, f))) {
+                sum += force_on_first(self.m, l, &row.motion) * force;
             }
         }
         sum
+    }
+
+    /// The force of the spring and the damper of a limit at the present state, N; below 0 where they would have to pull.
+    pub fn press(&self, limit: usize) -> f64 {
+        let Some([stiffness, damping]) = self.m.limits[limit].soft else { return 0.0 };
+        let row = gap_row(self.at(), limit, None);
+        let (gap, rate) = (row.value.unwrap_or(0.0), row.rate.unwrap_or(0.0));
+        -self.n.slots[stiffness] * gap - self.n.slots[damping] * rate
+    }
+
+    fn pressed(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.m.limits.len()).filter(|&l| self.mode.limits[l].hold == Hold::Pressed)
+    }
+
+    /// Adds the loads of all limits that are pressed.
+    pub(super) fn add_pressed(&mut self) {
+        for l in self.pressed().collect::<Vec<_>>() {
+            let force = self.press(l);
+            for (body, load) in gap_row(self.at(), l, None).motion {
+                self.loads[body] += load * force;
+            }
+        }
+    }
+
+    /// Power of all springs and dampers of limits at the present state, W.
+    pub fn pressed_power(&self) -> f64 {
+        self.pressed().map(|l| self.press(l) * gap_row(self.at(), l, None).rate.unwrap_or(0.0)).sum()
     }
 
     /// Where the resultant of a contact's normal forces acts; NaN where it does not touch.

@@ -1,6 +1,6 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
-use super::{force_power, force_value, Balance, JointLoad, Route, Sizes, Trouble};
+use super::{force_power, force_value, Balance, Labels, JointLoad, Route, Sizes, Trouble};
 use crate::gauges::{Axis, Bound, Law, Leaf, Observed, Reading};
 use crate::mode::Hold;
 use crate::plane::Vec2;
@@ -45,15 +45,17 @@ pub struct LimitLoad {
     pub force: Vec2,
     /// Where the resultant of the normal forces acts; None where it is open, or no contact.
     pub at: Option<Vec2>,
+    /// Whether the force on the first body (Fx, Fy), the normal force and the friction are determinate.
+    pub determinate: [bool; 4],
 }
 
 impl Balance<'_> {
     /// What every contact, stop and string does in the last solution.
-    pub fn limit_loads(&self) -> Vec<LimitLoad> {
-        (0..self.m.groups.len()).map(|g| self.limit_load(g)).collect()
+    fn limit_loads(&self, determinate: &[[bool; 4]]) -> Vec<LimitLoad> {
+        determinate.iter().enumerate().map(|(g, sure)| self.limit_load(g, *sure)).collect()
     }
 
-    fn limit_load(&self, group: usize) -> LimitLoad {
+    fn limit_load(&self, group: usize, determinate: [bool; 4]) -> LimitLoad {
         let holds = || self.m.groups[group].limits.clone().map(|l| self.mode.limits[l].hold);
         let state = match () {
             _ if holds().all(|h| h == Hold::Off) => "off",
@@ -70,6 +72,7 @@ impl Balance<'_> {
             along: [read(Bound::Force), read(Bound::Friction)],
             force: self.force_on_first(group),
             at: at.x.is_finite().then_some(at),
+            determinate,
         }
     }
 }
@@ -96,9 +99,9 @@ impl Balance<'_> {
             })
             .collect();
         let stresses = self.self_stresses();
-        let (determinate, drives_determinate) = self.determinate(&stresses);
-        let self_stress = stresses.iter().map(|s| self.tell(s)).collect();
-        let limits = self.limit_loads();
+        let Labels { joints: determinate, drives: drives_determinate, groups } = self.determinate(&stresses);
+        let self_stress = stresses.iter().map(|s| self.tell(s)).filter(|s| !s.is_empty()).collect();
+        let limits = self.limit_loads(&groups);
         Ok(Instant {
             limits,
             accelerations,
@@ -130,10 +133,12 @@ impl<'b, 'm> Observer<'b, 'm> {
             needs_solution |= law.depends_on_accelerations();
             for leaf in law.leaves() {
                 let Leaf::Reading(reading) = leaf else { continue };
-                needs_reactions |=
-                    matches!(reading, Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_));
-                needs_solution |= matches!(reading, Reading::Limit(_, bound) if !bound.is_geometric());
-                needs_solution |= needs_reactions;
+                needs_reactions |= match reading {
+                    Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_) => true,
+                    Reading::Limit(_, bound) => !bound.needs().is_empty(),
+                    _ => false,
+                };
+                needs_solution |= needs_reactions || matches!(reading, Reading::Rub(_));
             }
         }
         Observer { balance, needs_solution, needs_reactions }
@@ -156,12 +161,12 @@ impl<'b, 'm> Observer<'b, 'm> {
     pub fn read(&mut self, laws: &[&Law], works: &[f64]) -> Vec<f64> {
         let b = &mut *self.balance;
         let (mut joints, mut drives, mut powers) = (vec![], vec![], vec![]);
-        let (mut sure, mut drives_sure) = (vec![], vec![]);
+        let (mut sure, mut drives_sure, mut groups_sure) = (vec![], vec![], vec![]);
         if self.needs_reactions {
             joints = b.joint_loads();
             drives = b.drive_forces();
             powers = b.drive_powers();
-            (sure, drives_sure) = b.labels();
+            Labels { joints: sure, drives: drives_sure, groups: groups_sure } = b.labels();
         }
         let mut accelerations = vec![0.0; b.m.freedom()];
         if self.needs_solution {
@@ -187,7 +192,14 @@ impl<'b, 'm> Observer<'b, 'm> {
                 Reading::AngularMomentum(site) => b.angular_momentum(b.site(site)),
                 Reading::Centre(Axis::X) => b.mass_centre().x,
                 Reading::Centre(_) => b.mass_centre().y,
-                Reading::Limit(group, bound) => b.read_limit(group, bound),
+                Reading::Limit(group, bound) => {
+                    let sure = groups_sure.get(group).is_none_or(|flags| bound.needs().iter().all(|&i| flags[i]));
+                    known(sure, b.read_limit(group, bound))
+                }
+                Reading::Rub(joint) => {
+                    let rub = b.m.rubs.iter().position(|rub| rub.joint == joint);
+                    rub.map_or(0.0, |rub| b.rub_force(rub))
+                }
                 Reading::FrictionWork => works.get(b.m.forces.len() + b.m.drives.len()).copied().unwrap_or(0.0),
             }
         };

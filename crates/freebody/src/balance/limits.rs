@@ -14,8 +14,19 @@ use crate::mode::Hold;
 use crate::plane::{Twist, Vec2, Wrench};
 use crate::solve::Matrix;
 
-/// Part of the largest force or acceleration below which one is too small to decide by.
+/// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
 const CLOSE: f64 = 1e-8;
+/// Part of the mechanism's own accelerations below which one is round-off.
+const NOTHING: f64 = 1e-13;
+
+/// What counts as slow.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// A speed of sliding below which there is none, m/s.
+    pub still: f64,
+    /// The mechanism's own accelerations, m/s².
+    pub pace: f64,
+}
 
 /// Limits whose gaps are closed at one state, k of them.
 pub struct Reached {
@@ -133,17 +144,19 @@ impl Balance<'_> {
     }
 
     /// How the limits reached go on from the present state: what parts, what sticks, what slides, for given speeds of
-    /// sliding; one below `still` is none.
+    /// sliding; one below `still` is none. An acceleration far below `pace` decides nothing by itself.
     ///
     /// # Errors
     /// `painleve_inconsistent`, `painleve_indeterminate`; as [`Balance::solve`].
-    pub fn hold(&mut self, reached: &Reached, slips: &[f64], still: f64) -> Result<Holding, Trouble> {
-        let free = self.free_accelerations(reached)?;
+    pub fn hold(&mut self, reached: &Reached, slips: &[f64], scale: Scale) -> Result<Holding, Trouble> {
+        let mut free = self.free_accelerations(reached)?;
+        // Round-off is no reason to part.
+        free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);
         let grips: Vec<Grip> =
-            reached.limits.iter().zip(slips).map(|(&l, &slip)| self.grip(l, slip, still)).collect();
+            reached.limits.iter().zip(slips).map(|(&l, &slip)| self.grip(l, slip, scale.still)).collect();
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
         match complementarity::solve(&problem) {
-            Verdict::Solved(answer) => Ok(holding(&answer, &free, &grips)),
+            Verdict::Solved(answer) => Ok(holding(&answer, &problem, scale.pace)),
             verdict => Err(self.paradox(reached, &free, &grips, &verdict)),
         }
     }
@@ -162,7 +175,8 @@ impl Balance<'_> {
         let reached = self.reach(touching)?;
         let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
-        let holding = self.hold(&reached, &reached.slips(), still)?;
+        let pace = self.n.gravity.norm().max(self.length);
+        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace })?;
         self.take(&reached, &holding);
         Ok(())
     }
@@ -320,12 +334,11 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The holds of an answer, and whether it was a close thing.
-fn holding(answer: &Answer, free: &[f64], grips: &[Grip]) -> Holding {
+fn holding(answer: &Answer, problem: &Problem, pace: f64) -> Holding {
     let k = answer.status.len();
-    let force = answer.normal.iter().chain(&answer.tangent).fold(0.0_f64, |most, x| most.max(x.abs()));
-    let pace = free.iter().chain(&answer.acceleration).fold(0.0_f64, |most, x| most.max(x.abs()));
-    let weak = |i: usize| answer.normal[i].abs() <= CLOSE * force;
-    let slow = |x: f64| x.abs() <= CLOSE * pace;
+    let fastest = problem.free.iter().chain(&answer.acceleration).fold(pace, |most, x| most.max(x.abs()));
+    let weak = |i: usize| answer.normal[i] * problem.g[(i, i)] <= CLOSE * fastest;
+    let slow = |x: f64| x.abs() <= CLOSE * fastest;
     let hold = |i: usize| match answer.status[i] {
         Status::Open if slow(answer.acceleration[i]) => Hold::Idle,
         Status::Open => Hold::Open,
@@ -333,10 +346,11 @@ fn holding(answer: &Answer, free: &[f64], grips: &[Grip]) -> Holding {
         Status::Stick => Hold::Stuck,
         Status::Slip(sense) => Hold::Sliding(sense),
     };
-    let close = |i: usize| match (answer.status[i], grips[i]) {
+    let close = |i: usize| match (answer.status[i], problem.grips[i]) {
         (Status::Open, _) => slow(answer.acceleration[i]),
         (Status::Stick, Grip::Resting { fixed, .. }) => {
-            weak(i) || fixed * answer.normal[i] - answer.tangent[i].abs() <= CLOSE * force
+            let most = fixed * answer.normal[i];
+            weak(i) || most - answer.tangent[i].abs() <= CLOSE * most
         }
         (Status::Slip(_), Grip::Resting { .. }) => weak(i) || slow(answer.acceleration[k + i]),
         _ => weak(i),

@@ -20,15 +20,16 @@ mod project;
 mod rank;
 mod reactions;
 mod rows;
+mod rubs;
 mod sizes;
 mod sweep;
 mod teeth;
 
 pub use instant::{Instant, LimitLoad, Observer};
-pub use limits::{Blow, Holding, Reached};
+pub use limits::{Blow, Holding, Reached, Scale};
 pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
-pub use rank::{Freedom, SelfStress};
+pub use rank::{Freedom, Labels, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{Row, Source, Spread};
 pub use sizes::Sizes;
@@ -116,6 +117,8 @@ pub struct Balance<'m> {
     many_loops: bool,
     preferred: Option<Route>,
     labels: Option<rank::Labels>,
+    /// Friction of each joint that slides, along its coordinate.
+    rub_forces: Vec<f64>,
 }
 
 impl<'m> Balance<'m> {
@@ -148,6 +151,7 @@ impl<'m> Balance<'m> {
             many_loops: false,
             preferred: None,
             labels: None,
+            rub_forces: vec![0.0; m.rubs.len()],
         };
         balance.many_loops = balance.prefers_sparse();
         balance
@@ -195,13 +199,19 @@ impl<'m> Balance<'m> {
         if self.turn_teeth() {
             self.solve_once(route)?;
         }
-        Ok(())
+        match self.m.rubs.is_empty() {
+            true => Ok(()),
+            false => self.fit_rubs(route),
+        }
     }
 
     fn solve_once(&mut self, route: Route) -> Result<(), Trouble> {
         let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         load::centre_arms(at, &mut self.arms);
         load::loads(at, &self.arms, &mut self.loads);
+        self.add_rubs();
+        self.add_pressed();
+        let at = Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
         match route {
             Route::Minimal if !self.is_closed() => {
                 self.solved.lambda.clear();
@@ -216,7 +226,7 @@ impl<'m> Balance<'m> {
 
     /// Whether anything but the tree constrains the motion.
     pub fn is_closed(&self) -> bool {
-        !self.m.closures.is_empty() || !self.m.drives.is_empty() || !self.m.limits.is_empty()
+        !self.m.closures.is_empty() || !self.m.drives.is_empty() || self.m.changes()
     }
 
     /// What the last solution found.

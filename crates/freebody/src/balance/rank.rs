@@ -4,10 +4,13 @@
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
 use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
+use super::limits::force_on_first;
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Row, Source};
+use crate::gauges::Placed;
 use crate::mechanism::Part;
+use crate::mode::Hold;
 use crate::plane::Wrench;
 use crate::solve::{Matrix, Orthogonal};
 
@@ -17,8 +20,16 @@ const UNTOUCHED: f64 = 1e-9;
 /// Coordinates up to which ranks are decided anew at every state.
 const FEW: usize = 60;
 
-/// Of each joint whether (Fx, Fy, M) are determinate, and of each drive whether its force is.
-pub type Labels = (Vec<[bool; 3]>, Vec<bool>);
+/// What is determinate.
+#[derive(Clone, Debug)]
+pub struct Labels {
+    /// Of each joint (Fx, Fy, M).
+    pub joints: Vec<[bool; 3]>,
+    /// Of each drive its force.
+    pub drives: Vec<bool>,
+    /// Of each contact, stop and string the force on its first body (Fx, Fy), its normal force and its friction.
+    pub groups: Vec<[bool; 4]>,
+}
 
 /// Degrees of freedom at a configuration, told in several ways.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +57,8 @@ pub struct SelfStress {
     pub joints: Vec<[f64; 3]>,
     /// Of each drive: its force.
     pub drives: Vec<f64>,
+    /// Of each contact, stop and string: force on its first body, fixed axes, along its gaps and along its slides.
+    pub groups: Vec<[f64; 4]>,
 }
 
 fn degrees(number: usize) -> String {
@@ -141,7 +154,7 @@ impl Balance<'_> {
         let closes = |s: Source| match s {
             Source::Joint(..) => true,
             Source::Drive(d) => self.m.drives[d].coupling,
-            Source::Limit(_) | Source::Friction(_) => false,
+            Source::Limit(_) | Source::Friction(_) | Source::Rub(_) => false,
         };
         closing_rows(self.at(), None).into_iter().filter(|r| closes(r.source)).collect()
     }
@@ -167,10 +180,31 @@ impl Balance<'_> {
         if !self.is_closed() {
             return vec![];
         }
+        let solved = self.rows.clone();
+        if !self.m.limits.is_empty() {
+            self.rows = self.all_that_could_carry();
+        }
         // A factorisation that fails for want of inertia has still decided the ranks.
         let _ = self.factor(Force::OwnWay);
         let multipliers = self.dense.saddle.self_stress();
-        (0..multipliers.cols()).map(|k| self.self_stress(&multipliers, k)).collect()
+        let stresses = (0..multipliers.cols()).map(|k| self.self_stress(&multipliers, k)).collect();
+        self.rows = solved;
+        stresses
+    }
+
+    /// The rows of all that is closed: of limits that touch one solution loads no more than balance needs.
+    fn all_that_could_carry(&self) -> Vec<Row> {
+        let mut mode = self.mode.clone();
+        for (l, held) in mode.limits.iter_mut().enumerate().filter(|(_, held)| held.hold.is_closed()) {
+            let rests = self.slide_rate(l).abs() <= UNTOUCHED * self.length;
+            match (held.hold, self.m.limits[l].friction) {
+                (Hold::Smooth, _) => {}
+                (_, None) => held.hold = Hold::Smooth,
+                (_, Some(_)) if rests => held.hold = Hold::Stuck,
+                _ => {}
+            }
+        }
+        closing_rows(Placed { mode: &mode, ..self.at() }, None)
     }
 
     fn self_stress(&self, multipliers: &Matrix, k: usize) -> SelfStress {
@@ -186,13 +220,21 @@ impl Balance<'_> {
                 drives[d] = l;
             }
         }
-        SelfStress { joints: (0..self.m.joints.len()).map(joint).collect(), drives }
+        let mut groups = vec![[0.0; 4]; self.m.groups.len()];
+        for (row, &l) in self.rows.iter().zip(&lambda) {
+            let (Source::Limit(limit) | Source::Friction(limit)) = row.source else { continue };
+            let force = force_on_first(self.m, limit, row.loads()) * l;
+            let along = if row.source == Source::Limit(limit) { [l, 0.0] } else { [0.0, l] };
+            let sum = &mut groups[self.m.limits[limit].group];
+            sum.iter_mut().zip([force.x, force.y, along[0], along[1]]).for_each(|(s, x)| *s += x);
+        }
+        SelfStress { joints: (0..self.m.joints.len()).map(joint).collect(), drives, groups }
     }
 
     /// As [`Balance::determinate`], at the present, solved state. In a mechanism with many coordinates, where the ranks cost
     /// far more than the solution, they are decided once and kept.
     pub fn labels(&mut self) -> Labels {
-        if let (Some(labels), true) = (&self.labels, self.m.freedom() > FEW) {
+        if let (Some(labels), true, false) = (&self.labels, self.m.freedom() > FEW, self.m.changes()) {
             return labels.clone();
         }
         let stresses = self.self_stresses();
@@ -201,13 +243,20 @@ impl Balance<'_> {
         labels
     }
 
-    /// Of each joint, which of (Fx, Fy, M) are determinate; and of each drive its force.
+    /// What no self-stress touches.
     pub fn determinate(&self, stresses: &[SelfStress]) -> Labels {
         let mut joints = vec![[true; 3]; self.m.joints.len()];
         let mut drives = vec![true; self.m.drives.len()];
+        let mut groups = vec![[true; 4]; self.m.groups.len()];
         for s in stresses {
             let size = |c: &[f64; 3]| c[0].abs().max(c[1].abs()).max(c[2].abs() / self.length);
-            let most = s.joints.iter().map(size).chain(s.drives.iter().map(|d| d.abs())).fold(0.0, f64::max);
+            let limits = s.groups.iter().flatten().map(|x| x.abs());
+            let forces = s.joints.iter().map(size).chain(s.drives.iter().map(|d| d.abs())).chain(limits);
+            // The largest multiplier is 1: a stress within one contact shows in none of its sums.
+            let most = forces.fold(1.0, f64::max);
+            for (flags, c) in groups.iter_mut().zip(&s.groups) {
+                flags.iter_mut().zip(c).for_each(|(flag, x)| *flag &= x.abs() <= UNTOUCHED * most);
+            }
             for (flags, c) in joints.iter_mut().zip(&s.joints) {
                 let scaled = [c[0], c[1], c[2] / self.length];
                 for (flag, x) in flags.iter_mut().zip(scaled) {
@@ -218,13 +267,13 @@ impl Balance<'_> {
                 *flag &= d.abs() <= UNTOUCHED * most;
             }
         }
-        (joints, drives)
+        Labels { joints, drives, groups }
     }
 
-    /// A self-stress in words.
+    /// A self-stress in words; none for one within a single contact.
     pub fn tell(&self, s: &SelfStress) -> String {
         let size = |c: &[f64; 3]| c[0].abs().max(c[1].abs()).max(c[2].abs() / self.length);
-        let most = s.joints.iter().map(size).fold(0.0, f64::max);
+        let most = s.joints.iter().map(size).fold(1.0, f64::max);
         let mut names: Vec<String> = vec![];
         for (joint, c) in self.m.joints.iter().zip(&s.joints) {
             let forced = c[0].abs().max(c[1].abs()) > UNTOUCHED * most;
@@ -235,11 +284,20 @@ impl Balance<'_> {
                 _ => {}
             }
         }
+        for (group, c) in self.m.groups.iter().zip(&s.groups) {
+            if c.iter().any(|x| x.abs() > UNTOUCHED) {
+                names.push(format!("`{}`", group.name));
+            }
+        }
         for (drive, &d) in self.m.drives.iter().zip(&s.drives) {
             if d.abs() > UNTOUCHED * most.max(d.abs()) {
                 names.push(format!("`{}`", drive.name));
             }
         }
-        format!("{} can load each other by any amount without moving anything", names.join(", "))
+        match names.is_empty() {
+            // Within one contact, whose sums it does not touch.
+            true => String::new(),
+            false => format!("{} can load each other by any amount without moving anything", names.join(", ")),
+        }
     }
 }

@@ -29,6 +29,7 @@ impl Source {
         match self {
             Source::Joint(joint, _) => &m.joints[joint].name,
             Source::Drive(drive) => &m.drives[drive].name,
+            Source::Rub(rub) => &m.joints[m.rubs[rub].joint].name,
             Source::Limit(limit) | Source::Friction(limit) => &m.groups[m.limits[limit].group].name,
         }
     }
@@ -87,6 +88,11 @@ impl JointLoad {
 }
 
 impl Balance<'_> {
+    /// The reaction of a joint in the last solution.
+    pub(super) fn joint_load(&self, joint: usize) -> JointLoad {
+        joint_load(self.at(), joint, &self.solved.passed, &self.rows, &self.solved.lambda)
+    }
+
     /// The reaction of every joint in the last solution.
     pub fn joint_loads(&self) -> Vec<JointLoad> {
         let s = &self.solved;
@@ -100,7 +106,10 @@ impl Balance<'_> {
         let second = at.m.ends(&at.m.joints[joint])[1];
         let on_second = load.at_pin(at, second).parts();
         let mut rows = vec![];
-        super::rows::joint_rows(at, joint, None, &mut rows);
+        match at.m.joints[joint].curve {
+            Some(_) => rows.push(super::constraints::curve_row(at, joint)),
+            None => super::rows::joint_rows(at, joint, None, &mut rows),
+        }
         let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());
         let unit = [1.0, 1.0, 1.0 / self.length];
         let g = Matrix::from_fn(3, rows.len(), |i, j| of_second(&rows[j])[i] * unit[i]);
@@ -146,6 +155,7 @@ impl Balance<'_> {
                 left[body] += w;
             }
         }
+        // The loads of friction that slides are among the others.
         for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
             if !matches!(row.source, Source::Joint(..)) {
                 for &(body, load) in row.loads() {

@@ -27,6 +27,8 @@ pub enum Source {
     Limit(usize),
     /// A limit that does not slide: its slide.
     Friction(usize),
+    /// A joint that rubs and does not slide.
+    Rub(usize),
 }
 
 /// One row.
@@ -72,10 +74,21 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
                 rows.push(gap_row(at, limit, base));
                 rows.extend(slide_row(at, limit, base));
             }
-            Hold::Off | Hold::Open | Hold::Idle => {}
+            Hold::Off | Hold::Open | Hold::Pressed | Hold::Idle => {}
         }
     }
+    for rub in (0..at.m.rubs.len()).filter(|&rub| at.mode.rubs[rub] == Hold::Stuck) {
+        rows.push(rub_row(at, rub, base));
+    }
     rows
+}
+
+/// The row that keeps a joint that rubs from sliding.
+fn rub_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let along = &at.m.rubs[index].along;
+    let jet = jet(&Moving { at, bodies: base, accelerations: None }, along);
+    let motion = spread(at, along);
+    Row { source: Source::Rub(index), value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None }
 }
 
 /// The row that keeps the gap of a limit closed; one that slides rubs as it presses.

@@ -114,12 +114,18 @@ impl Compiler<'_> {
             let touches = touches(&a, &b).map_err(refused)?;
             let friction = self.friction(&path, contact)?;
             let restitution = self.restitution(&path, &contact.restitution)?;
+            let soft = self.soft(&path, &contact.stiffness, &contact.damping)?;
+            if soft.is_some() && friction.is_some() {
+                let what = "a contact on a spring has no friction here";
+                return Err(CompileError::new(&path, what, "leave out the friction or the stiffness"));
+            }
             let limits = touches.into_iter().map(|touch| Limit {
                 bodies: touch.bodies(&self.m).into_iter().filter(|&body| body > 0).collect(),
                 gap: Gap::Touch(touch),
                 group: self.m.groups.len(),
                 restitution,
                 friction,
+                soft,
             });
             let limits = limits.collect();
             self.group(&path, &contact.name, "contact", ends, limits, contact.engaged)?;
@@ -138,11 +144,32 @@ impl Compiler<'_> {
                 return Err(CompileError::new(format!("{path}.gap"), what, "name a coordinate, a point or an angle"));
             }
             let restitution = self.restitution(&path, &stop.restitution)?;
+            let soft = self.soft(&path, &stop.stiffness, &stop.damping)?;
             let group = self.m.groups.len();
-            let limit = Limit { gap: Gap::Gauge(gap), group, bodies, restitution, friction: None };
+            let limit = Limit { gap: Gap::Gauge(gap), group, bodies, restitution, friction: None, soft };
             self.group(&path, &stop.name, "stop", [0; 2], vec![limit], stop.engaged)?;
         }
         Ok(())
+    }
+
+    /// The spring and the damper that stand for a limit.
+    pub(crate) fn soft(
+        &mut self,
+        path: &str,
+        stiffness: &Option<Number>,
+        damping: &Option<Number>,
+    ) -> Result<Option<[Slot; 2]>> {
+        let Some(stiffness) = stiffness else {
+            if damping.is_some() {
+                let what = "`damping` goes with `stiffness`";
+                return Err(CompileError::new(format!("{path}.damping"), what, "give the stiffness of its spring, too"));
+            }
+            return Ok(None);
+        };
+        let stiffness = self.number_slot(&format!("{path}.stiffness"), stiffness)?;
+        let none = Number::Literal(0.0);
+        let damping = self.number_slot(&format!("{path}.damping"), damping.as_ref().unwrap_or(&none))?;
+        Ok(Some([stiffness, damping]))
     }
 
     /// Enters a contact, stop or string under its name.

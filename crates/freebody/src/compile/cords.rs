@@ -1,8 +1,8 @@
 //! Strings.
 
-use super::{twice, CompileError, Compiler, Result};
-use crate::contact::{Gap, Group, Limit};
-use crate::mechanism::{Part, Slot};
+use super::{CompileError, Compiler, Result};
+use crate::contact::{Gap, Limit};
+use crate::mechanism::Slot;
 use crate::paths::{Cord, End, Guide};
 use crate::spec::{self, Number};
 
@@ -34,23 +34,11 @@ impl Compiler<'_> {
             let what = format!("this string runs from `{0}` to `{0}`", self.m.bodies[bodies[0]].name);
             return Err(CompileError::new(path, what, "a string joins points of different bodies"));
         }
-        let group = self.m.groups.len();
-        if self.names.groups.insert(string.name.clone(), group).is_some() {
-            return Err(twice(path, &string.name));
-        }
-        let limit = self.m.limits.len();
-        self.m.groups.push(Group {
-            name: string.name.clone(),
-            word: "string",
-            ends: [bodies[0], bodies[bodies.len() - 1]],
-            limits: limit..limit + 1,
-            engaged: string.engaged,
-        });
-        if !string.engaged {
-            self.m.idle.push(Part::Group(group));
-        }
-        let bodies = cord.bodies(&self.m);
-        self.m.limits.push(Limit { gap: Gap::Cord(cord), group, bodies, restitution, friction: None });
+        let ends = [bodies[0], bodies[bodies.len() - 1]];
+        let soft = self.soft(path, &string.stiffness, &string.damping)?;
+        let (group, bodies) = (self.m.groups.len(), cord.bodies(&self.m));
+        let limit = Limit { gap: Gap::Cord(cord), group, bodies, restitution, friction: None, soft };
+        self.group(path, &string.name, "string", ends, vec![limit], string.engaged)?;
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use super::tree::Pair;
 use super::{twice, CompileError, Compiler, Fields, Result};
-use crate::gauges::Law;
+use crate::gauges::{Law, Leaf};
 use crate::graph::Branch as TreeBranch;
 use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
 use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker};
@@ -82,6 +82,33 @@ impl Compiler<'_> {
             self.close(joint)?;
         }
         self.number_coordinates();
+        for (joint, pair) in pairs.iter().enumerate() {
+            self.rub(joint, pair)?;
+        }
+        Ok(())
+    }
+
+    /// Friction along the first coordinate of a joint.
+    fn rub(&mut self, joint: usize, pair: &Pair) -> Result<()> {
+        let Some(friction) = &pair.element.friction else { return Ok(()) };
+        let path = format!("{}.friction", pair.path);
+        let card = pair.kind.card();
+        let turns = card.coordinates.first().is_some_and(|c| c.turn);
+        if !card.rubs || self.m.joints[joint].coordinates.is_empty() {
+            let what = format!("a {} has no friction of its own", card.word);
+            return Err(CompileError::new(path, what, "give it to a hinge, a slot or a slider, or write a contact"));
+        }
+        if turns != friction.radius.is_some() {
+            let what = if turns { "the friction of a hinge needs the radius of its bearing" } else { "this joint has no bearing" };
+            return Err(CompileError::new(path, what, "the bearing radius belongs to the friction of a hinge"));
+        }
+        let kinetic = self.number_slot(&path, &friction.kinetic)?;
+        let fixed = match &friction.fixed {
+            Some(fixed) => self.number_slot(&path, fixed)?,
+            None => kinetic,
+        };
+        let radius = friction.radius.as_ref().map(|r| self.number_slot(&path, r)).transpose()?;
+        self.m.rubs.push(crate::mechanism::Rub { joint, along: Law::leaf(Leaf::Coordinate(joint, 0)), fixed, kinetic, radius });
         Ok(())
     }
 

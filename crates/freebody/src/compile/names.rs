@@ -144,7 +144,9 @@ impl Scope<'_> {
     fn reading(&self, name: &str) -> Option<Result<Law, Message>> {
         let (owner, part) = name.rsplit_once('.')?;
         let n = self.names;
-        let reading = if let Some(&(joint, kind)) = n.joints.get(owner) {
+        let reading = if let (Some(&(joint, _)), "friction") = (n.joints.get(owner), part) {
+            Reading::Rub(joint)
+        } else if let Some(&(joint, kind)) = n.joints.get(owner) {
             let axis = match (part, kind) {
                 ("Fx", _) => Axis::X,
                 ("Fy", _) => Axis::Y,
@@ -157,7 +159,7 @@ impl Scope<'_> {
                 _ => {
                     return Some(Err(parts(
                         owner,
-                        "Fx, Fy, M, F, Fs, Fn, for each of its constraints F1, F2 (and tension for a link)",
+                        "Fx, Fy, M, F, Fs, Fn, friction, for each of its constraints F1, F2 (and tension for a link)",
                     )))
                 }
             };

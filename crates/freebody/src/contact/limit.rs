@@ -21,6 +21,8 @@ pub struct Limit {
     pub restitution: Slot,
     /// Friction, where it can rub.
     pub friction: Option<Friction>,
+    /// Stiffness, N/m, and damping, N·s/m, where a spring and a damper stand for the limit: it can be violated, against them.
+    pub soft: Option<[Slot; 2]>,
 }
 
 /// A contact, stop or string, as its user names it; a contact of polygons is many limits.

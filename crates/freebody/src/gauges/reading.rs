@@ -33,6 +33,8 @@ pub enum Reading {
     Centre(Axis),
     /// Something of a contact, stop or string.
     Limit(usize, Bound),
+    /// Friction of a joint along its coordinate.
+    Rub(usize),
     /// Work of all friction since the start.
     FrictionWork,
 }
@@ -55,9 +57,16 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// Whether it is known without the forces.
-    pub fn is_geometric(self) -> bool {
-        matches!(self, Bound::Gap | Bound::Slip)
+    /// What must be determinate for it: of the force on the first body along x and y, the normal force, the friction.
+    pub fn needs(self) -> &'static [usize] {
+        match self {
+            Bound::Gap | Bound::Slip => &[],
+            Bound::OnFirst(Axis::X) => &[0],
+            Bound::OnFirst(Axis::Y) => &[1],
+            Bound::OnFirst(_) => &[0, 1],
+            Bound::Force | Bound::Place(_) => &[2],
+            Bound::Friction => &[3],
+        }
     }
 }
 

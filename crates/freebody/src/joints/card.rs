@@ -16,6 +16,8 @@ pub struct Card {
     pub coordinates: Vec<CoordinateCard>,
     /// Rows of `residual`, in order.
     pub rows: Vec<RowCard>,
+    /// Whether it can rub along its first coordinate.
+    pub rubs: bool,
 }
 
 /// One field of a card.
@@ -107,7 +109,7 @@ pub struct RowCard {
 impl Card {
     /// A card with its word and sentence.
     pub fn new(word: &'static str, doc: &'static str) -> Self {
-        Card { word, doc, fields: vec![], coordinates: vec![], rows: vec![] }
+        Card { word, doc, fields: vec![], coordinates: vec![], rows: vec![], rubs: false }
     }
     /// A field that must be given.
     pub fn needs(
@@ -152,6 +154,11 @@ impl Card {
     /// A force row of which only the change counts.
     pub fn phased(mut self, name: &'static str) -> Self {
         self.rows.push(RowCard { name, turning: false, phased: true });
+        self
+    }
+    /// It can rub along its first coordinate.
+    pub fn rubbing(mut self) -> Self {
+        self.rubs = true;
         self
     }
     /// A row that holds the second body's turn.

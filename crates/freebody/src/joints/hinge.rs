@@ -12,6 +12,7 @@ impl Joint for Hinge {
             .turn()
             .force("force along x")
             .force("force along y")
+            .rubbing()
     }
     #[inline]
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {

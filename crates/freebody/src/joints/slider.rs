@@ -15,6 +15,7 @@ impl Joint for Slider {
             .coordinate("s", "m")
             .force("normal force")
             .couple()
+            .rubbing()
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })

@@ -13,6 +13,7 @@ impl Joint for Slot {
             .coordinate("s", "m")
             .turn()
             .force("normal force")
+            .rubbing()
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: q[1] })

@@ -184,10 +184,10 @@ impl Watcher {
         }
     }
 
-    /// Function `i` acted where the run stopped and is now heading for `side`: its zero there
-    /// is used up.
-    pub fn spend(&mut self, i: usize, side: i8) {
-        (self.memory[i].side, self.memory[i].is_spent) = (side, true);
+    /// Function `i` acted at `t`, where the run stopped, and is now heading for `side`: its zero there is used up.
+    pub fn spend(&mut self, i: usize, side: i8, t: f64) {
+        let memory = &mut self.memory[i];
+        (memory.side, memory.is_spent, memory.last_touch) = (side, true, t);
     }
 }
 

@@ -59,7 +59,7 @@ impl Runner<'_> {
                 // A kink has changed to the arm beyond.
                 Role::Event | Role::Kink => hit.direction * self.sign() as i8,
             };
-            self.watcher.spend(hit.index, side);
+            self.watcher.spend(hit.index, side, self.now.t);
         }
         Ok(())
     }
@@ -188,7 +188,7 @@ impl Chatter {
         self.count += 1;
         let before = self.instant.1.iter().filter(|&&i| i == index).count();
         if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
-            return Err(Outcome::TooManyEvents);
+            return Err(Outcome::Chatter { index });
         }
         self.instant.1.push(index);
         Ok(())

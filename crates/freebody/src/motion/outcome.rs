@@ -43,7 +43,10 @@ pub enum Outcome {
         reason: &'static str,
     },
     /// Events came so densely that the motion no longer advances.
-    TooManyEvents,
+    Chatter {
+        /// Index of the switching function that came last.
+        index: usize,
+    },
 }
 
 impl Outcome {
@@ -60,7 +63,7 @@ impl Outcome {
             Self::Interrupted => "Interrupted",
             Self::Trouble(trouble) => trouble.name,
             Self::Unsupported { .. } => "Unsupported",
-            Self::TooManyEvents => "TooManyEvents",
+            Self::Chatter { .. } => "Chatter",
         }
     }
 
@@ -94,10 +97,9 @@ impl fmt::Display for Outcome {
             Self::Unsupported { method, reason } => {
                 write!(out, "{method} cannot do this because {reason}")
             }
-            Self::TooManyEvents => write!(
+            Self::Chatter { index } => write!(
                 out,
-                "an event came back within one instant, or 10000 events within 1e-9: the motion \
-                 chatters, or comes to rest by ever smaller bounces"
+                "switching function {index} came back within one instant, or 10000 events came within 1e-9: the motion chatters"
             ),
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
-use super::switching::{Change, Rule, GUARDS};
-use crate::mechanism::{Deed, Event, Kink};
+use super::switching::{Change, Rule, GUARDS, RUB_GUARDS};
+use crate::mechanism::{Deed, Event, Kink, Mechanism};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, System, Watch};
 
@@ -34,8 +34,12 @@ pub struct Machine<'m> {
     pub(super) driven: Vec<usize>,
     /// Whether the work of friction is integrated.
     pub(super) rubs: bool,
+    /// Whether the work of springs of limits is integrated.
+    pub(super) presses: bool,
     /// What is done about impacts that the laws leave open.
     pub(super) rule: Rule,
+    /// Whether contacts that jam by friction strike, instead of ending the run.
+    pub(super) jams_strike: bool,
     /// What has switched.
     pub(super) changes: Vec<Change>,
     /// How long the flight after the last bounce lasts, where bounces grow short, s.
@@ -60,14 +64,17 @@ impl<'m> Machine<'m> {
         let worked = (0..m.forces.len()).filter(|&f| m.forces[f].potential.is_none() || m.forces[f].pulls.len() > 1);
         let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
-        let rubs = m.limits.iter().any(|limit| limit.friction.is_some());
-        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(rubs);
+        let rubs = !m.rubs.is_empty() || m.limits.iter().any(|limit| limit.friction.is_some());
+        let presses = m.limits.iter().any(|limit| limit.soft.is_some());
+        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(rubs) + usize::from(presses);
         Machine {
             balance,
             worked,
             driven,
             rubs,
+            presses,
             rule: Rule::Stop,
+            jams_strike: false,
             changes: vec![],
             flight: None,
             strength: 1.0,
@@ -183,7 +190,7 @@ impl<'m> Machine<'m> {
         let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
         let tail = &y[2 * m.freedom()..];
         if self.rubs {
-            works[m.forces.len() + m.drives.len()] = tail[tail.len() - 1];
+            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
         }
         for (i, &f) in self.worked.iter().enumerate() {
             works[f] = tail[i];
@@ -192,6 +199,27 @@ impl<'m> Machine<'m> {
             works[m.forces.len() + d] = tail[self.worked.len() + i];
         }
         works
+    }
+
+    /// What switching function `i` is about, in the model's words.
+    pub fn switch_name(m: &Mechanism, i: usize) -> String {
+        if let Some(event) = m.events.get(i) {
+            return format!("event `{}`", event.name);
+        }
+        let Some(guard) = (i - m.events.len()).checked_sub(m.kinks.len()) else { return "kink of a law".to_string() };
+        match guard.checked_sub(GUARDS * m.limits.len()) {
+            None => {
+                let group = &m.groups[m.limits[guard / GUARDS].group];
+                format!("{} `{}`", group.word, group.name)
+            }
+            Some(rub) => format!("joint `{}`", m.joints[m.rubs[rub / RUB_GUARDS].joint].name),
+        }
+    }
+
+    /// Whether all that an event would release is gone already.
+    fn is_spent(&self, event: &Event) -> bool {
+        let gone = |deed: &Deed| matches!(deed, Deed::Release(part) if !self.balance.has(*part));
+        event.then.iter().any(|deed| matches!(deed, Deed::Release(_))) && event.then.iter().all(gone)
     }
 
     /// Takes the other arm of a switch.
@@ -213,7 +241,7 @@ impl<'m> Machine<'m> {
         }
         if !values.is_empty() {
             self.change(t, y, &values);
-            if !self.balance.m.limits.is_empty() {
+            if !(self.balance.m.limits.is_empty() && self.balance.m.rubs.is_empty()) {
                 self.settle(t, y)?;
             }
         }
@@ -267,6 +295,9 @@ impl System for Machine<'_> {
         if self.rubs {
             dy[2 * n + self.worked.len() + self.driven.len()] = self.balance.friction_power();
         }
+        if self.presses {
+            dy[self.scales.len() - 1] = self.balance.pressed_power();
+        }
         Ok(())
     }
 
@@ -319,7 +350,8 @@ impl System for Machine<'_> {
     }
 
     fn switches(&self) -> usize {
-        self.balance.m.events.len() + self.balance.m.kinks.len() + GUARDS * self.balance.m.limits.len()
+        let m = self.balance.m;
+        m.events.len() + m.kinks.len() + GUARDS * m.limits.len() + RUB_GUARDS * m.rubs.len()
     }
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
@@ -333,7 +365,7 @@ impl System for Machine<'_> {
                 out[m.events.len() + i] = self.switching(kink);
             }
         }
-        if !m.limits.is_empty() {
+        if !(m.limits.is_empty() && m.rubs.is_empty()) {
             self.guard_values(t, y, &mut out[m.events.len() + m.kinks.len()..])?;
         }
         Ok(())
@@ -350,6 +382,9 @@ impl System for Machine<'_> {
 
     fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, Trouble> {
         let m = self.balance.m;
+        if m.events.get(i).is_some_and(|event| event.guard && self.is_spent(event)) {
+            return Ok(false);
+        }
         let Some(condition) = m.events.get(i).and_then(|e| e.condition.as_ref()) else { return Ok(true) };
         Ok(self.read(&[condition.as_expr()], t, y)?[0] > 0.5)
     }
@@ -361,7 +396,10 @@ impl System for Machine<'_> {
                 Some(kink) => self.turn(kink, t),
                 None => {
                     let guard = i - m.events.len() - m.kinks.len();
-                    self.switch_limit(guard / GUARDS, guard % GUARDS, t, y)?;
+                    match guard.checked_sub(GUARDS * m.limits.len()) {
+                        None => self.switch_limit(guard / GUARDS, guard % GUARDS, t, y)?,
+                        Some(rub) => self.switch_rub(rub / RUB_GUARDS, rub % RUB_GUARDS, t, y)?,
+                    }
                 }
             }
             return Ok(After::Restart);

@@ -28,6 +28,8 @@ pub struct Settings {
     pub route: Option<Route>,
     /// What is done about impacts that the laws leave open.
     pub impacts: Rule,
+    /// Whether contacts that jam by friction strike, instead of ending the run.
+    pub jams_strike: bool,
 }
 
 impl Settings {
@@ -77,6 +79,7 @@ pub fn simulate(
     balance.take_phases();
     let mut machine = Machine::new(balance, start.p);
     machine.rule = settings.impacts;
+    machine.jams_strike = settings.jams_strike;
     let mut y = machine.pack(start.q, start.u);
     machine.freeze_arms(start.t, &y);
     machine.size_up(start.t, &y);

@@ -1,7 +1,7 @@
 //! What switches during a motion: parts released and engaged, impacts, limits that hold and let go.
 
 use super::Machine;
-use crate::balance::{Blow, Reached, Trouble};
+use crate::balance::{Blow, Reached, Scale, Trouble};
 use crate::contact::complementarity::{self, Law, Strike};
 use crate::contact::Friction;
 use crate::gauges::Law as Gauge;
@@ -21,6 +21,8 @@ const BRIEF: f64 = 1e-5;
 const ROUNDS: usize = 100;
 /// Guards of each limit: gap or force, two for friction, border.
 pub(super) const GUARDS: usize = 4;
+/// Guards of each joint that rubs: friction in either direction, or the speed.
+pub(super) const RUB_GUARDS: usize = 2;
 
 /// What to do about impacts whose outcome rigid bodies leave open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +89,7 @@ impl Machine<'_> {
         if m.changes() && until < t {
             return Err(Trouble::new("backward", "impacts and releases cannot be undone: choose an end after the start"));
         }
-        if !m.limits.is_empty() {
+        if !(m.limits.is_empty() && m.rubs.is_empty()) {
             self.place(t, y);
             self.balance.start_limits()?;
             self.settle(t, y)?;
@@ -102,16 +104,21 @@ impl Machine<'_> {
     /// The values of the guards of all limits: positive as long as the mode holds.
     pub(super) fn guard_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
-        let carries = self.balance.mode.limits.iter().any(|held| held.hold.carries());
+        let m = self.balance.m;
+        let carries = !m.rubs.is_empty() || self.balance.mode.limits.iter().any(|held| held.hold.carries());
         if carries {
             self.balance.solve()?;
         }
         let forces = if carries { self.balance.limit_forces() } else { vec![] };
+        let (out, rubs) = out.split_at_mut(GUARDS * m.limits.len());
+        self.rub_values(rubs);
         for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
             let held = self.balance.mode.limits[l];
             values.fill(1.0);
             match held.hold {
                 Hold::Off => continue,
+                Hold::Open if m.limits[l].soft.is_some() => values[0] = self.free_of_spring(l),
+                Hold::Pressed => values[0] = self.kept_by_spring(l),
                 Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
                 Hold::Idle => values[0] = self.balance.limit_gap(l) / self.balance.length + REACHED,
                 Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
@@ -132,9 +139,42 @@ impl Machine<'_> {
         Ok(())
     }
 
+    /// The values of the guards of all joints that rub, at the state of the last solution.
+    fn rub_values(&self, out: &mut [f64]) {
+        for (rub, values) in out.chunks_exact_mut(RUB_GUARDS).enumerate() {
+            values.fill(1.0);
+            match self.balance.mode.rubs[rub] {
+                Hold::Stuck => {
+                    let reserve = self.balance.rub_reserve(rub).map(|r| r / self.strength);
+                    values.copy_from_slice(&reserve);
+                }
+                Hold::Sliding(sense) => values[0] = sense * self.balance.rub_rate(rub) / self.speed,
+                _ => {}
+            }
+        }
+    }
+
+    /// Positive while the gap of a limit with a spring is open, or its damper would have to pull.
+    fn free_of_spring(&self, l: usize) -> f64 {
+        let gap = self.balance.limit_gap(l) / self.balance.length;
+        gap.max(-self.balance.press(l) / self.strength)
+    }
+
+    /// Positive while the gap of a limit with a spring is violated and the spring pushes.
+    fn kept_by_spring(&self, l: usize) -> f64 {
+        let gap = self.balance.limit_gap(l) / self.balance.length;
+        (-gap).min(self.balance.press(l) / self.strength)
+    }
+
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
+        if self.balance.m.limits[l].soft.is_some() {
+            let before = self.balance.mode.clone();
+            let held = &mut self.balance.mode.limits[l];
+            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
+            return self.take_mode(t, &before);
+        }
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
@@ -146,32 +186,49 @@ impl Machine<'_> {
         self.settle(t, y)
     }
 
-    /// Impacts until nothing approaches, then which limits hold.
+    /// A guard of a joint that rubs fell to zero: it sticks no more, or stopped.
+    pub(super) fn switch_rub(&mut self, rub: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
+        let slides = self.balance.mode.rubs[rub] == Hold::Stuck;
+        // The friction that is used up pushes against the sliding to come.
+        let sense = if guard == 0 { -1.0 } else { 1.0 };
+        self.settle_with(t, y, slides.then_some((rub, sense)))
+    }
+
+    /// Impacts until nothing approaches, then which limits hold and which joints stick.
     ///
     /// # Errors
     /// `simultaneous_impact` and the paradoxes of Painlevé, by name.
     pub(super) fn settle(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
+        self.settle_with(t, y, None)
+    }
+
+    fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
+        let still = STILL * self.speed;
         let mut struck = false;
         for _ in 0..ROUNDS {
+            // Joints pass impulses on without friction.
+            self.balance.mode.rubs.fill(Hold::Open);
             self.place(t, y);
             self.balance.find_pieces();
             let touching = self.balance.touching(REACHED * self.balance.length);
-            if touching.is_empty() {
-                return self.take_mode(t, &before);
-            }
             let reached = self.balance.reach(touching)?;
             let k = reached.limits.len();
-            let still = STILL * self.speed;
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
                 self.impact(t, y, &reached)?;
                 struck = true;
                 continue;
             }
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
-            if !staying.is_empty() {
-                self.take_holds(t, y, staying.iter().map(|&i| reached.limits[i]).collect())?;
+            let staying: Vec<usize> = staying.iter().map(|&i| reached.limits[i]).collect();
+            match self.stick(t, y, &staying, loose) {
+                Err(trouble) if self.jams_strike && !struck && trouble.name == "painleve_inconsistent" => {
+                    self.seize(t, y, &staying)?;
+                    struck = true;
+                    continue;
+                }
+                done => done?,
             }
             if struck && !parting.is_empty() && self.capture(t, y, &reached, &parting)? {
                 continue;
@@ -184,22 +241,21 @@ impl Machine<'_> {
         ))
     }
 
-    /// Decides how limits that neither approach nor part go on, and brings the state exactly onto them.
-    fn take_holds(&mut self, t: f64, y: &mut [f64], limits: Vec<usize>) -> Result<(), Trouble> {
-        let still = STILL * self.speed;
+    /// Decides which limits hold and which joints stick, and brings the state exactly onto them.
+    fn stick(&mut self, t: f64, y: &mut [f64], limits: &[usize], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
-        let reached = self.balance.reach(limits)?;
-        let slips = reached.slips();
-        let mut holding = self.balance.hold(&reached, &slips, still)?;
-        if holding.close {
-            // What nothing decides now is decided by what comes next.
-            self.balance.take(&reached, &holding);
-            let (q, u) = self.ahead(t, y)?;
-            self.balance.place(t + self.glimpse(), &q, &u);
-            let next = self.balance.reach(reached.limits.clone())?;
-            holding = self.balance.hold(&next, &slips, still)?;
+        self.balance.start_rubs(STILL * self.speed);
+        if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
+            self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }
-        self.balance.take(&reached, &holding);
+        for _ in 0..=self.balance.m.rubs.len() {
+            if !limits.is_empty() {
+                self.take_holds(t, y, limits)?;
+            }
+            if self.balance.m.rubs.is_empty() || !self.balance.loosen_rubs()? {
+                break;
+            }
+        }
         let (q, rest) = y.split_at_mut(n);
         self.balance.close(t, q, &rest[..n])?;
         self.balance.align(t, q, &mut rest[..n])?;
@@ -210,6 +266,26 @@ impl Machine<'_> {
             y[n..2 * n].fill(0.0);
             self.balance.mode.resting = true;
         }
+        Ok(())
+    }
+
+    /// Decides how limits that neither approach nor part go on.
+    fn take_holds(&mut self, t: f64, y: &[f64], limits: &[usize]) -> Result<(), Trouble> {
+        let scale = Scale { still: STILL * self.speed, pace: self.speed * self.speed / self.balance.length };
+        self.place(t, y);
+        let reached = self.balance.reach(limits.to_vec())?;
+        let slips = reached.slips();
+        let mut holding = self.balance.hold(&reached, &slips, scale)?;
+        if holding.close {
+            // What nothing decides now is decided by what comes next.
+            self.balance.take(&reached, &holding);
+            let (q, u) = self.ahead(t, y)?;
+            self.balance.place(t + self.glimpse(), &q, &u);
+            let next = self.balance.reach(reached.limits.clone())?;
+            holding = self.balance.hold(&next, &slips, scale)?;
+            self.place(t, y);
+        }
+        self.balance.take(&reached, &holding);
         Ok(())
     }
 
@@ -326,7 +402,7 @@ impl Machine<'_> {
             let group = &m.groups[limit.group];
             let string = group.word == "string";
             let (was, is) = (before.limits[l].hold, self.balance.mode.limits[l].hold);
-            let kind = match (was.is_closed(), is.is_closed()) {
+            let kind = match (was.touches(), is.touches()) {
                 (true, false) if string => "slack",
                 (true, false) => "lift-off",
                 (false, true) if self.has_struck(t, &group.name) => continue,
@@ -342,6 +418,15 @@ impl Machine<'_> {
             if !told.iter().any(|(k, name)| *k == kind && *name == group.name) {
                 told.push((kind, group.name.clone()));
             }
+        }
+        for (rub, of) in m.rubs.iter().enumerate() {
+            let kind = match (before.rubs[rub], self.balance.mode.rubs[rub]) {
+                (Hold::Stuck, Hold::Sliding(_)) => "slip",
+                (Hold::Sliding(_), Hold::Stuck) => "stick",
+                (Hold::Sliding(a), Hold::Sliding(b)) if a != b => "reversal",
+                _ => continue,
+            };
+            told.push((kind, m.joints[of.joint].name.clone()));
         }
         for (kind, name) in told {
             self.note(Change { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note: None });
@@ -371,6 +456,7 @@ impl Machine<'_> {
     /// As [`Machine::settle`].
     pub(super) fn switch_parts(&mut self, t: f64, y: &mut [f64], deeds: &[Deed]) -> Result<bool, Trouble> {
         let mut switched = false;
+        self.place(t, y);
         for deed in deeds {
             switched |= match deed {
                 Deed::Release(part) => self.put(t, *part, false),
@@ -419,6 +505,26 @@ impl Machine<'_> {
         Ok(())
     }
 
+    /// Contacts that jam seize: the impact without a collision that brings their sliding to an end (Génot & Brogliato
+    /// 1999, *European Journal of Mechanics A* 18).
+    fn seize(&mut self, t: f64, y: &mut [f64], limits: &[usize]) -> Result<(), Trouble> {
+        for &limit in limits {
+            self.balance.mode.limits[limit].hold = Hold::Stuck;
+        }
+        let (n, before) = (self.balance.m.freedom(), y.to_vec());
+        self.place(t, y);
+        let energy = self.balance.kinetic_energy();
+        let blow = self.balance.joining_blow()?;
+        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let note = Some("the contact jammed: an impact without a collision".to_string());
+        let (impulses, states) = (Some(Impulses { limits: vec![], joints }), Some([before, y.to_vec()]));
+        self.note_jump(Change { t, kind: "impact", of: self.names(limits), lost, states, impulses, note });
+        Ok(())
+    }
+
     /// Lets what was engaged take hold: a plastic impact of the joints.
     fn close_up(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
@@ -436,8 +542,6 @@ impl Machine<'_> {
         self.place(t, y);
         let lost = energy - self.balance.kinetic_energy();
         if lost.abs() <= 1e-14 * energy {
-            y.copy_from_slice(&before);
-            self.place(t, y);
             return Ok(());
         }
         let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();

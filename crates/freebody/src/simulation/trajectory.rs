@@ -3,7 +3,7 @@
 use super::machine::Stretch;
 use super::switching::Change;
 use super::{Machine, Settings};
-use crate::balance::{Balance, Observer, Route, Trouble};
+use crate::balance::{Balance, Freedom, Instant, Observer, Route, Trouble};
 use crate::gauges::Law;
 use crate::mechanism::Mechanism;
 use crate::motion::{Happening, Kind, Outcome, Run};
@@ -29,6 +29,7 @@ pub struct Trajectory {
     /// What switched on the way.
     pub changes: Vec<Change>,
     rubs: bool,
+    presses: bool,
     run: Run,
     stretches: Vec<Stretch>,
     opening: [f64; 2],
@@ -61,6 +62,7 @@ impl Trajectory {
             stretches: machine.stretches,
             opening,
             rubs: machine.rubs,
+            presses: machine.presses,
             changes: machine.changes,
             worked: machine.worked,
             driven: machine.driven,
@@ -158,7 +160,7 @@ impl Trajectory {
         let mut rows = vec![];
         self.each(m, times, |balance, _, _| {
             balance.solve()?;
-            let (sure, _) = balance.labels();
+            let sure = balance.labels().joints;
             let loads = balance.joint_loads();
             rows.push(loads.iter().zip(sure).map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
             Ok(())
@@ -188,7 +190,7 @@ impl Trajectory {
         let tail = &y[2 * m.freedom()..];
         let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
         if self.rubs {
-            works[m.forces.len() + m.drives.len()] = tail[tail.len() - 1];
+            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
         }
         for (i, &f) in self.worked.iter().enumerate() {
             works[f] = tail[i];
@@ -208,6 +210,7 @@ impl Trajectory {
         names.extend(self.worked.iter().map(|&f| m.forces[f].name.clone()));
         names.extend(self.driven.iter().map(|&d| m.drives[d].name.clone()));
         names.extend(self.rubs.then(|| "friction".to_string()));
+        names.extend(self.presses.then(|| "compliant contacts".to_string()));
         names.extend(["parameter changes".into(), "impacts".into(), "balance".into()]);
         let start: f64 = self.opening.iter().sum();
         let mut rows = vec![];
@@ -226,14 +229,15 @@ impl Trajectory {
         Ok(Ledger { names, rows })
     }
 
-    /// Everything about one time.
+    /// Everything about one time, and the degrees of freedom then.
     ///
     /// # Errors
     /// As [`Trajectory::reactions`].
-    pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<crate::balance::Instant, Trouble> {
+    pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
         let mut found = None;
         self.each(m, &[t], |balance, _, _| {
-            found = Some(balance.instant(route)?);
+            let instant = balance.instant(route)?;
+            found = Some((instant, balance.freedom()));
             Ok(())
         })?;
         Ok(found.expect("one time was visited"))

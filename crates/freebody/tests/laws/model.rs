@@ -124,7 +124,7 @@ impl Model {
 
 pub fn element(name: &str, kind: &str, fields: &[(&str, Value)], coordinates: Vec<Coordinate>) -> Element {
     let fields = fields.iter().map(|(word, value)| (word.to_string(), value.clone())).collect();
-    Element { name: name.into(), kind: kind.into(), fields, coordinates, engaged: true }
+    Element { name: name.into(), kind: kind.into(), fields, coordinates, engaged: true, friction: None }
 }
 
 pub fn joint_named(m: &Mechanism, name: &str) -> usize {

@@ -1,10 +1,12 @@
-"""19.3.14: mass on a driven cart on a ramp, while it touches.
+"""19.3.14: mass on a driven cart on a ramp, and when it lifts off.
 
 The cart does not turn, so every point of it has the acceleration a₀ e, e along the ramp at β = 30°. The mass has
 a₀ e + s̈ τ with τ = (cos γ, sin γ) along the top. Balance along τ and along the normal n = (−sin γ, cos γ):
     s̈ = −g sin γ − a₀ cos(γ − β),   N = m (g cos γ − a₀ sin(γ − β)),
 whatever d₀, v₀ and t. The force on the mass is N n. Its acceleration is vertical exactly when N sin γ = 0: for any a₀ on
 a level top, else only where N = 0, a₀ = g cos γ/sin(γ − β): the mass then falls freely, barely touching. For γ = β no a₀ will do.
+The cart pushes and cannot pull: beyond that a₀ the mass is left behind at once and falls freely, from the velocity v₀ e, while the
+top runs away below it: with N = 0 its height over the top grows as (a₀ sin(γ − β) − g cos γ) t²/2.
 """
 
 from math import cos, pi, sin
@@ -33,7 +35,7 @@ def force(case):
         for t in (0.0, 0.3):
             components = [run.evaluate(f"top.{part}", t) for part in ("Fx", "Fy")]
             yield Answer(f"Fx, Fy at {t:g} s, {of}", components, "N", [-N * sin(gamma), N * cos(gamma)], AGAINST, 1e-12)
-        yield Answer(f"normal force, {of}", run.evaluate("top.Fn", 0.0), "N", N, AGAINST, 1e-12)
+        yield Answer(f"normal force, {of}", run.evaluate("top.N", 0.0), "N", N, AGAINST, 1e-12)
         yield Answer(
             f"sliding acceleration along the top, {of}", run.evaluate("accel(s)", 0.0), "m/s²", slide(gamma), AGAINST, 1e-12
         )
@@ -43,11 +45,11 @@ def force(case):
 def depends(case):
     gamma = pi / 3
     for parameters in ({"d0": 2.0}, {"v0": -4.0}, {"d0": 0.1, "v0": 3.0}):
-        value = case.instant(parameters=parameters)["top.Fn"]
+        value = case.instant(parameters=parameters)["top.N"]
         of = ", ".join(f"{name} = {given:g}" for name, given in parameters.items())
         yield Answer(f"normal force with {of}", value, "N", normal(gamma), "closed form: no d₀, v₀, t in it", 1e-12)
     for a0 in (0.0, 6.0, 9.0):
-        value = case.instant(parameters={"a0": a0})["top.Fn"]
+        value = case.instant(parameters={"a0": a0})["top.N"]
         yield Answer(f"normal force with a0 = {a0:g}", value, "N", normal(gamma, a0), AGAINST, 1e-12)
 
 
@@ -82,3 +84,29 @@ def position(case):
         place = [run.evaluate(f"{axis}(mass.centre)", t) for axis in "xy"]
         check = [d * cos(BETA) + s * cos(gamma), d * sin(BETA) + s * sin(gamma)]
         yield Answer(f"x, y, γ = {degrees}°", place, "m", check, "closed form: constant accelerations", 1e-11)
+        gap = run.evaluate("top.gap", t)
+        yield Answer(f"gap to the top, γ = {degrees}°", gap, "m", 0.0, "closed form: N > 0", 1e-13, d)
+
+
+@ask("The run with γ = 60°, a₀ = 12: the mass is left behind")
+def left_behind(case):
+    gamma, a0, t = pi / 3, 12.0, 0.3
+    run = case.run(parameters={"a0": a0})
+    against = "closed form: free fall from v₀ along the ramp"
+    yield Answer(
+        "force of the cart on the mass at 0, 0.3 s", run.evaluate("top.N", [0.0, t]), "N", [0.0] * 2, "it cannot pull", 0, M
+    )
+    place = [run.evaluate(f"{axis}(mass.centre)", t) for axis in "xy"]
+    along = D0 + V0 * t
+    check = [along * cos(BETA), along * sin(BETA) - G * t**2 / 2]
+    yield Answer("x, y at 0.3 s", place, "m", check, against, 1e-11)
+    above = (a0 * sin(gamma - BETA) - G * cos(gamma)) * t**2 / 2
+    yield Answer("gap to the top at 0.3 s", run.evaluate("top.gap", t), "m", above, against, 1e-11)
+    back = run.evaluate("s", t)
+    check = (-G * sin(gamma) - a0 * cos(gamma - BETA)) * t**2 / 2
+    yield Answer("where it is along the top", back, "m", check, against, 1e-11)
+    touching = case.run(parameters={"a0": 9.8}).evaluate("top.gap", t)
+    yield Answer("gap for a₀ = 9.8, just below the limit of 9.81", touching, "m", 0.0, "closed form: N > 0", 1e-13, 1.0)
+    check = (9.82 * sin(gamma - BETA) - G * cos(gamma)) * t**2 / 2
+    parted = case.run(parameters={"a0": 9.82}).evaluate("top.gap", t)
+    yield Answer("gap for a₀ = 9.82, just above it", parted, "m", check, against, 1e-9)

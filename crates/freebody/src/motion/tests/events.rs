@@ -169,7 +169,7 @@ fn a_ball_that_comes_to_rest_is_named() {
     let run = system.run("dop853", (0.0, &[1.0, 0.0]), 3.0, &rtol(1e-10));
     println!("{:?} at {} after {} bounces", run.outcome, run.t, run.events.len());
     let rest = 3.0 * (2.0_f64 / 9.81).sqrt();
-    assert_eq!(run.outcome, Outcome::TooManyEvents);
+    assert!(matches!(run.outcome, Outcome::Chatter { .. }));
     assert!((run.t - rest).abs() < 1e-7);
 }
 
@@ -236,6 +236,6 @@ fn sliding_on_a_kink_is_named() {
         });
     system.watches[0].role = Role::Kink;
     let run = system.run("dop853", (0.0, &[0.7]), 3.0, &rtol(1e-9));
-    assert_eq!(run.outcome, Outcome::TooManyEvents);
+    assert!(matches!(run.outcome, Outcome::Chatter { .. }));
     assert!((run.t - 1.0).abs() < 1e-12);
 }

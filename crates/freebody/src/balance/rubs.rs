@@ -1,0 +1,115 @@
+//! Friction in joints: Coulomb's, by the size of the force that the joint carries.
+//!
+//! The load of a joint depends on its friction and the friction on its load. Where it slides both are found in turns; as
+//! long as friction does not jam the joint each turn brings them closer.
+
+use super::rows::spread;
+use super::{Balance, Route, Source, Trouble};
+use crate::gauges::{jet, Moving};
+use crate::mode::Hold;
+
+/// Turns after which a joint counts as jammed.
+const TURNS: usize = 200;
+/// Change of a friction force, over itself, that is round-off.
+const SETTLED: f64 = 1e-14;
+
+impl Balance<'_> {
+    /// The most that the friction of a joint can be in the last solution, by a coefficient: N, or N·m of a hinge.
+    fn most_friction(&self, rub: usize, rests: bool) -> f64 {
+        let of = &self.m.rubs[rub];
+        let load = self.joint_load(of.joint).force.norm();
+        let arm = of.radius.map_or(1.0, |slot| self.n.slots[slot]);
+        load * arm * self.n.slots[if rests { of.fixed } else { of.kinetic }]
+    }
+
+    /// Adds the loads of all joints that slide.
+    pub(super) fn add_rubs(&mut self) {
+        for rub in 0..self.m.rubs.len() {
+            let force = self.rub_forces[rub];
+            if matches!(self.mode.rubs[rub], Hold::Sliding(_)) && force != 0.0 {
+                for (body, load) in spread(self.at(), &self.m.rubs[rub].along) {
+                    self.loads[body] += load * force;
+                }
+            }
+        }
+    }
+
+    /// Solves again until the friction of all joints that slide fits their loads.
+    pub(super) fn fit_rubs(&mut self, route: Route) -> Result<(), Trouble> {
+        for _ in 0..TURNS {
+            let wanted: Vec<f64> = (0..self.m.rubs.len()).map(|rub| self.sliding_friction(rub)).collect();
+            let fits = |(&a, &b): (&f64, &f64)| (a - b).abs() <= SETTLED * a.abs().max(b.abs());
+            if wanted.iter().zip(&self.rub_forces).all(fits) {
+                return Ok(());
+            }
+            self.rub_forces = wanted;
+            self.solve_once(route)?;
+        }
+        let names: Vec<String> = self.m.rubs.iter().map(|r| format!("`{}`", self.m.joints[r.joint].name)).collect();
+        Err(Trouble::new(
+            "friction_jams",
+            format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
+        ))
+    }
+
+    fn sliding_friction(&self, rub: usize) -> f64 {
+        match self.mode.rubs[rub] {
+            Hold::Sliding(sense) => -sense * self.most_friction(rub, false),
+            _ => 0.0,
+        }
+    }
+
+    /// The friction of a joint in the last solution, along its coordinate: N, or N·m of a hinge.
+    pub fn rub_force(&self, rub: usize) -> f64 {
+        match self.mode.rubs[rub] {
+            Hold::Sliding(_) => self.rub_forces[rub],
+            _ => {
+                let rows = self.rows.iter().zip(&self.solved.lambda);
+                rows.filter(|(row, _)| row.source == Source::Rub(rub)).map(|(_, &l)| l).sum()
+            }
+        }
+    }
+
+    /// How much of the friction at rest is left in the last solution, in either direction.
+    pub fn rub_reserve(&self, rub: usize) -> [f64; 2] {
+        let (most, force) = (self.most_friction(rub, true), self.rub_force(rub));
+        [most - force, most + force]
+    }
+
+    /// The rate of the coordinate along which a joint rubs, at the present state.
+    pub fn rub_rate(&self, rub: usize) -> f64 {
+        jet(&Moving { at: self.at(), bodies: None, accelerations: None }, &self.m.rubs[rub].along).d1
+    }
+
+    /// Power of the joints that slide in the last solution, W.
+    pub(super) fn rub_power(&self) -> f64 {
+        (0..self.m.rubs.len()).map(|rub| self.rub_force(rub) * self.rub_rate(rub)).sum()
+    }
+
+    /// Lets every joint that rubs go on as it is: those that move slide, the others stick.
+    pub fn start_rubs(&mut self, still: f64) {
+        for rub in 0..self.m.rubs.len() {
+            let rate = self.rub_rate(rub);
+            let arm = self.m.rubs[rub].radius.map_or(1.0, |_| self.length);
+            self.mode.rubs[rub] = if rate.abs() * arm <= still { Hold::Stuck } else { Hold::Sliding(rate.signum()) };
+        }
+    }
+
+    /// Of joints that stick, lets those slide whose friction at rest does not suffice; answers whether there were any.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn loosen_rubs(&mut self) -> Result<bool, Trouble> {
+        self.solve()?;
+        let mut loosened = false;
+        for rub in 0..self.m.rubs.len() {
+            let [ahead, back] = self.rub_reserve(rub);
+            if self.mode.rubs[rub] == Hold::Stuck && ahead.min(back) < 0.0 {
+                // Friction that would have to push ahead cannot keep it from sliding back.
+                self.mode.rubs[rub] = Hold::Sliding(if ahead < back { -1.0 } else { 1.0 });
+                loosened = true;
+            }
+        }
+        Ok(loosened)
+    }
+}
