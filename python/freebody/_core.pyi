@@ -40,6 +40,7 @@ class Mechanism:
         ``coordinates`` (the state, in order) [{name, joint, dimension ("m" or "rad"), absolute, doc}],
         ``closure_coordinates`` (of cut joints; measured, not integrated), ``joints`` [{name, type, first, second, point, cut,
         coordinates, reaction: [labels]}], ``forces`` [{name, type, conservative}], ``motions`` [{name, of, level, ideal}],
+        ``limits`` (contacts, strings and stops) [{name, type, first, second, engaged}],
         ``events`` [names], ``freedom`` {count, joints_count}, ``notes`` [str: what is modelled, ignored, assumed]."""
 
     def bind(self, values: Mapping[str, float]) -> Array:
@@ -107,6 +108,7 @@ class Trajectory:
 
     steps: Array  # (ns,) times of the accepted steps, first and last included
     events: str  # JSON [{"name", "t", "kind": "crossing"|"touch", "direction", "q", "u"}]
+    changes: str  # JSON [{"t", "kind", "of": [names], "lost", "note", "impulses": {"limits": [[name, [x, y]]], "joints"}, "before", "after": {"q", "u"}}]
     outcome: str  # JSON {"name", "ok", "t", "sentence", "path": "joints.pivot", or empty}
     stats: str  # JSON {"accepted", "rejected", "evaluations", "method", "rtol", "closure": worst gap, …}
     def sample(self, times: Array) -> tuple[Array, Array]:

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from freebody.run import Run
 
 
+_SIDE = 1e-7  # of the common time: nearer than that to a switch, one run may be before it and the other after
+
+
 @dataclass(frozen=True)
 class Difference:
     """How far one column of two runs lies apart: largest |a − b|, when (s), its root mean square, and
@@ -99,12 +102,18 @@ def _by_name(run: Run) -> dict[str, Array]:
 
 
 def common_times(a: Run, b: Run) -> Array:
-    """Output times of one run at which the other is known too: all of them where it is known at any time."""
+    """Output times of one run at which the other is known too: all of them where it is known at any time, but those at which
+    something switches, since the other may be before it."""
     if a.recorded and b.recorded:
         times = np.intersect1d(a.t, b.t)
     else:
         grid, other = (b, a) if b.recorded else (a, b)
         times = grid.t[(grid.t >= other.edges[0]) & (grid.t <= other.edges[-1])]
+    if len(times):
+        jumps = np.concatenate([[-np.inf], np.union1d(a.jumps, b.jumps), [np.inf]])
+        after = np.searchsorted(jumps, times)
+        near = np.minimum(jumps[after] - times, times - jumps[after - 1])
+        times = times[near > _SIDE * (times[-1] - times[0])]
     if not len(times):
         raise ValueError("the two runs have no time in common; run.again() makes one of them known at all times")
     return times

@@ -21,6 +21,8 @@ class Motion(Protocol):
     @property
     def events(self) -> str: ...
     @property
+    def changes(self) -> str: ...
+    @property
     def outcome(self) -> str: ...
     @property
     def stats(self) -> str: ...
@@ -33,7 +35,7 @@ class Motion(Protocol):
 
 
 def output_times(motion: Motion, every: float | None = None, t_eval: Times | None = None) -> Array:
-    """The output grid (nt,) in s: what was asked for, or 60 a second and at least 400, with the events and,
+    """The output grid (nt,) in s: what was asked for, or 60 a second and at least 400, with the events, all that switched and,
     while they are no more than that, the steps."""
     start, end = motion.steps[0], motion.steps[-1]
     if t_eval is not None:
@@ -43,7 +45,8 @@ def output_times(motion: Motion, every: float | None = None, t_eval: Times | Non
         # The end belongs to the grid even where the spacing does not meet it.
         return _merged(np.array([start, end]), start + every * np.arange(1, np.floor((end - start) / every * (1 + 1e-12)) + 1))
     uniform = np.linspace(start, end, int(np.clip(60 * (end - start), 400, 6000)) + 1)
-    marks = np.array([start, end] + [event["t"] for event in json.loads(motion.events)])
+    told = [event["t"] for event in json.loads(motion.events) + json.loads(motion.changes)]
+    marks = np.array([start, end] + [t for t in told if start <= t <= end])
     return _merged(np.union1d(marks, motion.steps) if len(motion.steps) <= len(uniform) else np.unique(marks), uniform)
 
 

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from freebody import tables
 from freebody.results import PARTS, Array, quote
+from freebody.switched import Limit, limits_of, with_dimensions
+from freebody.tables import figure
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -45,7 +48,7 @@ class Reaction:
 
     ``values`` (…, 3): force components Fx, Fy in N in the fixed axes and the couple M in N·m, counter-clockwise,
     about the joint's point; ``determined`` (…, 3) says which of them the balance equations determine.
-    ``has_couple`` is False for a joint that passes none: its M is 0.
+    ``has_couple`` is False for a joint that passes none: its M is 0; ``carries`` is False for one that passes no load at all.
     A component that they do not determine is never given as a number; ``least`` is the way to opt in.
     """
 
@@ -58,6 +61,7 @@ class Reaction:
     smallest: Callable[[], Array] = field(repr=False)
     local: Callable[[], Array] = field(repr=False)
     has_couple: bool = True
+    carries: bool = True
 
     @property
     def Fx(self) -> Any:
@@ -154,13 +158,15 @@ class State:
 
 
 class Instant:
-    """Accelerations and all reactions at a state."""
+    """Accelerations and all reactions at a state; ``about`` is what the mechanism says of itself, where it is known already."""
 
-    def __init__(self, core: _core.Mechanism, state: State, route: str = "minimal") -> None:
+    def __init__(
+        self, core: _core.Mechanism, state: State, route: str = "minimal", about: Mapping[str, Any] | None = None
+    ) -> None:
         self.state = state
         self.route = route
         self.core = core
-        self._about = json.loads(core.describe())
+        self._about = about or with_dimensions(json.loads(core.describe()), {})
         self._solved = core.instant(state.p, state.t, state.q, state.u, route)
         self._rank: dict[str, Any] = json.loads(self._solved.rank)
 
@@ -180,6 +186,11 @@ class Instant:
     def reactions(self) -> Reactions:
         """Reaction of every joint, on its second body unless ``.on(body)`` says otherwise."""
         return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self._about["joints"])})
+
+    @property
+    def limits(self) -> dict[str, Limit]:
+        """What every contact, string and stop does, by name."""
+        return limits_of(json.loads(self._solved.limits) if self._about["limits"] else [], self._about)
 
     @property
     def motions(self) -> dict[str, float]:
@@ -205,9 +216,9 @@ class Instant:
         ):
             name, unit = coordinate["name"], coordinate["dimension"]
             if rate != 0:
-                found[name] = f"moves with {_figure(rate)} {unit}/s"
+                found[name] = f"moves with {figure(rate)} {unit}/s"
             elif abs(acceleration) > STILL * self.sizes[1]:
-                found[name] = f"accelerates with {_figure(acceleration)} {unit}/s²"
+                found[name] = f"accelerates with {figure(acceleration)} {unit}/s²"
         return found
 
     @property
@@ -250,39 +261,23 @@ class Instant:
             smallest=lambda: without_couples(self._solved.least_reactions, self._about["joints"])[i],
             local=lambda: self.core.evaluate(texts, s.p, s.t, s.q, s.u),
             has_couple=passes_couple(joint),
+            carries=bool(joint["reaction"]),
         )
 
     def tables(self) -> list[Table]:
-        """Accelerations, reactions on both bodies and residuals, for rich."""
-        return [self._table_of_accelerations(), self._table_of_reactions(), self._table_of_residuals()]
-
-    def _table_of_accelerations(self) -> Table:
-        table = _table("accelerations", "coordinate", "value", "unit")
-        for coordinate, (name, value) in zip(self._about["coordinates"], self.accelerations.items(), strict=True):
-            _add(table, name, _figure(value), f"{coordinate['dimension']}/s²")
-        return table
-
-    def _table_of_reactions(self) -> Table:
-        table = _table("reactions", "joint", "on", "Fx [N]", "Fy [N]", "M [N·m]")
-        for joint in self.reactions.values():
-            for body in (joint.second, joint.first):
-                side = joint.on(body)
-                cells = zip(side.values.tolist(), side.determined.tolist(), strict=True)
-                figures = [_figure(value) if known else "indeterminate" for value, known in cells]
-                figures[2] = figures[2] if joint.has_couple else ""
-                _add(table, joint.name if body == joint.second else "", body, *figures)
-        return table
-
-    def _table_of_residuals(self) -> Table:
-        table = _table("what is left of the momentum balances", "body", "x [N]", "y [N]", "about G [N·m]")
-        for body, row in self.residuals.items():
-            _add(table, body, *(f"{value:.1e}" for value in row))
-        return table
+        """Accelerations, reactions on both bodies, what contacts, strings and stops do, and residuals, for rich."""
+        return [
+            tables.of_accelerations(self._about["coordinates"], self.accelerations),
+            tables.of_reactions(self.reactions.values()),
+            tables.of_limits(self.limits.values()),
+            tables.of_forces(self.limits.values()),
+            tables.of_residuals(self.residuals),
+        ]
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         from rich.text import Text
 
-        yield from self.tables()
+        yield from (table for table in self.tables() if table.row_count)
         yield Text("\n".join([f"largest relative residual {self.residual:.1e}", self.explanation, *self.self_stress]))
 
     def __str__(self) -> str:
@@ -299,25 +294,3 @@ def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction]) -> None:
     for name, reaction in reactions.items():
         if f"{quote(name)}." in text and not reaction.determinate:
             raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")
-
-
-def _table(title: str, *heads: str) -> Table:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, show_edge=False, title_style="bold")
-    for head in heads:
-        words = head in ("coordinate", "unit", "joint", "on", "body")
-        table.add_column(head.replace("[", r"\["), justify="left" if words else "right")
-    return table
-
-
-def _add(table: Table, *cells: str) -> None:
-    from rich.text import Text
-
-    # Names come from the model: as Text they cannot be taken for markup.
-    table.add_row(*(Text(cell) for cell in cells))
-
-
-def _figure(value: float) -> str:
-    return f"{value + 0.0:.6g}"  # + 0.0 turns -0 into 0

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
+    from freebody.opening import Opening
     from freebody.run import Progress, Run, Source, Times
 
 
@@ -43,7 +44,17 @@ class Moving:
 
         state, _ = self.start(initial, t, **changes)
         with self.told():
-            return Instant(self.compile(), state, route)
+            return Instant(self.compile(), state, route, self.source().about)
+
+    def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Opening | None:
+        """The instant just after the events at the start, from the state of ``solve``; None where the model has no such event."""
+        from freebody.opening import Opening, opens
+
+        if not opens(self.lowered().spec):
+            return None
+        state, notes = self.start(initial, t, **changes)
+        with self.told():
+            return Opening.of(self.source(notes), state, self.run_plan(t + 1.0, {}))
 
     def simulate(
         self: Builder,

@@ -14,7 +14,11 @@ Array = NDArray[np.float64]
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
 PARTS = ("Fx", "Fy", "M")
-_CHANGES = "work of parameter changes"
+BEFORE = "before "
+"""In front of an event's name: the moment just before it."""
+ENTRIES = ("parameter changes", "impacts", "balance")
+"""Entries of the ledger that no expression gives."""
+_RARE = ("work of parameter changes", "work of impacts", "work of friction")
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
 _GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -34,7 +38,8 @@ _CALLS_BY_UNIT = {
     "N*m*s": "angular_momentum",
 }
 _UNIT_OF_CALL = {call: unit for unit, calls in _CALLS_BY_UNIT.items() for call in calls.split()}
-_UNIT_OF_PART = {"Fx": "N", "Fy": "N", "F": "N", "Fs": "N", "Fn": "N", "tension": "N", "M": "N*m", "power": "W", "work": "J"}
+_UNIT_OF_PART = {"Fx": "N", "Fy": "N", "F": "N", "Fs": "N", "Fn": "N", "tension": "N", "M": "N*m", "power": "W", "work": "J",
+                 "N": "N", "T": "N", "gap": "m", "slip": "m/s"}  # fmt: skip
 
 
 def quote(name: str) -> str:
@@ -70,7 +75,8 @@ class Column:
     """One column of a run.
 
     ``name`` is an expression of the model language that gives the same values; ``unit`` is SI;
-    ``kind`` is coordinate, rate, acceleration, reaction, energy or pose.
+    ``kind`` is coordinate, rate, acceleration, reaction, limit (of contacts, strings and stops), energy or pose.
+    The entries of the ledger that no expression gives go by their names.
     """
 
     name: str
@@ -132,10 +138,10 @@ class Energy:
 
     @property
     def entries(self) -> dict[str, Array]:
-        """What is worth showing, by words: what is stored and every work; changes of parameters where there were any."""
+        """What is worth showing, by words: what is stored and every work; of changes of parameters, impacts and friction
+        where there were any."""
         works = {f"work of {name.removesuffix('.work')}": work for name, work in self.works.items()}
-        if not works.get(_CHANGES, np.ones(1)).any():
-            del works[_CHANGES]
+        works = {name: work for name, work in works.items() if name not in _RARE or work.any()}
         # + 0.0 turns -0 into 0.
         return {name: values + 0.0 for name, values in {"kinetic": self.kinetic, "potential": self.potential, **works}.items()}
 
@@ -150,7 +156,7 @@ class ReportItem:
     """A quantity that the model asks for.
 
     ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an
-    event's name or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI.
+    event's name, ``before`` and an event's name, or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI.
     """
 
     label: str
@@ -299,6 +305,8 @@ def columns_of(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> li
         return [Column(f"accel({quote(name)})", symbol(name, "ddot"), f"{unit}/s^2", kind) for name, unit in coordinates]
     if kind == "reaction":
         return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
+    if kind == "limit":
+        return [column for limit in about["limits"] for column in _limit_columns(limit)]
     if kind == "energy":
         return [_energy_column(name) for name in ledger]
     axes = (("x({0}.origin)", "x", "m"), ("y({0}.origin)", "y", "m"), ("angle({0})", r"\varphi", "rad"))
@@ -311,8 +319,25 @@ def _reaction_column(joint: str, part: str) -> Column:
     return Column(f"{quote(joint)}.{part}", f"{part[0]}{below}^{{{roman(joint)}}}", "N*m" if part == "M" else "N", "reaction")
 
 
+def _limit_columns(limit: Mapping[str, Any]) -> list[Column]:
+    """What a contact (normal force, friction, gap), string (tension, slack) or stop (force, gap) does."""
+    name, length = limit["name"], limit["dimension"]
+    force = {"m": "N", "rad": "N*m"}.get(length, "")
+    parts = {"contact": ("N", "T"), "string": ("tension",), "stop": ("N",)}[limit["type"]]
+    forces = [(part, part[0].upper(), force) for part in parts]
+    return [
+        Column(f"{quote(name)}.{part}", f"{sign}_{{{roman(name)}}}", unit, "limit")
+        for part, sign, unit in [*forces, ("gap", "g", length)]
+    ]
+
+
 def _energy_column(name: str) -> Column:
-    signs = {"kinetic": ("kinetic()", "T"), "potential": ("potential()", "V"), "balance": ("balance", roman("balance"))}
+    signs = {
+        "kinetic": ("kinetic()", "T"),
+        "potential": ("potential()", "V"),
+        "friction": ("friction_work()", r"W_{\mathrm{friction}}"),
+    }
+    signs |= {entry: (entry, roman(entry)) for entry in ENTRIES}
     owner = name.removesuffix(".work")
     text, sign = signs.get(name, (f"{quote(owner)}.work", f"W_{{{roman(owner)}}}"))
     return Column(text, sign, "J", "energy")

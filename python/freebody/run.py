@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
@@ -14,6 +15,8 @@ import numpy as np
 from freebody.grid import Motion, Times, output_times
 from freebody.instant import Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
 from freebody.results import (
+    BEFORE,
+    ENTRIES,
     Array,
     Column,
     Energy,
@@ -27,6 +30,7 @@ from freebody.results import (
     reduce,
     unit_of,
 )
+from freebody.switched import Change, changes_of, with_dimensions
 
 if TYPE_CHECKING:
     import pandas
@@ -35,7 +39,7 @@ if TYPE_CHECKING:
     from freebody import _core
 
 Progress = Callable[[float], bool]
-KINDS = ("coordinate", "rate", "acceleration", "reaction", "energy", "pose")
+KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
 
 
 @dataclass(frozen=True)
@@ -52,7 +56,7 @@ class Source:
     @cached_property
     def about(self) -> dict[str, Any]:
         """What the core says of the mechanism: bodies, coordinates, joints and so on."""
-        return dict(json.loads(self.core.describe()))
+        return with_dimensions(json.loads(self.core.describe()), json.loads(self.spec))
 
     @cached_property
     def name(self) -> str:
@@ -129,6 +133,16 @@ class Run:
         ]
 
     @cached_property
+    def changes(self) -> list[Change]:
+        """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
+        return changes_of(json.loads(self.motion.changes), self.about)
+
+    @property
+    def impacts(self) -> list[Change]:
+        """The changes with impulses."""
+        return [change for change in self.changes if change.impulses]
+
+    @cached_property
     def stats(self) -> dict[str, Any]:
         """What it took: accepted and rejected steps, evaluations, the worst gap of a loop."""
         return dict(json.loads(self.motion.stats))
@@ -199,6 +213,8 @@ class Run:
         """Values over ``t`` of a column, a point's path (nt, 2), or any expression."""
         if name == "t":
             return self.t
+        if name in ENTRIES:
+            return self.energy[name]
         return self.point(name) if name in self.points else np.asarray(self.evaluate(name))
 
     def evaluate(self, text: str, t: float | Times | None = None) -> Any:
@@ -212,6 +228,13 @@ class Run:
             refuse_indeterminate(text, self.reactions)
         return float(values[0]) if np.isscalar(t) else values
 
+    def before(self, text: str, t: float) -> float:
+        """The value of an expression just before a time, at which something may switch."""
+        if t > self.edges[0]:
+            return self.evaluate(text, float(np.nextafter(t, -np.inf)))
+        s = self.start
+        return float(self.source.core.evaluate([text], s.p, s.t, s.q, s.u)[0])
+
     @cached_property
     def report(self) -> dict[str, Reported]:
         """The quantities that the model asks for, by label."""
@@ -223,11 +246,12 @@ class Run:
         if item.how != "at":
             when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
             return _reported(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
-        moments = self._moments(item.at)
+        at, before = (item.at[len(BEFORE) :], True) if str(item.at).startswith(BEFORE) else (item.at, False)
+        moments = self._moments(at)
         if not moments:
-            return Reported(None, "", note=f"{item.at} did not happen")
-        note = f"the first of {len(moments)}" if len(moments) > 1 else ""
-        return _reported(item, self.evaluate(item.value, moments[0]), moments[0], si, note)
+            return Reported(None, "", note=f"{at} did not happen")
+        note = ", ".join(["just before"] * before + [f"the first of {len(moments)}"] * (len(moments) > 1))
+        return _reported(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
 
     def _moments(self, at: str | float) -> list[float]:
         if at in ("start", "end"):
@@ -239,7 +263,13 @@ class Run:
     @cached_property
     def edges(self) -> Array:
         """Times (…,) at which steps and events end: between them the motion is smooth."""
-        return np.union1d(self.motion.steps, [event.t for event in self.events])
+        return np.union1d(self.motion.steps, [*(event.t for event in self.events), *self.jumps])
+
+    @cached_property
+    def jumps(self) -> Array:
+        """Times (…,) at which something switched after the start, within the run: rates and forces may jump there."""
+        first, last = self.motion.steps[0], self.motion.steps[-1]
+        return np.unique([change.t for change in self.changes if first < change.t <= last])
 
     # As a table
 
@@ -252,7 +282,7 @@ class Run:
     def blocks(self) -> dict[str, Array]:
         """Values of the columns by kind, each (nt, k); an indeterminate reaction is NaN."""
         nt = len(self.t)
-        arrays = (self.q, self.u, self.accelerations, self._reactions, self.energy.values, self.poses)
+        arrays = (self.q, self.u, self.accelerations, self._reactions, self._limits, self.energy.values, self.poses)
         return {kind: array.reshape(nt, -1) for kind, array in zip(KINDS, arrays, strict=True)}
 
     def to_xarray(self) -> xarray.Dataset:
@@ -308,6 +338,8 @@ class Run:
     def __str__(self) -> str:
         lines = [f"{self.name}: {self.outcome.sentence}"]
         lines += [f"  {event.name} at t = {event.t:.6g} s" for event in self.events]
+        if kinds := Counter(change.kind for change in self.changes):
+            lines.append("  what switched: " + ", ".join(f"{count} × {kind}" for kind, count in kinds.items()))
         lines += [f"  {label}: {value}" for label, value in self.report.items()]
         return "\n".join(lines)
 
@@ -323,6 +355,11 @@ class Run:
         known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
         return without_couples(np.where(known, values, np.nan), self.about["joints"])
 
+    @cached_property
+    def _limits(self) -> Array:
+        texts = [column.name for column in columns_of("limit", self.about, ())]
+        return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
+
     def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
         texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
         values = self._reactions[:, i]
@@ -336,6 +373,7 @@ class Run:
             smallest=lambda: self._least(i),
             local=lambda: self.motion.evaluate(texts, self.t),
             has_couple=passes_couple(joint),
+            carries=bool(joint["reaction"]),
         )
 
     def _least(self, i: int) -> Array:

@@ -29,6 +29,7 @@ _DIMENSIONS = {
     "rate": ("time", "coordinate"),
     "acceleration": ("time", "coordinate"),
     "reaction": ("time", "joint", "part"),
+    "limit": ("time", "limit"),
     "energy": ("time", "ledger"),
     "pose": ("time", "body", "place"),
 }
@@ -37,6 +38,7 @@ _VARIABLE = {
     "rate": "u",
     "acceleration": "acceleration",
     "reaction": "reaction",
+    "limit": "limits",
     "energy": "energy",
     "pose": "pose",
 }
@@ -45,6 +47,7 @@ _MEANING = {
     "rate": "rates of the coordinates, m/s or rad/s",
     "acceleration": "second time derivatives of the coordinates, m/s^2 or rad/s^2",
     "reaction": "reaction on the joint's second body: N, N, N*m about the joint's point; NaN where indeterminate",
+    "limit": "forces (N) and gaps (m) of contacts, strings and stops; N*m and rad at a stop of an angle",
     "energy": "energy ledger, J",
     "pose": "frame origin x, y (m) and angle (rad) of the bodies",
 }
@@ -68,6 +71,11 @@ class Recorded:
     def events(self) -> str:
         """As the core gave them, JSON."""
         return json.dumps(self.meta["events"])
+
+    @property
+    def changes(self) -> str:
+        """As the core gave them, JSON."""
+        return json.dumps(self.meta["changes"])
 
     @property
     def outcome(self) -> str:
@@ -145,6 +153,7 @@ def to_xarray(run: Run) -> xarray.Dataset:
         "coordinate": run.coordinates,
         "joint": [joint["name"] for joint in run.about["joints"]],
         "part": list(PARTS),
+        "limit": [column.name for column in run.columns if column.kind == "limit"],
         "ledger": ledger,
         "body": run.bodies,
         "place": ["x", "y", "angle"],
@@ -152,6 +161,8 @@ def to_xarray(run: Run) -> xarray.Dataset:
     sizes = {dimension: len(values) for dimension, values in labels.items()}
     variables: dict[str, Any] = {}
     for kind, block in run.blocks.items():
+        if kind == "limit" and not labels["limit"]:
+            continue  # netCDF 3 takes a dimension of length 0 for the one that grows
         dimensions = _DIMENSIONS[kind]
         shape = [sizes[dimension] for dimension in dimensions]
         variables[_VARIABLE[kind]] = (dimensions, block.reshape(shape), {"long_name": _MEANING[kind]})
@@ -219,6 +230,7 @@ def _meta(run: Run) -> dict[str, Any]:
         "end": {"t": t, "q": q.tolist(), "u": u.tolist(), "p": p.tolist(), "mode": mode},
         "steps": np.asarray(run.motion.steps).tolist(),
         "events": json.loads(run.motion.events),
+        "changes": json.loads(run.motion.changes),
         "outcome": json.loads(run.motion.outcome),
         "stats": run.stats,
         "ledger": list(run.energy.names),
@@ -269,5 +281,6 @@ def _read_netcdf(path: Path) -> tuple[Array, list[str], dict[str, Array], dict[s
             raise ValueError(f"{path} is no saved run: it has no attribute 'freebody'")
         meta = json.loads(data.attrs["freebody"])
         t = data["time"].values.astype(float)
-        blocks = {kind: data[_VARIABLE[kind]].values.reshape(len(t), -1) for kind in KINDS}
+        found = {kind: data[_VARIABLE[kind]].values if _VARIABLE[kind] in data else np.empty((len(t), 0)) for kind in KINDS}
+        blocks = {kind: values.reshape(len(t), -1) for kind, values in found.items()}
     return t, [column["name"] for column in meta["columns"]], blocks, meta

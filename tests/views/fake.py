@@ -68,6 +68,7 @@ class FakeMechanism:
             "coordinates": [{"name": self._coordinate(n), "joint": self._joint_of(n), "dimension": "rad", "absolute": True, "doc": ""} for n in self.names],
             "closure_coordinates": [],
             "joints": [joint(j) for j in self.spec["joints"]],
+            "limits": [],
             "forces": [{"name": f["name"], "type": f["type"], "conservative": f["type"] == "spring"} for f in self.spec.get("forces", [])],
             "motions": [],
             "events": [e["name"] for e in self.spec.get("events", [])],
@@ -283,6 +284,7 @@ class FakeTrajectory:
             for when, y in zip(times, ys, strict=True)
         ]
         self.events = json.dumps(sorted(happened, key=lambda e: e["t"]))
+        self.changes = "[]"
         self.outcome = json.dumps({"name": "finished", "ok": True, "t": until, "sentence": f"reached t = {until:g} s"})
         self.stats = json.dumps({"accepted": len(run.t), "rejected": 0, "evaluations": int(run.nfev), "method": "dop853", "rtol": 1e-10, "closure": 1e-13})  # fmt: skip
 

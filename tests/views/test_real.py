@@ -101,7 +101,7 @@ def test_going_on_is_the_same_as_not_stopping(mechanism, run):
 
 def test_tables(run):
     data, table = run.to_xarray(), run.to_pandas()
-    assert dict(data.sizes) == {"time": len(run.t), "coordinate": 3, "joint": 4, "part": 3, "ledger": 4, "body": 3, "place": 3}
+    assert dict(data.sizes) == {"time": len(run.t), "coordinate": 3, "joint": 4, "part": 3, "ledger": 5, "body": 3, "place": 3}
     assert list(data["coordinate"].values) == run.coordinates
     assert list(table.columns) == [column.name for column in run.columns]
     assert np.array_equal(table["phi"], data["q"].sel(coordinate="phi"))

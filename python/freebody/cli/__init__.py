@@ -90,7 +90,8 @@ def solve(
 
     mechanism, state = opened(model, changes), pairs(at)
     routes = [each.value for each in Route if each is not Route.all] if route is Route.all else [route.value]
-    show.instants([mechanism.solve(route=name, **state) for name in routes], axes is Axes.joint, balance, as_json)
+    solved = [mechanism.solve(route=name, **state) for name in routes]
+    show.instants(solved, mechanism.opening(**state), axes is Axes.joint, balance, as_json)
 
 
 @app.command()
@@ -205,7 +206,8 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
     if not done.outcome.ok and done.outcome.t == done.start.t:
         # Nothing moved, so there is nothing to show.
         sentence, _, hint = done.outcome.sentence.partition("; ")
-        what = f"the run ends where it begins, t = {done.outcome.t:g} s: {sentence}"
+        *more, hint = hint.split("; ")
+        what = "\n  ".join([f"the run ends where it begins, t = {done.outcome.t:g} s: {sentence}", *more])
         if done.outcome.path:
             raise ModelFileError([Problem(mechanism.lowered().where(done.outcome.path), what, hint)])
         raise Mistake(what, hint or HINT_AT_START)

@@ -42,6 +42,8 @@ def explained(error: Exception) -> str | None:
     if isinstance(error, (Mistake, _core.ModelError, _core.ExpressionError, _core.MotionError)):
         # The last two are always what is wrong and what to try; a place in front of them is a path in the model.
         *_, what, hint = error.args
+        if isinstance(error, _core.MotionError):
+            hint = hint.replace("; ", "\n  ")
         place = f"{error.args[0]}: " if isinstance(error, _core.ModelError) else ""
         return f"{place}{what}\n  {hint}" if hint else f"{place}{what}"
     # A bare KeyError or IndexError says nothing to a user: it is a slip of ours.

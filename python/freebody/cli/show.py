@@ -21,9 +21,12 @@ from freebody.views.peaks import Peak, peak_reactions
 if TYPE_CHECKING:
     from freebody.compare import Comparison
     from freebody.instant import Instant, Reaction
+    from freebody.opening import Opening
     from freebody.run import Run
+    from freebody.switched import Change
 
 Row = Sequence[Any]
+_FIRST, _LAST = 12, 3
 
 
 def dumped(data: Any) -> str:
@@ -78,25 +81,27 @@ def run(done: Run, files: Sequence[Path]) -> None:
     """What happened, what was asked for, whether the energy adds up, the largest reactions, what was written."""
     peaks = peak_reactions(done)
     put(
-        Text.assemble((done.name, "bold"), ": ", (_ending(done), "green" if done.outcome.ok else "bold red"), "\n"),
+        _ending(done),
         *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
+        table("what switched", ["t [s]", "kind", "what", "energy lost [J]", ""], switch_rows(done.changes)),
         table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
         table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
         f"The balance stays within {closure(done):.1e} of the largest entry.\n",
-        table("largest reactions", ["joint", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks)),
+        table("largest reactions", ["", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks)),
     )
     written(files)
 
 
-def _ending(done: Run) -> str:
-    """How and when the run ended; a bad end also by its name and where the mechanism stood."""
-    outcome = done.outcome
-    told = f"{outcome.sentence}, t = {outcome.t:.6g} s"
+def _ending(done: Run) -> Text:
+    """How and when the run ended; a bad end by its name, where the mechanism stood, what happened and what to do."""
+    outcome, name = done.outcome, (done.name, "bold")
     if outcome.ok:
-        return told
+        return Text.assemble(name, ": ", (f"{outcome.sentence}, t = {outcome.t:.6g} s", "green"), "\n")
     place = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in list(zip(done.coordinates, done.end.q, strict=True))[:6])
-    return f"{outcome.name}: {told}, at {place}" if place else f"{outcome.name}: {told}"
+    where = f", at {place}" if place else ""
+    told = "\n  ".join(["", *outcome.sentence.split("; ")])
+    return Text.assemble(name, ": ", (f"{outcome.name}, t = {outcome.t:.6g} s", "bold red"), where, told, "\n")
 
 
 def closure(done: Run) -> float:
@@ -112,12 +117,21 @@ def _run_as_dict(done: Run, peaks: Sequence[Peak], files: Sequence[Path]) -> dic
         "name": done.name,
         "outcome": asdict(done.outcome),
         "events": [asdict(event) for event in done.events],
+        "changes": [asdict(change) for change in done.changes],
         "report": {label: asdict(reported) for label, reported in done.report.items()},
         "energy": {"balance": float(abs(done.energy.balance).max(initial=0.0)), "relative": closure(done)},
         "peaks": [asdict(peak) for peak in peaks],
         "stats": done.stats,
         "files": [str(path) for path in files],
     }
+
+
+def switch_rows(changes: Sequence[Change]) -> list[Row]:
+    """Rows of a table; of many only the first and the last, with one between that says how many there are."""
+    rows: list[Row] = [(c.t, c.kind, ", ".join(c.of), c.lost if c.impulses or c.before else "", c.note) for c in changes]
+    if len(rows) <= _FIRST + _LAST + 1:
+        return rows
+    return [*rows[:_FIRST], ("…", f"{len(rows) - _FIRST - _LAST} more", f"of {len(rows)}", "", ""), *rows[-_LAST:]]
 
 
 def _report_row(item: tuple[str, Any]) -> Row:
@@ -133,35 +147,43 @@ def _ledger_rows(done: Run) -> list[Row]:
 def _peak_row(peak: Peak) -> Row:
     if not peak.determinate:
         return peak.joint, peak.body, "indeterminate", "", "", ""
-    couple = ("", "") if peak.couple is None else (peak.couple, peak.t_couple)
-    return peak.joint, peak.body, peak.size, peak.t, *couple
+    return peak.joint, peak.body, *("" if x is None else x for x in (peak.size, peak.t, peak.couple, peak.t_couple))
 
 
 # One instant
 
 
-def instants(solved: Sequence[Instant], joint_axes: bool, balance: bool, as_json: bool) -> None:
-    """The first instant whole; the others, by other routes, by how far they are from it."""
+def instants(solved: Sequence[Instant], opening: Opening | None, joint_axes: bool, balance: bool, as_json: bool) -> None:
+    """The first instant whole; the others, by other routes, by how far they are from it; what events at the start make of it."""
     first, *others = solved
     if as_json:
-        data = [_instant_as_dict(instant, joint_axes) for instant in solved]
+        after = {"after_opening": _opening_as_dict(opening, joint_axes)} if opening else {}
+        data = [_instant_as_dict(instant, joint_axes) | after for instant in solved]
         print(dumped(data if others else data[0]))
         return
-    accelerations, reactions, residuals = first.tables()
-    put(accelerations, reactions_along(first) if joint_axes else reactions)
+    accelerations, reactions, *limits, residuals = first.tables()
+    if opening:
+        put(Text("just before the events at the start\n", "bold"))
+    put(accelerations, reactions_along(first.reactions) if joint_axes else reactions, *limits)
     put(table("prescribed motions", ["motion", "force or torque"], first.motions.items()))
     if balance:
         put(residuals, f"Largest relative residual: {first.residual:.1e}")
     put(first.explanation, *first.self_stress)
     for other in others:
         put(f"{other.route} agrees with {first.route} to {apart(first, other):.1e}")
+    if opening:
+        accelerations, reactions, *limits = opening.tables()
+        put(Text("\njust after the events at the start\n", "bold"))
+        put(table("what switched", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opening.changes]))
+        put(accelerations, reactions_along(opening.reactions) if joint_axes else reactions, *limits)
 
 
-def reactions_along(instant: Instant) -> Table:
+def reactions_along(reactions: Mapping[str, Reaction]) -> Table:
     """Reactions along and across the line of each joint's first body, on the second body."""
-    rows = [(r.name, r.second, *_parts(r, True).values()) for r in instant.reactions.values()]
+    carrying = [reaction for reaction in reactions.values() if reaction.carries]
+    rows = [(r.name, r.second, *_parts(r, True).values()) for r in carrying]
     shown = [["indeterminate" if cell is None else cell for cell in row] for row in rows]
-    for row, reaction in zip(shown, instant.reactions.values(), strict=True):
+    for row, reaction in zip(shown, carrying, strict=True):
         row[-1] = row[-1] if reaction.has_couple else ""
     return table("reactions in joint axes", ["joint", "on", "along [N]", "across [N]", "couple [N·m]"], shown)
 
@@ -189,7 +211,8 @@ def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
     return {
         "route": instant.route,
         "accelerations": instant.accelerations,
-        "reactions": {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()},
+        "reactions": _reactions_as_dict(instant.reactions, joint_axes),
+        "limits": {name: asdict(limit) for name, limit in instant.limits.items()},
         "motions": instant.motions,
         "residual": instant.residual,
         "residuals": instant.residuals,
@@ -197,6 +220,19 @@ def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
         "explanation": instant.explanation,
         "self_stress": instant.self_stress,
     }
+
+
+def _opening_as_dict(opening: Opening, joint_axes: bool) -> dict[str, Any]:
+    return {
+        "changes": [asdict(change) for change in opening.changes],
+        "accelerations": opening.accelerations,
+        "reactions": _reactions_as_dict(opening.reactions, joint_axes),
+        "limits": {name: asdict(limit) for name, limit in opening.limits.items()},
+    }
+
+
+def _reactions_as_dict(reactions: Mapping[str, Reaction], joint_axes: bool) -> dict[str, Any]:
+    return {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in reactions.values()}
 
 
 def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float | None]:

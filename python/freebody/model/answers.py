@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from freebody.results import ReportItem
+from freebody.results import BEFORE, ReportItem
 
 from . import start, units
 from .errors import Complaint, Path
@@ -21,7 +21,7 @@ _OVER = re.compile(r"(.+?)\s+over\s+(.+?)\s*\.\.\s*(.+)", re.DOTALL)
 _WORDS = ("start", "end")
 
 Moment = str | float
-"""``start``, ``end``, the name of an event, a time in s, or an expression of parameters for one, marked by ``=``."""
+"""``start``, ``end``, the name of an event, ``before`` and such a name, a time in s, or an expression of parameters for one, marked by ``=``."""
 
 
 @dataclass(frozen=True)
@@ -143,6 +143,9 @@ class AnswerWriter:
         full = self.write.full(moment)
         if moment in _WORDS or full in self.write.meanings.events:
             return moment if moment in _WORDS else full
+        event = self.write.full(moment.removeprefix(BEFORE).strip())
+        if moment.startswith(BEFORE) and event in self.write.meanings.events:
+            return BEFORE + event
         try:
             number, dimension = self.write.number_of(moment)
         except Complaint:

@@ -16,6 +16,7 @@ from freebody.views.paint import frame_axes, paint
 from freebody.views.scene import GROUND, Scene, Sketch, drawn, named_points, sketch_of_state
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, axes, colour, quiet
+from freebody.views.touching import string_label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,6 +79,7 @@ def drawing(source: Source, state: State, ax: Axes | None = None, layers: Sequen
 def _lines_of(scene: Scene) -> list[Array]:
     """All lines of a scene in the fixed axes; of what is filled with a strong colour, the inside as well."""
     placed = [line for pair in scene.pairs for line in scene.pair_lines(pair)]
+    placed += [cord.path[0] for cord in scene.cords if cord.shown[0]]
     for i, figure in enumerate(scene.figures):
         for stroke in figure.strokes:
             line = scene.place(i, np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points)
@@ -225,6 +227,19 @@ def _draw_forces(sheet: _Drawing) -> None:
             _draw_torque(sheet, force["name"], fields)
         elif force["type"] == "force":
             _draw_force(sheet, force["name"], fields)
+    _draw_contact_forces(sheet)
+
+
+def _draw_contact_forces(sheet: _Drawing) -> None:
+    """The force of every contact that carries, as it pushes the body that is not ground at the place where it acts."""
+    for limit in sheet.sketch.limits():
+        if limit.kind != "contact" or limit.at is None or limit.N <= 0:
+            continue
+        force = np.array([limit.Fx, limit.Fy]) * (-1 if limit.first == GROUND else 1)
+        at = np.array(limit.at)
+        tail = at - force / np.hypot(*force) * 6 * sheet.scene.size
+        sheet.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
+        sheet.say(f"{limit.name}: {_figure(float(np.hypot(*force)))} N", tail, _LOAD)
 
 
 def _draw_torque(sheet: _Drawing, name: str, fields: Mapping[str, Any]) -> None:
@@ -256,6 +271,9 @@ def _draw_springs(sheet: _Drawing) -> None:
     for name, pair in {pair.name: pair for pair in sheet.scene.pairs if pair.kind in ("spring", "damper")}.items():
         ends = [sheet.scene.place(i, np.array([[x, y]]))[0] for i, x, y in pair.ends]
         sheet.say(name, np.mean(ends, axis=0), GREY)
+    for cord in sheet.scene.cords:
+        if cord.shown[0]:
+            sheet.say(*string_label(sheet.sketch, cord), GREY)
 
 
 _LAYERS: dict[str, Callable[[_Drawing], None]] = {

@@ -26,6 +26,10 @@ def paint(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
     for pair in scene.pairs:
         for line in scene.pair_lines(pair, frame):
             artists += ax.plot(*line.T, color=INK, lw=1.3, zorder=2.37, solid_joinstyle="round")
+    for cord in scene.cords:
+        if cord.shown[frame]:
+            look = {"color": INK, "lw": 1.2} if cord.taut[frame] else {"color": GROUND, "lw": 1.0}
+            artists += ax.plot(*cord.path[frame].T, **look, zorder=2.38, solid_joinstyle="round")
     return artists
 
 

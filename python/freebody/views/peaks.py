@@ -1,13 +1,14 @@
-"""The largest reaction of every joint, and when."""
+"""The largest reaction of every joint, contact, string and stop, and when."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.results import Array, Signal, Window, refined
+from freebody.results import Array, Signal, Window, quote, refined
 
 if TYPE_CHECKING:
     from freebody.run import Run
@@ -18,8 +19,8 @@ _ROUND_OFF = 1e-9  # of the largest of its kind: below it a reaction is what rou
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest force of a joint on ``body``: its size and components (N) at time ``t`` (s), and the largest
-    couple (N·m) at ``t_couple``, None for a joint that passes none. An indeterminate reaction has no figures: they are None."""
+    """The largest force of a joint, contact, string or stop on ``body``: its size and components (N) at time ``t`` (s), and the
+    largest couple (N·m) at ``t_couple``, None for what passes none. An indeterminate reaction has no figures: they are None."""
 
     joint: str
     body: str
@@ -33,10 +34,11 @@ class Peak:
 
 
 def peak_reactions(run: Run) -> list[Peak]:
-    """Peaks of all joints, refined between the steps where the motion is known there."""
+    """Peaks of all that can carry a load, refined between the steps where the motion is known there."""
     sampled = run if run.recorded else run.at(Window(run.edges).samples())
     noise = couple_noise(sampled)
-    return [_peak(run, sampled, i, name, noise) for i, name in enumerate(run.reactions)]
+    joints = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
+    return joints + [_peak_of_limit(run, sampled, limit) for limit in run.about["limits"]]
 
 
 def couple_noise(run: Run) -> float:
@@ -59,6 +61,26 @@ def _peak(run: Run, sampled: Run, i: int, name: str, noise: float) -> Peak:
         t_couple, couple = _largest(run, sampled.t, heard, lambda t: np.abs(_solved(run, i, t)[:, 2]))
     force_x, force_y, _ = _solved(run, i, np.array([t]))[0].tolist()
     return Peak(name, reaction.second, True, t, size, force_x, force_y, couple, t_couple)
+
+
+def _peak_of_limit(run: Run, sampled: Run, limit: Mapping[str, Any]) -> Peak:
+    """The largest force of a contact, string or stop on its first body; of a stop of an angle the largest couple."""
+    name, own = limit["name"], quote(limit["name"])
+    texts = {"contact": [f"{own}.N", f"{own}.T"], "string": [f"{own}.tension"], "stop": [f"{own}.N"]}[limit["type"]]
+    size = force_of(sampled, texts)
+    t, largest = _largest(run, sampled.t, size, lambda t: np.hypot.reduce(run.motion.evaluate(texts, t), axis=1))
+    if limit["dimension"] == "rad":
+        return Peak(name, limit["first"], True, couple=largest, t_couple=t)
+    if run.recorded or limit["type"] == "stop":
+        return Peak(name, limit["first"], True, t, largest)
+    force = run.motion.evaluate([f"{own}.Fx", f"{own}.Fy"], np.array([t]))[0]
+    return Peak(name, limit["first"], True, t, largest, *force.tolist())
+
+
+def force_of(run: Run, texts: Sequence[str]) -> Array:
+    """The size (nt,) of a force of one or two components by their expressions."""
+    size: Array = np.hypot.reduce(run.motion.evaluate(list(texts), run.t), axis=1)
+    return size
 
 
 def _solved(run: Run, i: int, t: Array) -> Array:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from freebody.results import Array, unit_of
-from freebody.views.style import DASHES, GROUND, axes, colour, quiet
+from freebody.results import Array, quote, unit_of
+from freebody.views.style import DASHES, GROUND, IMPACT, axes, colour, quiet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,6 +37,7 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
     Two units share the axes, left and right; more are refused.
     """
     ax = axes(ax)
+    run, breaks = broken(run)
     shown = list(names) or run.coordinates
     units = list(dict.fromkeys(unit_of(name, run.columns) for name in shown))
     if len(units) > 2:
@@ -44,7 +45,7 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
     sides = [ax, *([_right_axis(ax)] if len(units) == 2 else [])]
     for i, name in enumerate(shown):
         k = units.index(unit_of(name, run.columns))
-        sides[k].plot(run.t, run[name], color=colour(i), ls=DASHES[k], label=label(run, name))
+        sides[k].plot(breaks(run.t), breaks(run[name], np.nan), color=colour(i), ls=DASHES[k], label=label(run, name))
     for side, unit in zip(sides, units, strict=True):
         own = [name for name in shown if unit_of(name, run.columns) == unit]
         side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else quantity(unit), unit))
@@ -107,10 +108,12 @@ def paths(run: Run, *points: str, ax: Axes | None = None) -> Axes:
 def energy(run: Run, ax: Axes | None = None) -> Axes:
     """The energy ledger: what is stored, what was put in, and (in the legend) how well the books close."""
     ax = axes(ax)
+    run, breaks = broken(run)
     ledger = run.energy
     curves = {**ledger.entries, "kinetic + potential": ledger.kinetic + ledger.potential}
     for i, (name, values) in enumerate(curves.items()):
-        ax.plot(run.t, values, color=colour(i), ls="--" if name.startswith("work of ") else "-", label=name)
+        dashes = "--" if name.startswith("work of ") else "-"
+        ax.plot(breaks(run.t), breaks(values, np.nan), color=colour(i), ls=dashes, label=name)
     _mark_events(run, ax)
     ax.set(xlabel="t  [s]", ylabel="energy  [J]", xlim=(run.t[0], run.t[-1]))
     ax.set_title(f"balance within {np.abs(ledger.balance).max():.1e} J", fontsize=10, color=GROUND, pad=16)
@@ -119,21 +122,75 @@ def energy(run: Run, ax: Axes | None = None) -> Axes:
 
 
 @_styled
-def reactions(run: Run, *joints: str, part: str = "size", ax: Axes | None = None) -> Axes:
-    """A part of the reactions of joints over time (``Fx``, ``Fy``, ``M``, ``size``); indeterminate ones are named, not drawn."""
+def reactions(run: Run, *names: str, part: str = "size", ax: Axes | None = None) -> Axes:
+    """A part of the reactions of joints over time (``Fx``, ``Fy``, ``M``, ``size``), and the forces of contacts, strings and
+    stops; indeterminate ones are named, not drawn. Without names, all that can carry a load."""
     ax = axes(ax)
-    silent = []
-    for i, name in enumerate(joints or run.reactions):
-        if run.reactions[name].determinate:
-            ax.plot(run.t, getattr(run.reactions[name], part), color=colour(i), label=name)
-        else:
-            silent.append(name)
+    run, breaks = broken(run)
+    shown = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *limit_forces(run)]
+    for i, (name, values) in enumerate(_forces(run, shown, part)):
+        ax.plot(breaks(run.t), breaks(values, np.nan), color=colour(i), label=name)
     _mark_events(run, ax)
     ax.set(xlabel="t  [s]", ylabel="couple  [N·m]" if part == "M" else "force  [N]", xlim=(run.t[0], run.t[-1]))
-    if silent:
+    if silent := [name for name in shown if name in run.reactions and not run.reactions[name].determinate]:
         ax.set_title(f"indeterminate, not drawn: {', '.join(silent)}", fontsize=10, color=GROUND, pad=16)
     _legend(ax)
     return ax
+
+
+def _forces(run: Run, names: Sequence[str], part: str) -> Iterator[tuple[str, Array]]:
+    """The curves of ``reactions``: name and values."""
+    limits = limit_forces(run)
+    for name in names:
+        if name not in limits:
+            if run.reactions[name].determinate:
+                yield name, getattr(run.reactions[name], part)
+        elif part == "size":
+            yield from limits[name].items()
+        elif part != "M":
+            yield name, run[f"{quote(name)}.{part}"]
+
+
+def limit_forces(run: Run) -> dict[str, dict[str, Array]]:
+    """For each contact, string and stop (but those of angles), what it carries: values (nt,) in N by expression; no friction
+    that is 0 throughout."""
+    columns = [column for column in run.columns if column.kind == "limit"]
+    found: dict[str, dict[str, Array]] = {limit["name"]: {} for limit in run.about["limits"] if limit["dimension"] != "rad"}
+    for name, forces in found.items():
+        for column, values in zip(columns, run.blocks["limit"].T, strict=True):
+            friction = column.name.endswith(".T")
+            if (
+                column.name.rpartition(".")[0] == quote(name)
+                and not column.name.endswith(".gap")
+                and (values.any() or not friction)
+            ):
+                forces[column.name] = values
+    return found
+
+
+def broken(run: Run) -> tuple[Run, Callable[..., Array]]:
+    """The run with times about everything that switched, and what opens a gap there in values over its times."""
+    run = refined_at_jumps(run)
+    return run, gaps(run)
+
+
+def refined_at_jumps(run: Run) -> Run:
+    """The run with the times at which something switched and those just before; one from a file knows no more than its own."""
+    jumps = run.jumps[(run.jumps > run.t[0]) & (run.jumps <= run.t[-1])]
+    if run.recorded or not len(jumps):
+        return run
+    return run.at(np.unique(np.concatenate([run.t, jumps, np.nextafter(jumps, -np.inf)])))
+
+
+def gaps(run: Run) -> Callable[..., Array]:
+    """What puts a value more (default: the one there) before each place of values (nt,) at which something switched."""
+    # After the last time there is nothing to be kept apart.
+    places = np.flatnonzero(np.isin(run.t, run.jumps[run.jumps < run.t[-1]]) & (run.t > run.t[0]))
+
+    def insert(values: Array, fill: float | None = None) -> Array:
+        return np.insert(values, places, values[places] if fill is None else fill)
+
+    return insert
 
 
 @_styled
@@ -181,14 +238,18 @@ def quantity(unit: str) -> str:
 
 
 def _mark_events(run: Run, ax: Axes) -> None:
-    """Thin lines at events, each name above its first one."""
+    """Thin lines at events and impacts, each name above its first one; ticks at the foot where something else switched."""
     named = set()
-    for event in [event for event in run.events if run.t[0] < event.t < run.t[-1]][:40]:
-        ax.axvline(event.t, color=GROUND, lw=0.8, ls=(0, (2, 3)), zorder=1)
-        if event.name not in named:
-            ax.annotate(event.name, (event.t, 1), xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points",
-                        fontsize=8.5, color=GROUND, ha="center")  # fmt: skip
-        named.add(event.name)
+    impacts = [(", ".join(change.of), change.t) for change in run.impacts]
+    for tone, moments in ((GROUND, [(event.name, event.t) for event in run.events]), (IMPACT, impacts)):
+        for name, t in [moment for moment in moments if run.t[0] < moment[1] < run.t[-1]][:40]:
+            ax.axvline(t, color=tone, lw=0.8, ls=(0, (2, 3)), alpha=1.0 if tone == GROUND else 0.5, zorder=1)
+            if name not in named:
+                ax.annotate(name, (t, 1), xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points",
+                            fontsize=8.5, color=tone, ha="center")  # fmt: skip
+            named.add(name)
+    others = [change.t for change in run.changes if not change.impulses and run.t[0] < change.t < run.t[-1]]
+    ax.plot(others, np.zeros(len(others)), "|", color=GROUND, ms=7, transform=ax.get_xaxis_transform(), zorder=1)
 
 
 def _right_axis(ax: Axes) -> Axes:

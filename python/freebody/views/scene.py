@@ -1,7 +1,7 @@
 """What there is to draw, as pure data: outlines in body frames, and the frames' poses over time.
 
-Matplotlib and the browser draw the same scene. Everything moves in one of two ways: a ``Stroke`` with its
-body's frame, a ``Pair`` stretched between two points.
+Matplotlib and the browser draw the same scene. Everything moves in one of three ways: a ``Stroke`` with its
+body's frame, a ``Pair`` stretched between two points, a ``Cord`` as it is laid anew at every time.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 
 from freebody.instant import State
 from freebody.results import Array, quote
+from freebody.switched import Limit, limits_of, there
 from freebody.views import shapes
 
 if TYPE_CHECKING:
@@ -56,23 +57,35 @@ class Pair:
     """Something stretched between two points of bodies.
 
     ``ends``: (index of the figure, x, y) twice. ``lines``: polylines of (along, across): ``along`` runs from 0 at
-    the first end to 1 at the second, ``across`` is in m to the left.
+    the first end to 1 at the second, ``across`` is in m to the left. ``shown`` (nt,): whether it is there.
     """
 
     name: str
     kind: str
     ends: tuple[tuple[int, float, float], tuple[int, float, float]]
     lines: list[Array]
+    shown: Array
+
+
+@dataclass(frozen=True)
+class Cord:
+    """A string: its way (nt, k, 2) in the fixed axes, whether it is taut (nt,) and whether it is there (nt,)."""
+
+    name: str
+    path: Array
+    taut: Array
+    shown: Array
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Figures (ground first), pairs, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols."""
+    """Figures (ground first), pairs, strings, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols."""
 
     name: str
     size: float
     figures: list[Figure]
     pairs: list[Pair]
+    cords: list[Cord]
     t: Array
     poses: Array
     traces: list[str]
@@ -87,7 +100,9 @@ class Scene:
         return shapes.turn(points, angle, (x, y))
 
     def pair_lines(self, pair: Pair, frame: int = 0) -> list[Array]:
-        """A pair's polylines in the fixed axes."""
+        """A pair's polylines in the fixed axes; none where it is not there."""
+        if not pair.shown[frame]:
+            return []
         a, b = (self.place(i, np.array([[x, y]]), frame)[0] for i, x, y in pair.ends)
         length = np.hypot(*(b - a)) or 1.0
         left = np.array([a[1] - b[1], b[0] - a[0]]) / length
@@ -102,6 +117,7 @@ class Scene:
         frames = np.unique(np.linspace(0, len(self.t) - 1, 80).astype(int))
         seen = [self.place(i, s.points, k) for k in frames for i, f in enumerate(self.figures) for s in f.strokes]
         seen += [line for k in frames for pair in self.pairs for line in self.pair_lines(pair, k)]
+        seen += [cord.path[k] for k in frames for cord in self.cords if cord.shown[k]]
         everything = np.vstack(seen or [np.zeros((1, 2))])
         (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
         return float(x0), float(x1), float(y0), float(y1)
@@ -126,29 +142,43 @@ class Scene:
                 for figure in self.figures
             ],
             "pairs": [
-                {"kind": p.kind, "ends": p.ends, "lines": [line.round(max(digits, 4)).tolist() for line in p.lines]}
+                {"kind": p.kind, "ends": p.ends, "lines": [line.round(max(digits, 4)).tolist() for line in p.lines], **_shown(p)}
                 for p in self.pairs
+            ],
+            "cords": [
+                {"path": c.path.reshape(len(self.t), -1).round(digits).tolist(), "taut": c.taut.tolist(), **_shown(c)}
+                for c in self.cords
             ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
         }
 
 
-class Sketch:
-    """What symbols are drawn with: the model's numbers and points, and the figures to draw on."""
+def _shown(item: Pair | Cord) -> dict[str, Any]:
+    return {} if item.shown.all() else {"shown": item.shown.tolist()}
 
-    def __init__(self, source: Source, state: State, t: Array, q: Array, poses: Array) -> None:
+
+class Sketch:
+    """What symbols are drawn with: the model's numbers and points, and the figures to draw on. ``run``: where the times are
+    from, None for a state by itself."""
+
+    def __init__(self, source: Source, state: State, t: Array, q: Array, poses: Array, run: Run | None = None) -> None:
         self.spec: dict[str, Any] = json.loads(source.spec)
         self.about = source.about
-        self._core, self._state = source.core, state
+        self._core, self._state, self._run = source.core, state, run
         self.t, self.q = t, q
         fixed = np.zeros((len(t), 1, 3))
         self.poses = np.concatenate([fixed, poses], axis=1)
         self.names = [GROUND, *(body["name"] for body in self.about["bodies"])]
         self.figures = {name: Figure(name) for name in self.names}
         self.pairs: list[Pair] = []
+        self.cords: list[Cord] = []
         self.at: dict[str, tuple[str, Array]] = {}
+        self.owners: dict[str, str] = {}
         for name, place in json.loads(source.core.points(state.p)).items():
-            if isinstance(place, list) and len(place) == 3 and ".outline[" not in name:  # a corner that only contacts know
+            if not (isinstance(place, list) and len(place) == 3):
+                continue
+            self.owners[name] = place[0]
+            if ".outline[" not in name:  # a corner that only contacts know
                 self.at[name] = (place[0], np.array(place[1:], float))
                 self.figures[place[0]].points[name] = (float(place[1]), float(place[2]))
         self.outlines = {body: value for body, value in _outlines(source.model).items() if body in self.figures}
@@ -162,6 +192,26 @@ class Sketch:
         """An expression at the drawn state."""
         s = self._state
         return float(self._core.evaluate([text], s.p, s.t, s.q, s.u)[0])
+
+    def gap(self, limit: str) -> Array:
+        """How far (nt,) a contact is from touching or a string from being taut, m."""
+        text = f"{quote(limit)}.gap"
+        return np.array([self.value(text)]) if self._run is None else self._run[text]
+
+    def there(self, part: str, engaged: bool = True) -> Array:
+        """Whether a part is in place (nt,); ``engaged``: from the start."""
+        return there(self._run.changes if self._run else [], part, engaged, self.t)
+
+    def limits(self) -> list[Limit]:
+        """What contacts, strings and stops do at the drawn state; nothing where that has no answer."""
+        from freebody._core import MotionError
+
+        s = self._state
+        try:
+            told = self._core.instant(s.p, s.t, s.q, s.u).limits if self.about["limits"] else "[]"
+        except MotionError:
+            return []
+        return list(limits_of(json.loads(told), self.about).values())
 
     def travel(self, coordinate: str) -> tuple[float, float]:
         """Smallest and largest value of a coordinate; twice its value now where it is not of the state."""
@@ -192,11 +242,12 @@ class Sketch:
         c, s = np.cos(angle), np.sin(angle)
         return np.column_stack([c * (px - x) + s * (py - y), c * (py - y) - s * (px - x)])
 
-    def pair(self, name: str, kind: str, ends: Sequence[str], lines: list[Array]) -> None:
-        """Something stretched between two named points."""
+    def pair(self, name: str, kind: str, ends: Sequence[str], lines: list[Array], engaged: bool = True) -> None:
+        """Something stretched between two named points, as long as it is there."""
         (first, a), (second, b) = (self.at[point] for point in ends)
         index = self.names.index
-        self.pairs.append(Pair(name, kind, ((index(first), a[0], a[1]), (index(second), b[0], b[1])), lines))
+        shown = self.there(name, engaged)
+        self.pairs.append(Pair(name, kind, ((index(first), a[0], a[1]), (index(second), b[0], b[1])), lines, shown))
 
     def _size(self) -> float:
         """A size for symbols that suits the mechanism: a small part of its extent at the start, larger where it travels far."""
@@ -223,7 +274,7 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     """The scene of a run at times within it (default: its output times)."""
     shown = run if times is None else run.at(times)
     start = State(run.start.p, float(shown.t[0]), shown.q[0], shown.u[0])
-    return drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses), traces)
+    return drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
 
 
 def of_state(source: Source, state: State, traces: Sequence[str] | None = None) -> Scene:
@@ -242,14 +293,17 @@ def sketch_of_state(source: Source, state: State) -> Sketch:
 def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Scene:
     """Everything drawn; ``traces`` names the points to be traced (default: a few worth it)."""
     from freebody.views.symbols import draw_forces, draw_joints
+    from freebody.views.touching import draw_contacts, draw_strings
 
     for body in sketch.spec["bodies"]:
         _draw_body(sketch, body)
     draw_joints(sketch)
     draw_forces(sketch)
+    draw_contacts(sketch)
+    draw_strings(sketch)
     figures = [sketch.figures[name] for name in sketch.names]
     chosen = _worth_tracing(sketch) if traces is None else list(traces)
-    return Scene(sketch.spec.get("name", ""), sketch.size, figures, sketch.pairs, sketch.t, sketch.poses, chosen)
+    return Scene(sketch.spec.get("name", ""), sketch.size, figures, sketch.pairs, sketch.cords, sketch.t, sketch.poses, chosen)
 
 
 def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:

@@ -13,6 +13,7 @@ PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7
 INK = "#23272e"
 GROUND = "#5b6470"
 PAPER = "#ffffff"
+IMPACT = "#b3261e"
 DASHES = ("-", "--", "-.", ":")
 
 

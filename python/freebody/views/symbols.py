@@ -30,12 +30,13 @@ def draw_forces(sketch: Sketch) -> None:
         if "between" not in fields:
             continue
         width, ends = 0.9 * sketch.size, fields["between"]
+        there = force.get("engaged", True)
         spring, damper = force["type"] == "spring", bool(fields.get("damping"))
         apart = 1.3 * sketch.size if spring and damper else 0.0
         if spring:
-            sketch.pair(force["name"], "spring", ends, [_beside(shapes.zigzag(width), apart)])
+            sketch.pair(force["name"], "spring", ends, [_beside(shapes.zigzag(width), apart)], there)
         if damper:
-            sketch.pair(force["name"], "damper", ends, [_beside(line, -apart) for line in shapes.dashpot(width)])
+            sketch.pair(force["name"], "damper", ends, [_beside(line, -apart) for line in shapes.dashpot(width)], there)
 
 
 def _beside(line: Array, across: float) -> Array:

@@ -34,7 +34,10 @@ def report_html(run: Run) -> str:
     """
     style, script = _asset("style.css"), _asset("player.js") + _asset("plots.js")
     scene = of_run(run, frames(run))
-    events = [{"name": event.name, "t": event.t} for event in run.events]
+    events = [{"name": event.name, "t": event.t, "kind": "event"} for event in run.events]
+    events += [{"name": f"impact: {', '.join(change.of)}", "t": change.t, "kind": "impact"} for change in run.impacts]
+    others = [change for change in run.changes if not change.impulses]
+    ticks = [{"name": f"{change.kind}: {', '.join(change.of)}", "t": change.t} for change in others]
     return Template(_asset("page.html")).substitute(
         policy=f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; img-src data:",
         title=escape(run.name),
@@ -42,7 +45,7 @@ def report_html(run: Run) -> str:
         aside=aside(run),
         sections=sections(run),
         style=style,
-        data=_data({"scene": scene.to_json(), "plots": plots(run), "events": events}),
+        data=_data({"scene": scene.to_json(), "plots": plots(run), "events": events, "ticks": ticks}),
         script=script,
     )
 

@@ -100,8 +100,8 @@ function fit() {
 
 const toScreen = ([x, y]) => [view.x + view.scale * x, view.y - view.scale * y];
 
-// Poses of all figures at a time, between two frames in proportion.
-function posesAt(t) {
+// The frame before a time, and how far the time is on the way to the next.
+function frameAt(t) {
   let low = 0;
   let high = scene.t.length - 1;
   while (high - low > 1) {
@@ -111,8 +111,11 @@ function posesAt(t) {
   }
   const gap = scene.t[high] - scene.t[low];
   const part = gap > 0 ? Math.min(1, (t - scene.t[low]) / gap) : 0;
-  return scene.poses[low].map((value, i) => value + part * (scene.poses[high][i] - value));
+  return { low, high, part };
 }
+
+// Numbers of each frame, between two frames in proportion.
+const between = (frames, { low, high, part }) => frames[low].map((value, i) => value + part * (frames[high][i] - value));
 
 function placer(poses, figure) {
   const [x, y, angle] = poses.slice(3 * figure, 3 * figure + 3);
@@ -145,6 +148,14 @@ function paintFigures(poses, styles) {
   }
 }
 
+function paintCord(frame, cord) {
+  if (cord.shown && !cord.shown[frame.low]) return;
+  const flat = between(cord.path, frame);
+  const points = flat.filter((_, i) => i % 2 === 0).map((x, i) => [x, flat[2 * i + 1]]);
+  const taut = cord.taut[frame.low];
+  polyline(points, false, { line: taut ? tones.ink : tones.ground, width: taut ? 1.3 : 1 });
+}
+
 function paintPair(poses, pair) {
   const [a, b] = pair.ends.map(([figure, x, y]) => placer(poses, figure)([x, y]));
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -167,10 +178,12 @@ function paintTraces(poses) {
 function paintMechanism() {
   pen.clearRect(0, 0, view.width, view.height);
   pen.lineJoin = pen.lineCap = "round";
-  const poses = posesAt(player.t);
+  const frame = frameAt(player.t);
+  const poses = between(scene.poses, frame);
   if (byId("trace").checked) paintTraces(poses);
   paintFigures(poses, below);
-  scene.pairs.forEach((pair) => paintPair(poses, pair));
+  scene.pairs.filter((pair) => !pair.shown || pair.shown[frame.low]).forEach((pair) => paintPair(poses, pair));
+  scene.cords.forEach((cord) => paintCord(frame, cord));
   paintFigures(poses, above);
 }
 

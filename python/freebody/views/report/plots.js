@@ -52,6 +52,7 @@ function valueAt(plot, curve, t) {
   if (plot.t.length === 1) return curve.y[0];
   const i = before(plot.t, t);
   const [a, b] = [curve.y[i], curve.y[i + 1]];
+  if (plot.t[i] === plot.t[i + 1]) return b;
   if (a === null || b === null) return null;
   return a + ((b - a) * (t - plot.t[i])) / (plot.t[i + 1] - plot.t[i]);
 }
@@ -92,8 +93,13 @@ function drawPlot(plot, svg) {
   }
   element("text", { x: margin.left - 22, y: height - 7, "text-anchor": "end" }, svg, "t / s");
   for (const event of data.events.slice(0, 60)) {
-    const line = element("line", { class: "event", x1: x(event.t), x2: x(event.t), y1: margin.top, y2: height - margin.bottom }, svg);
+    const line = element("line", { class: event.kind, x1: x(event.t), x2: x(event.t), y1: margin.top, y2: height - margin.bottom }, svg);
     element("title", {}, line, event.name);
+  }
+  for (const tick of data.ticks.slice(0, 200)) {
+    const foot = height - margin.bottom;
+    const line = element("line", { class: "tick", x1: x(tick.t), x2: x(tick.t), y1: foot - 6, y2: foot }, svg);
+    element("title", {}, line, tick.name);
   }
   plot.curves.forEach((curve, i) => element("path", { class: `curve s${i % 8}`, d: pathOf(plot, curve, x, y) }, svg));
   plot.cursor = element("line", { class: "cursor", y1: margin.top, y2: height - margin.bottom }, svg);

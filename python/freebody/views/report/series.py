@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.results import Array, Column, plain, quote, unit_of
 from freebody.views.peaks import couple_noise
-from freebody.views.plots import pretty_unit
+from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps
 
 if TYPE_CHECKING:
     from freebody.run import Run
@@ -29,7 +29,7 @@ def frames(run: Run) -> Array:
 
 def plots(run: Run) -> list[dict[str, Any]]:
     """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
-    shown = run.at(_thinned(run.t, _POINTS))
+    shown = refined_at_jumps(run.at(_thinned(run.t, _POINTS)))
     made = []
     for kind, title in (("coordinate", "Coordinates"), ("rate", "Rates"), ("acceleration", "Accelerations")):
         made += _by_unit(shown, title, [column for column in run.columns if column.kind == kind])
@@ -43,15 +43,16 @@ def _thinned(t: Array, most: int) -> Array:
     return t if len(t) <= most else t[np.unique(np.linspace(0, len(t) - 1, most).astype(int))]
 
 
-def _plot(title: str, unit: str, t: Array, curves: Sequence[Curve], note: str = "") -> dict[str, Any]:
-    """One plot; at most eight curves, and a note that says so."""
+def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = "") -> dict[str, Any]:
+    """One plot; at most eight curves, and a note that says so. Where something switched the curves have gaps."""
+    breaks = gaps(run)
     if len(curves) > _CURVES:
         note = f"the first {_CURVES} of {len(curves)} curves. {note}".strip()
     return {
         "title": title,
         "unit": pretty_unit(unit),
-        "t": _short(t, 8),
-        "curves": [{"name": name, "y": _short(y, 6)} for name, y in curves[:_CURVES]],
+        "t": _short(breaks(run.t), 8),
+        "curves": [{"name": name, "y": _short(breaks(y, np.nan), 6)} for name, y in curves[:_CURVES]],
         "note": note,
     }
 
@@ -66,7 +67,7 @@ def _by_unit(run: Run, title: str, columns: Sequence[Column]) -> list[dict[str, 
     units = list(dict.fromkeys(column.unit for column in columns))
     values = run.blocks[columns[0].kind].T if columns else []
     curves = list(zip(columns, values, strict=True))
-    return [_plot(title, unit, run.t, [(_dotted(column), y) for column, y in curves if column.unit == unit]) for unit in units]
+    return [_plot(title, unit, run, [(_dotted(column), y) for column, y in curves if column.unit == unit]) for unit in units]
 
 
 def _dotted(column: Column) -> str:
@@ -80,25 +81,24 @@ def _dotted(column: Column) -> str:
 
 
 def _reactions(run: Run) -> list[dict[str, Any]]:
-    known = [(name, reaction) for name, reaction in run.reactions.items() if reaction.determinate]
+    known = [(name, reaction) for name, reaction in run.reactions.items() if reaction.determinate and reaction.carries]
     silent = [name for name, reaction in run.reactions.items() if not reaction.determinate]
     note = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
     noise = couple_noise(run)
     couples = [(name, reaction.M) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
-    made = (
-        [_plot("Reactions, size of the force", "N", run.t, [(name, r.size) for name, r in known], note)]
-        if known or silent
-        else []
-    )
-    return made + ([_plot("Reactions, couple", "N*m", run.t, couples)] if couples else [])
+    sizes = [(name, r.size) for name, r in known]
+    made = [_plot("Reactions, size of the force", "N", run, sizes, note)] if known or silent else []
+    limits = [(plain(text), y) for forces in limit_forces(run).values() for text, y in forces.items()]
+    made += [_plot("Contacts, strings and stops", "N", run, limits)] if limits else []
+    return made + ([_plot("Reactions, couple", "N*m", run, couples)] if couples else [])
 
 
 def _energy(run: Run) -> list[dict[str, Any]]:
     ledger = run.energy
     curves = [*ledger.entries.items(), ("kinetic + potential", ledger.kinetic + ledger.potential)]
     return [
-        _plot("Energy", "J", run.t, curves),
-        _plot("Energy that does not add up", "J", run.t, [("balance", ledger.balance)]),
+        _plot("Energy", "J", run, curves),
+        _plot("Energy that does not add up", "J", run, [("balance", ledger.balance)]),
     ]
 
 
@@ -111,5 +111,5 @@ def _asked(run: Run) -> list[dict[str, Any]]:
     made = []
     for unit in dict.fromkeys(units.values()):
         curves = [(plain(text), y) for text, y in values.items() if units[text] == unit and not np.isnan(y).all()]
-        made += [_plot("Reported quantities", unit, run.t, curves)] if curves else []
+        made += [_plot("Reported quantities", unit, run, curves)] if curves else []
     return made

@@ -22,7 +22,8 @@ def headline(run: Run) -> str:
     """Name, outcome and its sentence."""
     mood = "ok" if run.outcome.ok else "not-ok"
     badge = f'<span class="badge {mood}">{escape(run.outcome.name)}</span>'
-    return f"<h1>{escape(run.name)}</h1><p>{badge} {escape(_sentence(run.outcome.sentence))}, t = {_figure(run.outcome.t)} s</p>"
+    told, *more = escape(_sentence(run.outcome.sentence)).split("; ")
+    return f"<h1>{escape(run.name)}</h1><p>{badge} {'<br>'.join([f'{told}, t = {_figure(run.outcome.t)} s', *more])}</p>"
 
 
 def aside(run: Run) -> str:
@@ -32,7 +33,7 @@ def aside(run: Run) -> str:
 
 def sections(run: Run) -> str:
     """Peak reactions, the energy ledger, bodies, what is modelled, and how the run was made."""
-    return "\n".join((_peaks(run), _ledger(run), _bodies(run), _notes(run), _settings(run)))
+    return "\n".join((_switched(run), _peaks(run), _ledger(run), _bodies(run), _notes(run), _settings(run)))
 
 
 def _notes(run: Run) -> str:
@@ -91,12 +92,33 @@ def _events(run: Run, most: int = 100) -> str:
     )
 
 
+def _switched(run: Run, first: int = 60, last: int = 3) -> str:
+    """What switched; of very much the first and the last."""
+    shown = run.changes if len(run.changes) <= first + last else [*run.changes[:first], *run.changes[-last:]]
+    rows = [
+        (
+            _figure(c.t, 9),
+            c.kind,
+            ", ".join(c.of),
+            _figure(c.lost) if c.before else "",
+            "; ".join(
+                f"{name} {_figure(float(np.hypot(*p)))}" for name, p in (c.impulses.contacts if c.impulses else {}).items()
+            ),
+            c.note,
+        )
+        for c in shown
+    ]
+    remark = f"the first {first} and the last {last} of {len(run.changes)}" if len(shown) < len(run.changes) else ""
+    heads = ("t / s", "kind", "what", "energy lost / J", "impulse / N·s", "")
+    return _table("What switched", heads, rows, remark, "across")
+
+
 def _peaks(run: Run) -> str:
     peaks = peak_reactions(run)
     couples = any(peak.couple is not None for peak in peaks)
     all_known = all(peak.determinate for peak in peaks)
     heads = [
-        "joint",
+        "",
         "on",
         "force / N",
         "at t / s",
@@ -133,7 +155,7 @@ def _ledger(run: Run) -> str:
 def _settings(run: Run) -> str:
     s, stats = run.settings, run.stats
     rows = [
-        ("degrees of freedom", str(Instant(run.source.core, run.start).freedom)),
+        ("degrees of freedom", str(Instant(run.source.core, run.start, about=run.about).freedom)),
         ("from, to", f"{_figure(run.edges[0])} s to {_figure(run.edges[-1])} s"),
         ("method", s.method),
         ("relative tolerance", _figure(s.rtol)),
