@@ -103,7 +103,7 @@ _ONLY_OF = {
     "for others write a stop, under `stops`",
 }
 _ONLY_OF["end_restitution"] = _ONLY_OF["ends"]
-_ONLY_OF |= {word: "friction is for hinges, slots and sliders; for surfaces write a contact" for word in ("friction", "static_friction")}
+_ONLY_OF |= dict.fromkeys(("friction", "static_friction"), "friction is for hinges, slots and sliders; for surfaces write a contact")
 _ONLY_OF["bearing_radius"] = "only a hinge has a bearing"
 
 JOINTS = {word: _model(card, _coordinates(card) | _switches(card)) for word, card in cards.joints().items()}
