@@ -86,6 +86,12 @@ pub trait System {
         None
     }
 
+    /// The longest step after a restart that does not pass over a zero of a switching function which starts at zero, and
+    /// soon comes back to it.
+    fn horizon(&mut self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Writes the physical size of each component (1 rad, a length, a speed …); positive.
     fn scale(&self, out: &mut [f64]) {
         out.fill(1.0);

@@ -38,8 +38,8 @@ pub struct Machine<'m> {
     pub(super) rule: Rule,
     /// What has switched.
     pub(super) changes: Vec<Change>,
-    /// How long the flight after the last bounce lasts, where bounces grow short, s.
-    pub(super) flight: Option<f64>,
+    /// The limit that comes back first after the last bounce, and when, s.
+    pub(super) flight: Option<(usize, f64)>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
@@ -312,6 +312,11 @@ impl System for Machine<'_> {
         let (now, next) = (independence(t, y), independence(t + dt, &ahead));
         let when = now * dt / (now - next);
         (when > 0.0 && when.is_finite()).then_some(t + when)
+    }
+
+    /// Twice the first flight after a bounce.
+    fn horizon(&mut self) -> f64 {
+        self.flight.map_or(f64::INFINITY, |(_, flight)| 2.0 * flight)
     }
 
     fn scale(&self, out: &mut [f64]) {

@@ -1,9 +1,8 @@
 //! What switches during a motion: parts released and engaged, impacts, limits that hold and let go.
 
 use super::Machine;
-use crate::balance::{Blow, Reached, Trouble};
+use crate::balance::{Blow, Reached, Route, Trouble};
 use crate::contact::complementarity::{self, Law, Strike};
-use crate::contact::Friction;
 use crate::gauges::Law as Gauge;
 use crate::mechanism::{Deed, Part};
 use crate::mode::Hold;
@@ -104,9 +103,9 @@ impl Machine<'_> {
         self.place(t, y);
         let carries = self.balance.mode.limits.iter().any(|held| held.hold.carries());
         if carries {
-            self.balance.solve()?;
+            self.balance.solve_by(Route::Minimal)?;
         }
-        let forces = if carries { self.balance.limit_forces() } else { vec![] };
+        let forces = if carries { self.balance.safest_forces(self.strength) } else { vec![] };
         for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
             let held = self.balance.mode.limits[l];
             values.fill(1.0);
@@ -115,15 +114,11 @@ impl Machine<'_> {
                 Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
                 Hold::Idle => values[0] = self.balance.limit_gap(l) / self.balance.length + REACHED,
                 Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
-                    let [normal, tangent] = forces[l].map(|f| f / self.strength);
-                    values[0] = normal;
-                    match (held.hold, self.balance.m.limits[l].friction) {
-                        (Hold::Stuck, Some(Friction::Coulomb { fixed, .. })) => {
-                            let most = self.balance.n.slots[fixed] * normal;
-                            (values[1], values[2]) = (most - tangent, most + tangent);
-                        }
-                        (Hold::Sliding(sense), _) => values[1] = sense * self.balance.slide_rate(l) / self.speed,
-                        _ => {}
+                    for (value, margin) in values.iter_mut().zip(self.balance.margins(l, forces[l])) {
+                        *value = margin / self.strength;
+                    }
+                    if let Hold::Sliding(sense) = held.hold {
+                        values[1] = sense * self.balance.slide_rate(l) / self.speed;
                     }
                     values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
                 }
@@ -135,6 +130,13 @@ impl Machine<'_> {
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
+        if std::env::var("TRACE").is_ok() {
+            let name = self.names(&[l]);
+            let held = self.balance.mode.limits[l];
+            let mut v = vec![0.0; GUARDS * self.balance.m.limits.len()];
+            self.guard_values(t, y, &mut v)?;
+            eprintln!("{t:.15} guard {l}.{guard} {name:?} {held:?} values {:?} gap {:.3e} rates {:.3e}", &v[GUARDS*l..GUARDS*l+GUARDS], self.balance.limit_gap(l), self.balance.slide_rate(l));
+        }
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
@@ -153,28 +155,34 @@ impl Machine<'_> {
     pub(super) fn settle(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
-        let mut struck = false;
         for _ in 0..ROUNDS {
             self.place(t, y);
             self.balance.find_pieces();
             let touching = self.balance.touching(REACHED * self.balance.length);
             if touching.is_empty() {
+                self.flight = None;
                 return self.take_mode(t, &before);
             }
             let reached = self.balance.reach(touching)?;
             let k = reached.limits.len();
+            if std::env::var("TRACE").is_ok() {
+                for (i, &l) in reached.limits.iter().enumerate() {
+                    eprintln!("   {l} {:?} {:?} gap {:.3e} rate {:.3e} slip {:.3e}", self.names(&[l]), before.limits[l].hold, self.balance.limit_gap(l), reached.rates[i], reached.rates[k + i]);
+                }
+            }
             let still = STILL * self.speed;
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
                 self.impact(t, y, &reached)?;
-                struck = true;
                 continue;
             }
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
             if !staying.is_empty() {
                 self.take_holds(t, y, staying.iter().map(|&i| reached.limits[i]).collect())?;
             }
-            if struck && !parting.is_empty() && self.capture(t, y, &reached, &parting)? {
-                continue;
+            match parting.is_empty() {
+                true => self.flight = None,
+                false if self.capture(t, y, &reached, &parting)? => continue,
+                false => {}
             }
             return self.take_mode(t, &before);
         }
@@ -200,6 +208,9 @@ impl Machine<'_> {
             holding = self.balance.hold(&next, &slips, still)?;
         }
         self.balance.take(&reached, &holding);
+        if std::env::var("TRACE").is_ok() {
+            eprintln!("   holds {:?} close {}", holding.holds, holding.close);
+        }
         let (q, rest) = y.split_at_mut(n);
         self.balance.close(t, q, &rest[..n])?;
         self.balance.align(t, q, &mut rest[..n])?;
@@ -271,26 +282,31 @@ impl Machine<'_> {
         Impulses { limits, joints: blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect() }
     }
 
-    /// Whether bounces without end are over within a moment: then all that touches comes to rest.
+    /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.
     ///
     /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
-    /// lasts a constant part of the one before.
+    /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does not see
+    /// them.
     fn capture(&mut self, t: f64, y: &mut [f64], reached: &Reached, parting: &[usize]) -> Result<bool, Trouble> {
         self.place(t, y);
         self.balance.solve()?;
         let limits: Vec<usize> = parting.iter().map(|&i| reached.limits[i]).collect();
         let back = self.balance.gap_accelerations(&limits);
-        let flights = parting.iter().zip(&back).map(|(&i, &a)| if a < 0.0 { -2.0 * reached.rates[i] / a } else { f64::INFINITY });
-        let flight = flights.fold(0.0, f64::max);
+        let speeds = parting.iter().map(|&i| reached.rates[i]);
+        let flights: Vec<f64> = speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
         let (brief, before) = (BRIEF * self.balance.length / self.speed, self.flight.take());
-        if flight > brief {
-            self.flight = (flight <= 1e3 * brief).then_some(flight);
+        let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
+        let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
+        if over.is_empty() {
+            self.flight = flights[next].is_finite().then_some((limits[next], flights[next]));
             return Ok(false);
         }
-        let part = before.map_or(0.0, |before| (flight / before).min(0.999));
+        let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
+        let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
+        let part = before.filter(|(l, _)| over.contains(l)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
         let n = self.balance.m.freedom();
         let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
-        for &limit in &reached.limits {
+        for &limit in &over {
             self.balance.mode.limits[limit].hold = Hold::Smooth;
         }
         let (q, rest) = y.split_at_mut(n);
@@ -301,7 +317,7 @@ impl Machine<'_> {
         self.note(Change {
             t: t + flight / (1.0 - part),
             kind: "rest",
-            of: self.names(&limits),
+            of: self.names(&over),
             lost,
             states: Some([earlier, y.to_vec()]),
             impulses: None,
