@@ -51,6 +51,8 @@ pub struct Machine<'m> {
     delicate: bool,
     independence: f64,
     scales: Vec<f64>,
+    /// Size of a guard, for its round-off.
+    grain: f64,
 }
 
 impl<'m> Machine<'m> {
@@ -78,6 +80,7 @@ impl<'m> Machine<'m> {
             delicate: false,
             independence: 1.0,
             scales: vec![1.0; size],
+            grain: 1.0,
         }
     }
 
@@ -157,6 +160,9 @@ impl<'m> Machine<'m> {
         let mass: f64 = self.balance.n.mass.iter().sum::<f64>() + self.balance.n.inertia[1..].iter().sum::<f64>();
         let energy = (mass.max(1e-300) * (length * pace).powi(2)).max(self.balance.kinetic_energy());
         scales.resize(self.scales.len(), energy);
+        // A gap is told to the round-off of places.
+        let far = |i: usize| if m.coordinate(i).dimension == "m" { q[i].abs() / length } else { 0.0 };
+        self.grain = 4.0 * (0..n).map(far).fold(1.0, f64::max);
         self.scales = scales;
         self.speed = length * pace;
         self.strength = energy / length;
@@ -349,7 +355,7 @@ impl System for Machine<'_> {
         match m.events.get(i) {
             Some(event) => Watch { is_positive: event.guard, ..Watch::event(event.direction) },
             None if i < m.events.len() + m.kinks.len() => Watch::kink(),
-            None => Watch::guard(1.0),
+            None => Watch::guard(self.grain),
         }
     }
 

@@ -179,6 +179,7 @@ impl Machine<'_> {
             if !staying.is_empty() {
                 self.take_holds(t, y, staying.iter().map(|&i| reached.limits[i]).collect())?;
             }
+            self.put_onto(t, y, &reached.limits)?;
             match parting.is_empty() {
                 true => self.flight = None,
                 false if self.capture(t, y, &reached, &parting)? => continue,
@@ -192,10 +193,9 @@ impl Machine<'_> {
         ))
     }
 
-    /// Decides how limits that neither approach nor part go on, and brings the state exactly onto them.
+    /// Decides how limits that neither approach nor part go on.
     fn take_holds(&mut self, t: f64, y: &mut [f64], limits: Vec<usize>) -> Result<(), Trouble> {
         let still = STILL * self.speed;
-        let n = self.balance.m.freedom();
         let reached = self.balance.reach(limits)?;
         let slips = reached.slips();
         let mut holding = self.balance.hold(&reached, &slips, still)?;
@@ -211,8 +211,23 @@ impl Machine<'_> {
         if std::env::var("TRACE").is_ok() {
             eprintln!("   holds {:?} close {}", holding.holds, holding.close);
         }
+        Ok(())
+    }
+
+    /// Brings the state exactly onto the limits that hold, and out of those that open.
+    fn put_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
+        let n = self.balance.m.freedom();
+        self.place(t, y);
+        let inside = |l: &&usize| self.balance.mode.limits[**l].hold == Hold::Open && self.balance.limit_gap(**l) < 0.0;
+        let opening: Vec<usize> = reached.iter().filter(inside).copied().collect();
+        if opening.is_empty() && !self.balance.mode.limits.iter().any(|held| held.hold.carries()) {
+            return Ok(());
+        }
         let (q, rest) = y.split_at_mut(n);
-        self.balance.close(t, q, &rest[..n])?;
+        opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Smooth);
+        let closed = self.balance.close(t, q, &rest[..n]);
+        opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Open);
+        closed?;
         self.balance.align(t, q, &mut rest[..n])?;
         self.place(t, y);
         self.balance.solve()?;
