@@ -133,17 +133,23 @@ impl Balance<'_> {
     }
 
     /// How the limits reached go on from the present state: what parts, what sticks, what slides, for given speeds of
-    /// sliding; one below `still` is none.
+    /// sliding; one below `still` is none. Where several motions satisfy Coulomb's law, as where a block in a gap may jam or
+    /// go down, `stay` takes the one in which most limits stick: what can stay at rest stays.
     ///
     /// # Errors
     /// `painleve_inconsistent`, `painleve_indeterminate`; as [`Balance::solve`].
-    pub fn hold(&mut self, reached: &Reached, slips: &[f64], still: f64) -> Result<Holding, Trouble> {
+    pub fn hold(&mut self, reached: &Reached, slips: &[f64], still: f64, stay: bool) -> Result<Holding, Trouble> {
         let free = self.free_accelerations(reached)?;
         let grips: Vec<Grip> =
             reached.limits.iter().zip(slips).map(|(&l, &slip)| self.grip(l, slip, still)).collect();
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
         match complementarity::solve(&problem) {
             Verdict::Solved(answer) => Ok(holding(&answer, &free, &grips)),
+            Verdict::Indeterminate(answers) if stay => {
+                let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
+                let most = answers.iter().rev().max_by_key(sticks).expect("several answers");
+                Ok(holding(most, &free, &grips))
+            }
             verdict => Err(self.paradox(reached, &free, &grips, &verdict)),
         }
     }
@@ -162,7 +168,7 @@ impl Balance<'_> {
         let reached = self.reach(touching)?;
         let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
-        let holding = self.hold(&reached, &reached.slips(), still)?;
+        let holding = self.hold(&reached, &reached.slips(), still, false)?;
         self.take(&reached, &holding);
         Ok(())
     }

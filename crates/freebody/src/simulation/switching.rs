@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::balance::{Blow, Reached, Route, Trouble};
-use crate::contact::complementarity::{self, Law, Strike};
+use crate::contact::complementarity::{self, Law, NoImpact, Strike};
 use crate::gauges::Law as Gauge;
 use crate::mechanism::{Deed, Part};
 use crate::mode::Hold;
@@ -195,17 +195,17 @@ impl Machine<'_> {
 
     /// Decides how limits that neither approach nor part go on.
     fn take_holds(&mut self, t: f64, y: &mut [f64], limits: Vec<usize>) -> Result<(), Trouble> {
-        let still = STILL * self.speed;
+        let (still, stay) = (STILL * self.speed, self.rule != Rule::Stop);
         let reached = self.balance.reach(limits)?;
         let slips = reached.slips();
-        let mut holding = self.balance.hold(&reached, &slips, still)?;
+        let mut holding = self.balance.hold(&reached, &slips, still, stay)?;
         if holding.close {
             // What nothing decides now is decided by what comes next.
             self.balance.take(&reached, &holding);
             let (q, u) = self.ahead(t, y)?;
             self.balance.place(t + self.glimpse(), &q, &u);
             let next = self.balance.reach(reached.limits.clone())?;
-            holding = self.balance.hold(&next, &slips, still)?;
+            holding = self.balance.hold(&next, &slips, still, stay)?;
         }
         self.balance.take(&reached, &holding);
         if std::env::var("TRACE").is_ok() {
@@ -486,11 +486,22 @@ fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::
         (Rule::Stop, None) => Law::Newton,
         (Rule::Law(law), _) => law,
     };
-    let settled = complementarity::settle(strike, law).map_err(|e| {
-        Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}"))
-    })?;
+    let settled = match (complementarity::settle(strike, law), rule) {
+        (Ok(settled), _) => settled,
+        (Err(NoImpact::Ambiguous(all)), Rule::Law(_)) => return Ok(least(all)),
+        (Err(e), _) => {
+            return Err(Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))
+        }
+    };
     let note = (!settled.notes.is_empty()).then(|| settled.notes.join("; "));
     Ok((settled.impulses, note))
+}
+
+/// Of plastic impacts that all satisfy Coulomb's law the one that leaves least energy.
+fn least(all: Vec<complementarity::Impulses>) -> (complementarity::Impulses, Option<String>) {
+    let note = format!("Taken as plastic, and of {} outcomes as the one that leaves least energy.", all.len());
+    let least = all.into_iter().min_by(|a, b| a.work.total_cmp(&b.work)).expect("several outcomes");
+    (least, Some(note))
 }
 
 fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> Trouble {

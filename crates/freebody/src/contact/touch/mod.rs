@@ -32,6 +32,8 @@ pub struct Disk {
     pub centre: usize,
     /// Radius; None for a point.
     pub radius: Option<Slot>,
+    /// Sites of the corners before and after it, where it is the corner of a polygon.
+    pub beside: Option<[usize; 2]>,
 }
 
 /// A surface of a body.
