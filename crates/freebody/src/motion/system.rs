@@ -110,6 +110,16 @@ pub trait System {
         Ok(())
     }
 
+    /// The value of one switching function at (t, y), where that costs less than all.
+    ///
+    /// # Errors
+    /// As [`System::switch_values`].
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
+        let mut values = vec![0.0; self.switches()];
+        self.switch_values(t, y, &mut values)?;
+        Ok(values[i])
+    }
+
     /// How switching function `i` is watched.
     fn switch(&self, _i: usize) -> Watch {
         Watch::event(0)

@@ -350,6 +350,16 @@ impl System for Machine<'_> {
         Ok(())
     }
 
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
+        let first = self.balance.m.events.len() + self.balance.m.kinks.len();
+        if let Some(value) = i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)) {
+            return Ok(value);
+        }
+        let mut values = vec![0.0; self.switches()];
+        self.switch_values(t, y, &mut values)?;
+        Ok(values[i])
+    }
+
     fn switch(&self, i: usize) -> Watch {
         let m = self.balance.m;
         match m.events.get(i) {

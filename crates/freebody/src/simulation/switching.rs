@@ -106,25 +106,49 @@ impl Machine<'_> {
             self.balance.solve_by(Route::Minimal)?;
         }
         let forces = if carries { self.balance.safest_forces(self.strength) } else { vec![] };
+        let apart = self.balance.apart();
         for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
-            let held = self.balance.mode.limits[l];
-            values.fill(1.0);
-            match held.hold {
-                Hold::Off => continue,
-                Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
-                Hold::Idle => values[0] = self.balance.limit_gap(l) / self.balance.length + REACHED,
-                Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
-                    for (value, margin) in values.iter_mut().zip(self.balance.margins(l, forces[l])) {
-                        *value = margin / self.strength;
-                    }
-                    if let Hold::Sliding(sense) = held.hold {
-                        values[1] = sense * self.balance.slide_rate(l) / self.speed;
-                    }
-                    values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
+            match apart[self.balance.m.limits[l].group] {
+                // Apart, as their bodies are.
+                Some(least) if self.balance.mode.limits[l].hold == Hold::Open => {
+                    values.copy_from_slice(&[least / self.balance.length, 1.0, 1.0, 1.0]);
                 }
+                _ => self.guards_of(l, forces.get(l).copied().unwrap_or_default(), values),
             }
         }
         Ok(())
+    }
+
+    /// The guards of one limit under given forces along its gap and its slide, at the state placed.
+    fn guards_of(&self, l: usize, forces: [f64; 2], values: &mut [f64]) {
+        let held = self.balance.mode.limits[l];
+        values.fill(1.0);
+        match held.hold {
+            Hold::Off => {}
+            Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
+            Hold::Idle => values[0] = self.balance.limit_gap(l) / self.balance.length + REACHED,
+            Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
+                for (value, margin) in values.iter_mut().zip(self.balance.margins(l, forces)) {
+                    *value = margin / self.strength;
+                }
+                if let Hold::Sliding(sense) = held.hold {
+                    values[1] = sense * self.balance.slide_rate(l) / self.speed;
+                }
+                values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
+            }
+        }
+    }
+
+    /// One guard, if it is of the configuration alone: then nothing needs to be solved.
+    pub(super) fn guard_value(&mut self, guard: usize, t: f64, y: &[f64]) -> Option<f64> {
+        let l = guard / GUARDS;
+        if self.balance.mode.limits[l].hold.carries() {
+            return None;
+        }
+        self.place(t, y);
+        let mut values = [0.0; GUARDS];
+        self.guards_of(l, [0.0; 2], &mut values);
+        Some(values[guard % GUARDS])
     }
 
     /// A guard of limit `l` fell to zero.
@@ -481,10 +505,12 @@ impl Machine<'_> {
 
 /// The impulses of a strike, by the rule where laws differ.
 fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
-    let law = match (rule, complementarity::undecided(strike)) {
-        (Rule::Stop, Some(alternatives)) => return Err(undecided(names, &alternatives)),
-        (Rule::Stop, None) => Law::Newton,
-        (Rule::Law(law), _) => law,
+    let law = match rule {
+        Rule::Law(law) => law,
+        Rule::Stop => match complementarity::undecided(strike) {
+            Some(alternatives) => return Err(undecided(names, &alternatives)),
+            None => Law::Newton,
+        },
     };
     let settled = match (complementarity::settle(strike, law), rule) {
         (Ok(settled), _) => settled,
