@@ -29,20 +29,12 @@ KAPPA = (I + 2 * m * R**2) / (2 * m)
 UNWOUND = L / (R * W)
 SENSES = {"(a)": 1, "(b)": -1}
 CONSERVED, SCIPY = "closed form: angular momentum and energy", "other route: two directions, integrated by SciPy"
-SLOWER = 1e-9
-"""The tension of (a) is 0 exactly, and whether such a string is taut is for round-off to say. So the particles are let
-go that much slower; the strings are slack until they are drawn straight shortly after UNWOUND.
-Times and lengths then agree to about that."""
-
-
 OFF = 1e-7
 """Tolerance once the strings have come off the drum: the law of the string has a kink there, and the step lies across it."""
 
 
 def run(case, sense, until=2.0, **parameters):
-    if sense == "(a)":
-        return case.run("with_spin.yaml", {"slower": SLOWER, **parameters}, until=until)
-    return case.run("model.yaml", parameters, until=until)
+    return case.run("with_spin.yaml" if sense == "(a)" else "model.yaml", parameters, until=until)
 
 
 def spin(sense, free):
