@@ -16,8 +16,9 @@ Hanging under gravity, θ from the downward vertical, from a hand at height y: �
 multiplier of its two basic solutions. The swing θ = A cos ωt + B sin ωt has on average Ȧ = (bω/ℓ)B and Ḃ = (bω/ℓ)A,
 up to b²: A + B grows at the rate bω/ℓ.
 
-A string that only pulls goes slack where T = 0; the bob flies straight on until it is ℓ from the hand again, and there loses its speed
-along the string relative to the hand, whatever the hand spends on that. All four laws of the angle keep it taut, and so does a sweep that the bob follows.
+A string that only pulls goes slack where T = 0; the bob flies straight on until it is ℓ from the hand again, and there loses
+its speed along the string relative to the hand, whatever the hand spends on that. All four laws of the angle keep it taut,
+and so does a sweep that the bob follows.
 """
 
 import json

@@ -9,8 +9,8 @@ With y = (M + m)g/k + η the constant terms go: ky − (M + m)g = kη.
 Without spring (B) the mass centre falls freely, and seen from a frame that falls with it no force works: with
 w = y − ½gt², both P = (M + m)ẇ − mℓ sin θ θ̇ and ½mℓ²(1 − m sin²θ/(M + m))θ̇² are constant. So θ(t) is a quadrature.
 
-C: M hangs at depth y on one end of a cable, m swings on the other; both are hung over small pulleys on one level, y and r = ℓ − y below
-them. M down, m along and across its part of the cable:
+C: M hangs at depth y on one end of a cable, m swings on the other; both are hung over small pulleys on one level, y and r =
+ℓ − y below them. M down, m along and across its part of the cable:
     Mÿ = Mg − T,   m(r̈ − rθ̇²) = mg cos θ − T,   rθ̈ + 2ṙθ̇ = −g sin θ,   with ṙ = −ẏ:
     (M + m)ÿ = Mg − m(g cos θ + rθ̇²),   rθ̈ = 2ẏθ̇ − g sin θ.
 """

@@ -16,7 +16,7 @@ is possible, and the run says so. A real foot slides before.
 """
 
 import json
-from functools import cache
+from functools import cache, partial
 from math import cos, pi, radians, sin, sqrt
 
 import numpy as np
@@ -172,14 +172,14 @@ def way(spins, steps):
 def slope(case):
     for degrees, start in ((5, 1.0), (10, 1.5), (10, 2.2)):
         steps, w, t, check = Steps(8, degrees), start, 0.0, []
-        run = case.run(parameters={"slope": f"{degrees} deg", "omega": start}, until=5.0)
         for _ in range(5):
             t, w = t + steps.time(w), steps.after(w)
             check.append((t, w))
-        hits = collisions(run)[:5]
-        of = f"{degrees}°, ω+ = {start}"
-        yield Answer(f"ω+, {of}", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10)
-        yield Answer(f"times, {of}", [c["t"] for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
+        for file in ("model.yaml", "hinged.yaml"):
+            run = case.run(file, {"slope": f"{degrees} deg", "omega": start}, until=t + 0.1)
+            hits, of = collisions(run)[:5], f"{degrees}°, ω+ = {start}, {file}"
+            yield Answer(f"ω+, {of}", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10)
+            yield Answer(f"times, {of}", [c["t"] for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
 
 
 @ask("(e) Steady speed: reached from a push just past the first spoke, and found as the fixed point of the program's own map")
@@ -269,9 +269,20 @@ def ground(case):
         yield Answer(f"friction ratio at most, {of}", ratio.max(), "", check, "closed form", 1e-6)
 
 
+def flown(steps, w, t):
+    """Height of the next tip over the floor after a flight of t from just after a collision."""
+    lean = steps.start
+    x, y = R * sin(lean) + w * R * cos(lean) * t, R * cos(lean) - w * R * sin(lean) * t - G * t**2 / 2
+    tip = lean + w * t - 2 * steps.half
+    return (x - R * sin(tip)) * sin(steps.slope) + (y - R * cos(tip)) * cos(steps.slope)
+
+
 @ask("Too fast for a foot that can only push: where its normal force ends")
 def lifting(case):
-    """Without any force a point of the wheel is accelerated by R φ̇² along its spoke and by g down. A hinged tip is pulled from then on."""
+    """Without any force a tip is accelerated by Rφ̇² along its spoke and by g down.
+
+    Where the first wins it flies; where g wins it can neither stay nor part. A hinged tip is pulled from then on.
+    """
     for k, degrees, w in ((8, 10, 3.0), (8, 20, 2.5), (4, 10, 3.0)):
         steps = Steps(k, degrees)
         phi = brentq(lambda x, s=steps, w=w: s.force(x, w)[0], 0.0, steps.end, xtol=1e-15)
@@ -290,6 +301,17 @@ def lifting(case):
         hinged = case.run("hinged.yaml", {**parameters, "n": 1}, until=t + 0.01)
         value = hinged.evaluate("'pin[0]'.Fx*sin(slope) + 'pin[0]'.Fy*cos(slope)", t)
         yield Answer(f"N of the hinged tip then, {of}", value, "N", 0.0, "closed form", 1e-9, M * G)
+    run, steps, w = case.run(parameters={"slope": "40 deg", "omega": 3.0}, until=0.5), Steps(8, 40), 3.0
+    high = partial(flown, steps, w)
+    check = brentq(high, 0.1, 0.4, xtol=1e-15)
+    yield Answer(
+        "flies at once and lands on the next tip, k = 8, 40°, ω+ = 3",
+        collisions(run)[0]["t"],
+        "s",
+        check,
+        "closed form: free flight",
+        1e-9,
+    )
 
 
 @ask("(f) More and more spokes: the wheel rolls as a hoop with spokes would")
