@@ -75,7 +75,7 @@ class Steps:
 
         def integrand(s):
             y = x * s**2
-            return sqrt(8 * x / (C * sin(self.half - 2 * x + y) * (sin(y) / y if y else 1)))
+            return sqrt(4 * x / (C * sin(self.half - 2 * x + y) * (sin(y) / y if y else 1)))
 
         return 2 * quad(integrand, 0, 1, epsabs=0, epsrel=1e-13)[0]
 
@@ -152,7 +152,7 @@ def rest(case):
         n = 8
         yield Answer(f"ω+ of {n} collisions, {of}", [spin(c) for c in collisions(run)[:n]], "rad/s", spins[:n], MAP, 1e-8)
         changes = json.loads(run.motion.changes)
-        yield Answer(f"at rest from t, {of}", changes[-1]["t"], "s", t, "quadrature and geometric series", 1e-5)
+        yield Answer(f"at rest from t, {of}", changes[-1]["t"], "s", t, "quadrature and geometric series", 1e-8)
         energy = run.evaluate("kinetic()", 12.0)
         yield Answer(f"kinetic energy at 12 s, {of}", energy, "J", 0.0, "closed form: rest", 1e-20, J / 2 * start**2)
         height = run.evaluate("y(wheel.origin)", 12.0)
