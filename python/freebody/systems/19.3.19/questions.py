@@ -177,6 +177,8 @@ def grows(case):
         yield Answer(
             f"growth rate, b = {b:g}", rate, "1/s", growth_rate(check, period), "other route: Mathieu's equation, SciPy", 1e-9
         )
+        least, hanging = run.report["least tension"].value, M * G * (1 - 4 * b / L)
+        yield Answer(f"least tension, b = {b:g}", least, "N", hanging, "closed form: m(g − bν²), no swing", 1e-8)
         yield Answer(f"growth rate/b, b = {b:g}", rate / b, "1/m·s", omega / L, "closed form: bω/ℓ for small b", b**2)
 
 

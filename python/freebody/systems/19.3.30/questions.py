@@ -23,6 +23,7 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
+from freebody import MotionError
 from freebody.catalogue import Answer, ask
 
 M, I, R, G = 1.0, 0.5, 1.0, 9.81
@@ -214,6 +215,21 @@ def least_slope(k):
     return brentq(lambda degrees: Steps(k, degrees).steady - Steps(k, degrees).vault, 0.1, 180 / k, xtol=1e-12)
 
 
+@ask("(e) Which of these a foot that can only push and never slides can walk")
+def walks(case):
+    """Those whose N stays above 0 until the next tip hits."""
+    for k, degrees in ((4, 30), (6, 10), (6, 20), (8, 3), (8, 15), (8, 20), (16, 2), (16, 5)):
+        steps = Steps(k, degrees)
+        least = min(steps.force(phi, steps.steady)[0] for phi in np.linspace(steps.start, steps.end, 2001))
+        mechanism = case.mechanism(k=k, slope=f"{degrees} deg")
+        mechanism.parameters["omega"] = steps.steady
+        run = mechanism.simulate(until=1.5 * steps.time(steps.steady), rtol=1e-12)
+        hits = collisions(run)
+        walked = bool(hits) and run.outcome.ok and abs(spin(hits[0]) - steps.steady) < 1e-9
+        against = f"closed form: least N {least:.3f} N"
+        yield Answer(f"walks (1) or not (0), k = {k}, {degrees}°", float(walked), "", float(least > 0), against)
+
+
 @ask("(e) The least slope with a steady speed")
 def least(case):
     """A little steeper, the wheel goes on for ever from the speed that repeats itself; a little flatter it stops."""
@@ -267,6 +283,21 @@ def ground(case):
             -needed(a), -needed(steps.end), -minimize_scalar(needed, bounds=(0.3 * steps.end, steps.end), method="bounded").fun
         )
         yield Answer(f"friction ratio at most, {of}", ratio.max(), "", check, "closed form", 1e-6)
+
+
+@ask("Staying and parting both possible: k = 8, 30°, steady speed")
+def either(case):
+    """Held, the floor pushes; let go, the tip rises: no law says which, and the program does not choose."""
+    steps = Steps(8, 30)
+    w, mechanism = steps.steady, case.mechanism(slope="30 deg")
+    mechanism.parameters["omega"] = w
+    try:
+        named = mechanism.simulate(until=0.1).outcome.name
+    except MotionError as error:
+        named = error.args[0]
+    rises = R * w**2 * cos(steps.half) > G * cos(steps.slope)
+    both = float(rises and steps.force(steps.start, w)[0] > 0)
+    yield Answer("the run ends by name (1)", float(named == "painleve_indeterminate"), "", both, "closed form: both are motions")
 
 
 def flown(steps, w, t):
