@@ -8,7 +8,7 @@
 (d) Slope: between two collisions it comes down by d sin γ, d = 2R sin α:  (ω_(n+1)+)² = η²((ω_n+)² + 2(mg/J) d sin γ).
 (e) So ω*² = η²·2(mg/J) d sin γ/(1 − η²) repeats itself, if it carries the centre over the top; others come nearer by η² a step.
 (f) With k → ∞ a collision takes (2α)²mR²/J of the energy, a turn k times as much, 4π²mR²/kJ: nothing in the end. The floor
-then does what it does to a hoop of radius R: ω̇ = mgR sin γ/J. But ω* grows as √k: there is no steady speed.
+then does what it does to a round wheel: ω̇ = mgR sin γ/J. But ω* grows as √k: there is no steady speed.
 
 The foot's force along the spoke and across it: m(g cos φ − Rφ̇²) and m(g sin φ − Rφ̈). A foot that can only push and never slides
 comes to the moment where N is 0 and T is not. Without T the tip would be pressed into the floor, with it N would pull: no motion
@@ -345,7 +345,7 @@ def lifting(case):
     )
 
 
-@ask("(f) More and more spokes: the wheel rolls as a hoop with spokes would")
+@ask("(f) More and more spokes: it rolls as a round wheel does")
 def many(case):
     """From ω = 1 at 5° for a second: exact for each k; nearer to the rolling wheel by a factor as k grows."""
     roll = 1 + C * sin(radians(5))
