@@ -19,6 +19,9 @@ const CLOSE: f64 = 1e-8;
 /// Part of the mechanism's own accelerations below which one is round-off.
 const NOTHING: f64 = 1e-13;
 
+/// Coupling of two limits, over their own sizes, that is round-off.
+const UNCOUPLED: f64 = 1e-12;
+
 /// What counts as slow, and what is done where nothing decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
@@ -77,6 +80,26 @@ impl Reached {
     /// Speeds of sliding, m/s.
     pub fn slips(&self) -> Vec<f64> {
         self.rates[self.len()..].to_vec()
+    }
+
+    /// Of each limit whether it approaches faster than `still`, or is coupled to one that does.
+    pub fn takes_part(&self, still: f64) -> Vec<bool> {
+        let k = self.len();
+        let size = |i: usize| self.g[(i, i)].max(self.g[(k + i, k + i)]).max(f64::MIN_POSITIVE);
+        let coupled = |i: usize, j: usize| {
+            let entries = [(i, j), (i, k + j), (k + i, j), (k + i, k + j)];
+            entries.iter().any(|&at| self.g[at].abs() > UNCOUPLED * (size(i) * size(j)).sqrt())
+        };
+        let mut part: Vec<bool> = (0..k).map(|i| self.rates[i] < -still).collect();
+        let mut found: Vec<usize> = (0..k).filter(|&i| part[i]).collect();
+        while let Some(i) = found.pop() {
+            for j in (0..k).filter(|&j| coupled(i, j)) {
+                if !std::mem::replace(&mut part[j], true) {
+                    found.push(j);
+                }
+            }
+        }
+        part
     }
 
     /// Row i of gaps and slides together; None for a slide that cannot rub.

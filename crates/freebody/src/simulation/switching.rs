@@ -233,7 +233,7 @@ impl Machine<'_> {
     fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
-        let (still, mut seized) = (STILL * self.speed, false);
+        let (still, mut seized, mut struck) = (STILL * self.speed, false, vec![]);
         for _ in 0..ROUNDS {
             // Joints pass impulses on without friction.
             self.balance.mode.rubs.fill(Hold::Open);
@@ -243,7 +243,7 @@ impl Machine<'_> {
             let reached = self.balance.reach(touching)?;
             let k = reached.limits.len();
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
-                self.impact(t, y, &reached)?;
+                struck.extend(self.impact(t, y, &reached)?);
                 continue;
             }
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
@@ -256,7 +256,9 @@ impl Machine<'_> {
                 }
                 done => done?,
             }
-            self.put_onto(t, y, &reached.limits)?;
+            // What bounces back does so from where it is: to shift it would turn its way.
+            let at_rest: Vec<usize> = reached.limits.iter().copied().filter(|l| !struck.contains(l)).collect();
+            self.put_onto(t, y, &at_rest)?;
             match parting.is_empty() {
                 true => self.flight = None,
                 false if self.capture(t, y, &reached, &parting)? => continue,
@@ -349,8 +351,8 @@ impl Machine<'_> {
         Ok((q, u))
     }
 
-    /// The limits reached strike.
-    fn impact(&mut self, t: f64, y: &mut [f64], reached: &Reached) -> Result<(), Trouble> {
+    /// The limits reached strike; returns those that did.
+    fn impact(&mut self, t: f64, y: &mut [f64], reached: &Reached) -> Result<Vec<usize>, Trouble> {
         let n = self.balance.m.freedom();
         let restitution: Vec<f64> = reached.limits.iter().map(|&l| self.balance.restitution(l)).collect();
         let names = self.balance.names_of(&reached.limits);
@@ -362,8 +364,9 @@ impl Machine<'_> {
         self.place(t, y);
         let lost = energy - self.balance.kinetic_energy();
         let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
-        let struck = reached.limits.iter().zip(&blow.normal).filter(|(_, &p)| p > NOTHING * most);
-        let struck: Vec<usize> = struck.map(|(&l, _)| l).collect();
+        let part = reached.takes_part(STILL * self.speed);
+        let struck = (0..part.len()).filter(|&i| part[i] && blow.normal[i] > NOTHING * most);
+        let struck: Vec<usize> = struck.map(|i| reached.limits[i]).collect();
         let m = self.balance.m;
         let string = |&l: &usize| m.groups[m.limits[l].group].word == "string";
         self.begin_stretch(t, 0.0, -lost);
@@ -376,7 +379,7 @@ impl Machine<'_> {
             impulses: Some(self.impulses(reached, &blow)),
             note: blow.note,
         });
-        Ok(())
+        Ok(struck)
     }
 
     fn impulses(&self, reached: &Reached, blow: &Blow) -> Impulses {
@@ -410,12 +413,13 @@ impl Machine<'_> {
         let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
         let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
         if over.is_empty() {
-            self.flight = flights[next].is_finite().then_some((limits[next], flights[next]));
+            self.flight = flights[next].is_finite().then_some((self.group(limits[next]), flights[next]));
             return Ok(false);
         }
         let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
         let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
-        let part = before.filter(|(l, _)| over.contains(l)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
+        let of = |group: &usize| over.iter().any(|&l| self.group(l) == *group);
+        let part = before.filter(|(group, _)| of(group)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
         let n = self.balance.m.freedom();
         let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
         for &limit in &over {
@@ -436,6 +440,10 @@ impl Machine<'_> {
             note: Some(format!("the bounces from t = {t:.12} s on, without end, are over")),
         });
         Ok(true)
+    }
+
+    fn group(&self, limit: usize) -> usize {
+        self.balance.m.limits[limit].group
     }
 
     /// The names of the contacts, stops and strings of limits, each once.
