@@ -329,6 +329,16 @@ impl expr::Scope<Leaf> for Scope<'_> {
                 None => self.measure(name, arguments),
             });
         }
+        if name == "tension" {
+            let mut of = |argument: &Ast| match &argument.kind {
+                AstKind::Name(owner) => expr::Scope::name(self, &format!("{owner}.tension")).map_err(|m| m.at(&argument.span)),
+                _ => Err(Message::new("a link or a string is needed here", "write its name").at(&argument.span)),
+            };
+            return Some(match (wanted(&[1]), arguments) {
+                (None, [argument]) => of(argument),
+                (error, _) => Err(error.expect("it has no argument, or several")),
+            });
+        }
         if let Some(&(_, count)) = READINGS.iter().find(|(word, _)| *word == name) {
             let count: &[usize] = if name == "kinetic" { &[0, 1] } else { &[count] };
             return Some(match wanted(count).or_else(|| too_far(Reach::Instant)) {
@@ -344,7 +354,7 @@ impl expr::Scope<Leaf> for Scope<'_> {
     }
 
     fn functions(&self) -> Vec<String> {
-        let words = MEASURES.iter().map(|m| m.0).chain(READINGS.iter().map(|r| r.0));
+        let words = MEASURES.iter().map(|m| m.0).chain(READINGS.iter().map(|r| r.0)).chain(["tension"]);
         words.map(str::to_string).chain(self.names.tables.keys().cloned()).collect()
     }
 

@@ -170,15 +170,15 @@ impl Watcher {
         }
     }
 
-    /// The run stopped at a zero; `values` are those of all functions there. After a jump the
-    /// sides are found anew: a sign that an action changed is no event.
+    /// The run stopped at a zero; `values` are those of all functions there. A sign that an action changed is no event:
+    /// that side is found anew.
     pub fn stop_at(&mut self, values: &[f64], has_jumped: bool) {
         for (memory, &value) in self.memory.iter_mut().zip(values) {
             memory.is_spent = false;
             memory.side = match memory.sign(value) {
                 _ if memory.is_guard => 1,
-                _ if has_jumped => 0,
                 0 => memory.side,
+                sign if has_jumped && sign != memory.side => 0,
                 sign => sign,
             };
         }

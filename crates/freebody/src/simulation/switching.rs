@@ -422,8 +422,11 @@ impl Machine<'_> {
         let part = before.filter(|(group, _)| of(group)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
         let n = self.balance.m.freedom();
         let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
+        let fastest = parting.iter().map(|&i| reached.rates[i]).fold(0.0, f64::max);
         for &limit in &over {
-            self.balance.mode.limits[limit].hold = Hold::Smooth;
+            // What rocks comes to rest as a whole; what slides goes on sliding.
+            let rocks = self.balance.m.limits[limit].friction.is_some() && self.balance.slide_rate(limit).abs() <= fastest;
+            self.balance.mode.limits[limit].hold = if rocks { Hold::Stuck } else { Hold::Smooth };
         }
         let (q, rest) = y.split_at_mut(n);
         self.balance.align(t, q, &mut rest[..n])?;
