@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.grid import Motion, Times, output_times
-from freebody.instant import Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
+from freebody.instant import Instant, Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
 from freebody.results import (
     BEFORE,
     ENTRIES,
@@ -225,8 +225,13 @@ class Run:
         times = np.atleast_1d(np.asarray(self.t if t is None else t, float))
         values = self.motion.evaluate([text], times)[:, 0]
         if np.isnan(values).any():
-            refuse_indeterminate(text, self.reactions)
+            refuse_indeterminate(text, self.reactions, self.about)
         return float(values[0]) if np.isscalar(t) else values
+
+    def instant(self, t: float, route: str = "minimal") -> Instant:
+        """The whole instant at a time within the run, with what is in place and holds then."""
+        q, u = self.motion.sample(np.array([t]))
+        return Instant(self.source.core, State(self.end.p, t, q[0], u[0]), route, self.about, self.motion)
 
     def before(self, text: str, t: float) -> float:
         """The value of an expression just before a time, at which something may switch."""
@@ -245,13 +250,13 @@ class Run:
         si = unit_of(item.value, self.columns)
         if item.how != "at":
             when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
-            return _reported(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
+            return Reported.of(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
         at, before = (item.at[len(BEFORE) :], True) if str(item.at).startswith(BEFORE) else (item.at, False)
         moments = self._moments(at)
         if not moments:
             return Reported(None, "", note=f"{at} did not happen")
         note = ", ".join(["just before"] * before + [f"the first of {len(moments)}"] * (len(moments) > 1))
-        return _reported(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
+        return Reported.of(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
 
     def _moments(self, at: str | float) -> list[float]:
         if at in ("start", "end"):
@@ -386,11 +391,3 @@ class Run:
 
     def _named(self, values: Sequence[float]) -> dict[str, float]:
         return dict(zip(self.coordinates, values, strict=True))
-
-
-def _reported(item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:
-    if not item.unit:
-        return Reported(value, si, t, note)
-    from freebody.model.units import convert
-
-    return Reported(value / convert(item.unit)[0], item.unit, t, note)
