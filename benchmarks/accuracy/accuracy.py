@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from mpmath import mp
@@ -168,6 +169,88 @@ def four_bar() -> Iterator[Row]:
     yield Row("four-bar, 10 s: gap of the loop at every output [m]", gap.max(), 1e-12)
 
 
+def switched(run: freebody.Run, *kinds: str) -> list[dict[str, Any]]:
+    """What switched during a run, of these kinds."""
+    return [change for change in json.loads(run.motion.changes) if change["kind"] in kinds]
+
+
+def open_ledger(run: freebody.Run) -> float:
+    """How far the energy ledger is open at most, over the largest kinetic energy."""
+    return np.abs(run.energy.balance).max() / run.energy.kinetic.max()
+
+
+def bouncing_ball() -> Iterator[Row]:
+    """Bounces without end, at √(2h/g) (1 + 2 Σ eʲ), have an end."""
+    run, e, fall = simulate("bouncing_ball.yaml"), 0.7, math.sqrt(2 / G)
+    (rest,) = switched(run, "rest")
+    yield Row("bouncing ball: the end of all bounces [s]", abs(rest["t"] - fall * (1 + e) / (1 - e)), 1e-9)
+    yield Row("bouncing ball: changes until it rests", len(json.loads(run.motion.changes)), 200)
+    yield Row("bouncing ball: energy ledger over kinetic energy", open_ledger(run), 1e-9)
+
+
+def billiard() -> Iterator[Row]:
+    """Chords that meet the wall at β from its normal: each impact is π − 2β further on."""
+    run, beta = simulate("billiard.yaml"), 0.37
+    impacts = switched(run, "impact")
+    (x, y), (vx, vy) = (np.array([impact["after"][part] for impact in impacts]).T for part in ("q", "u"))
+    turned = np.arctan2(y, x) - (math.pi / 2 - beta) - np.arange(len(impacts)) * (math.pi - 2 * beta)
+    yield Row("ball in a circle: impacts less than 10 000", max(0, 10_000 - len(impacts)), 0)
+    yield Row("ball in a circle, 10 000 impacts: angle [rad]", np.abs(np.angle(np.exp(1j * turned))).max(), 1e-8)
+    yield Row("ball in a circle, 10 000 impacts: speed, relative", np.abs(np.hypot(vx, vy) - 1).max(), 1e-10)
+
+
+def belt() -> Iterator[Row]:
+    """It slips at kx = μₛmg and swings about μmg/k until it has the belt's speed again, (μₛ − μ)mg/k on the other side."""
+    run = simulate("belt.yaml")
+    omega, a, v = 10.0, 0.2 * G / 100, 0.1
+    slip, stick = 2 * (math.pi - math.atan(a * omega / v)) / omega, 2 * a / v
+    periods = np.arange(13) * (slip + stick)
+    for kind, first in (("slip", 0.4 * G / 100 / v), ("stick", 0.4 * G / 100 / v + slip)):
+        times = [change["t"] for change in switched(run, kind)]
+        known = first + periods[: len(times)]
+        late = np.abs(times - known).max() if len(times) >= 11 else math.inf
+        yield Row(f"belt, {len(times)} periods: instants of {kind} [s]", late, 1e-9)
+    yield Row("belt: energy ledger over kinetic energy", open_ledger(run), 1e-9)
+
+
+def leaning() -> Iterator[Row]:
+    """A ladder between smooth wall and floor: l θ̇² = 3g (sin θ₀ − sin θ), and it leaves the wall at ⅔ of its height."""
+    run = simulate("leaning.yaml")
+    (leaves,) = switched(run, "lift-off")
+    start = mp.radians(70)
+    end = mp.asin(2 * mp.sin(start) / 3)
+    pace = lambda z: 2 * z / mp.sqrt(3 * G * mp.cos(start - z * z / 2) * mp.sin(z * z / 2))  # θ = θ₀ − z²
+    late = abs(leaves["t"] - mp.quad(pace, [0, mp.sqrt(start - end)]))
+    yield Row("leaning ladder: instant at which it leaves the wall [s]", float(late), 1e-9)
+    angle = math.asin(run.evaluate("y(ladder.end)", leaves["t"]) / 2)
+    yield Row("leaning ladder: angle at which it leaves the wall [rad]", abs(angle - float(end)), 1e-9)
+
+
+def rocking() -> Iterator[Row]:
+    """Housner 1963: an impact leaves 1 − ³⁄₂ sin² α of the speed; θ̇² = 3g/(2R) (cos(α − θ₀) − cos(α − θ))."""
+    run, alpha, start = simulate("rocking.yaml"), mp.atan(0.25), mp.mpf(0.12)
+    impacts = switched(run, "impact")
+    kept = np.array([impact["after"]["u"][2] / impact["before"]["u"][2] for impact in impacts])
+    yield Row("rocking block: speed kept at an impact", np.abs(kept - float(1 - 1.5 * mp.sin(alpha) ** 2)).max(), 1e-12)
+    pace = lambda z: 2 * z / mp.sqrt(3 * G / mp.sqrt(4.25) * mp.sin(alpha - start + z * z / 2) * mp.sin(z * z / 2))
+    quarter = mp.quad(pace, [0, mp.sqrt(start)])
+    yield Row("rocking block: first quarter of its period [s]", abs(float(impacts[0]["t"] - quarter)), 1e-9)
+    yield Row("rocking block: speed at the end", np.abs(run.u[-1]).max(), 0)
+    yield Row("rocking block: energy ledger over kinetic energy", open_ledger(run), 1e-9)
+
+
+def leash() -> Iterator[Row]:
+    """Taut at |(0.5 + 2t, −0.3t)| = 1 m, with a common speed along it: ½ μ v² is lost, μ the reduced mass."""
+    run = simulate("leash.yaml")
+    (taut,) = switched(run, "taut")
+    t = (-1 + math.sqrt(1 + 0.75 * 4.09)) / 4.09
+    jump = 2 * (0.5 + 2 * t) + 0.3 * 0.3 * t
+    yield Row("leash: instant at which it goes taut [s]", abs(taut["t"] - t), 1e-12)
+    yield Row("leash: energy lost then [J]", abs(taut["lost"] - 0.75 / 2 * jump**2), 1e-12)
+    momentum = np.array([run["momentum_x()"] - 6, run["momentum_y()"] - 0.3])
+    yield Row("leash: momentum [kg m/s]", np.abs(momentum).max(), 1e-9)
+
+
 def routes() -> Iterator[Row]:
     """The three ways to an instant's solution agree at random states of random mechanisms: the Rust tests say."""
     command = ["cargo", "test", "--release", "-p", "freebody", "--test", "laws", ROUTES.stem]
@@ -178,6 +261,7 @@ def routes() -> Iterator[Row]:
 
 Check = Callable[[], Iterable[Row]]
 QUICK: list[Check] = [double_pendulum, andrews, pendulum, partial(ladder, 2), four_bar]
+QUICK += [bouncing_ball, billiard, belt, leaning, rocking, leash]
 SLOW: list[Check] = [partial(ladder, 100), *([routes] if ROUTES.exists() else [])]
 
 

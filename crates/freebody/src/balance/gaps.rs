@@ -40,7 +40,8 @@ impl Balance<'_> {
                     "string" => format!("the string `{}` is stretched by {:.6e} m", group.name, -gap),
                     word => format!("the {word} `{}` is violated by {:.6e}", group.name, -gap),
                 };
-                return Err(Trouble::new("penetration", what + " at the start; move the parts, or change its size"));
+                let what = what + " at the start; move the parts, or change its size";
+                return Err(Trouble::new("penetration", what).about(group.path()));
             }
         }
         Ok(())

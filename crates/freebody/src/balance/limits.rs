@@ -150,6 +150,10 @@ impl Balance<'_> {
     /// `painleve_inconsistent`, `painleve_indeterminate`; as [`Balance::solve`].
     pub fn hold(&mut self, reached: &Reached, slips: &[f64], scale: Scale) -> Result<Holding, Trouble> {
         let mut free = self.free_accelerations(reached)?;
+        if !free.iter().all(|a| a.is_finite()) {
+            let what = "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
+            return Err(Trouble::new("not_finite", what));
+        }
         // Round-off is no reason to part.
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);
         let grips: Vec<Grip> =
@@ -242,7 +246,8 @@ impl Balance<'_> {
             Verdict::Unknown => "contact_unsolved",
             _ => "painleve_inconsistent",
         };
-        Trouble::new(name, told + "; lower the friction, or let a spring stand for the contact")
+        let group = &self.m.groups[self.m.limits[reached.limits[sliding.map_or(0, |s| s.0)]].group];
+        Trouble::new(name, told + "; lower the friction, or let a spring stand for the contact").about(group.path())
     }
 
     /// The names of the contacts, stops and strings of limits, each once.

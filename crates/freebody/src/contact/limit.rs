@@ -40,6 +40,13 @@ pub struct Group {
     pub engaged: bool,
 }
 
+impl Group {
+    /// Where it stands in the model.
+    pub fn path(&self) -> String {
+        format!("{}s.{}", self.word, self.name)
+    }
+}
+
 /// Coulomb friction of a contact.
 #[derive(Clone, Copy, Debug)]
 pub enum Friction {

@@ -3,7 +3,7 @@
 use super::Machine;
 use crate::balance::{Blow, Reached, Scale, Trouble};
 use crate::contact::complementarity::{self, Law, Strike};
-use crate::contact::Friction;
+use crate::contact::{Friction, Gap};
 use crate::gauges::Law as Gauge;
 use crate::mechanism::{Deed, Part};
 use crate::mode::Hold;
@@ -17,6 +17,8 @@ const STILL: f64 = 1e-10;
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more: its
 /// height comes near the round-off of the gap.
 const BRIEF: f64 = 1e-5;
+/// Part of the largest impulse below which one is round-off.
+const NOTHING: f64 = 1e-12;
 /// Impacts that one instant may hold.
 const ROUNDS: usize = 100;
 /// Guards of each limit: gap or force, two for friction, border.
@@ -120,7 +122,7 @@ impl Machine<'_> {
                 Hold::Open if m.limits[l].soft.is_some() => values[0] = self.free_of_spring(l),
                 Hold::Pressed => values[0] = self.kept_by_spring(l),
                 Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
-                Hold::Idle => values[0] = self.balance.limit_gap(l) / self.balance.length + REACHED,
+                Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
                 Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
                     let [normal, tangent] = forces[l].map(|f| f / self.strength);
                     values[0] = normal;
@@ -132,8 +134,11 @@ impl Machine<'_> {
                         (Hold::Sliding(sense), _) => values[1] = sense * self.balance.slide_rate(l) / self.speed,
                         _ => {}
                     }
-                    values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
                 }
+            }
+            // A string keeps count of its turns, slack or taut.
+            if held.hold.is_closed() || matches!(m.limits[l].gap, Gap::Cord(_)) {
+                values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
             }
         }
         Ok(())
@@ -316,7 +321,8 @@ impl Machine<'_> {
         y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
         self.place(t, y);
         let lost = energy - self.balance.kinetic_energy();
-        let struck = reached.limits.iter().zip(&blow.normal).filter(|(_, &p)| p > 0.0);
+        let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
+        let struck = reached.limits.iter().zip(&blow.normal).filter(|(_, &p)| p > NOTHING * most);
         let struck: Vec<usize> = struck.map(|(&l, _)| l).collect();
         let m = self.balance.m;
         let string = |&l: &usize| m.groups[m.limits[l].group].word == "string";
@@ -343,7 +349,8 @@ impl Machine<'_> {
                 None => limits.push((name.clone(), p)),
             }
         }
-        limits.retain(|(_, p)| p.norm() > 0.0);
+        let most = limits.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
+        limits.retain(|(_, p)| p.norm() > NOTHING * most);
         Impulses { limits, joints: blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect() }
     }
 
@@ -456,13 +463,17 @@ impl Machine<'_> {
     /// As [`Machine::settle`].
     pub(super) fn switch_parts(&mut self, t: f64, y: &mut [f64], deeds: &[Deed]) -> Result<bool, Trouble> {
         let mut switched = false;
-        self.place(t, y);
+        let before: f64 = self.energy(t, y).iter().sum();
         for deed in deeds {
             switched |= match deed {
                 Deed::Release(part) => self.put(t, *part, false),
                 Deed::Engage(part) => self.put(t, *part, true),
                 _ => false,
             };
+        }
+        let jump = self.energy(t, y).iter().sum::<f64>() - before;
+        if jump != 0.0 {
+            self.begin_stretch(t, jump, 0.0);
         }
         let resets: Vec<(&Gauge, &Gauge)> =
             deeds.iter().filter_map(|d| if let Deed::Reset(of, rate) = d { Some((of, rate)) } else { None }).collect();

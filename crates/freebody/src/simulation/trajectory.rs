@@ -48,6 +48,9 @@ pub struct Ledger {
 impl Trajectory {
     pub(super) fn new(machine: Machine, run: Run, opening: [f64; 2], settings: Settings) -> Self {
         let segments = &run.trajectory.segments;
+        let mut changes = machine.changes;
+        // The end of a series of bounces is told after what it brought about.
+        changes.sort_by(|a, b| a.t.total_cmp(&b.t));
         let mut steps: Vec<f64> = segments.iter().map(|s| s.t0).collect();
         steps.push(run.t);
         Trajectory {
@@ -63,7 +66,7 @@ impl Trajectory {
             opening,
             rubs: machine.rubs,
             presses: machine.presses,
-            changes: machine.changes,
+            changes,
             worked: machine.worked,
             driven: machine.driven,
             run,

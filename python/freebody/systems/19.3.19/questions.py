@@ -15,17 +15,21 @@ Hanging under gravity, θ from the downward vertical, from a hand at height y: �
 ω² = g/ℓ, a small swing obeys Mathieu's equation θ̈ = −ω²(1 − (4b/ℓ) cos 2ωt)θ; over a period of the hand it grows by the larger
 multiplier of its two basic solutions. The swing θ = A cos ωt + B sin ωt has on average Ȧ = (bω/ℓ)B and Ḃ = (bω/ℓ)A,
 up to b²: A + B grows at the rate bω/ℓ.
+
+A string that only pulls goes slack where T = 0; the bob flies straight on until it is ℓ from the hand again, and there loses its speed
+along the string relative to the hand, whatever the hand spends on that. All four laws of the angle keep it taut, and so does a sweep that the bob follows.
 """
 
+import json
 from functools import cache
-from math import cos, exp, pi, sin, sqrt
+from math import cos, exp, hypot, pi, sin, sqrt
 
 import numpy as np
 from scipy.integrate import quad
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from freebody.catalogue import Answer, ask
-from freebody.catalogue.reference import motion
+from freebody.catalogue.reference import event, motion
 
 L, M, W, B, G = 1.0, 1.0, 2 * pi, 0.1, 9.81
 LAWS = {"−b sin θ": (-B, 0.0), "+b sin θ": (B, 0.0), "+b cos θ": (0.0, B), "−b cos θ": (0.0, -B)}
@@ -182,3 +186,110 @@ def mathieu(b):
 
 def growth_rate(ends, period):
     return float(np.log(np.abs(np.linalg.eigvals(ends)).max()) / period)
+
+
+@ask("A string that only pulls: the hand follows the angle, tension throughout")
+def real(case):
+    for of, (p, q) in LAWS.items():
+        exact = Pumped(p, q)
+        times = [exact.time(n) for n in range(1, 6)]
+        run = case.run("string.yaml", {"bs": p, "bc": q}, until=times[-1] + 1e-3)
+        turns = [event.t for event in run.events]
+        yield Answer(f"times of five turns, x_s = {of}", turns, "s", times, "quadrature", 1e-9)
+        spin = [run.evaluate("rate(direction(hand.origin, bob.centre))", t) for t in turns]
+        yield Answer(f"spin then, x_s = {of}", spin, "rad/s", [exact.spin(2 * pi * n) for n in range(1, 6)], "quadrature", 1e-9)
+        tension = [exact.tension(2 * pi * n) for n in range(1, 6)]
+        yield Answer(f"tension then, x_s = {of}", run.evaluate("leash.tension", turns), "N", tension, "quadrature", 1e-8)
+        least = run.report["least tension"].value
+        yield Answer(f"least tension of all: never slack, x_s = {of}", least, "N", exact.least_tension(5), "quadrature", 1e-8)
+
+
+class Leash:
+    """The bob on a string that only pulls, from a hand that sweeps: taut, or flying straight on."""
+
+    def __init__(self, alpha, b=0.2):
+        self.alpha, self.b = alpha, b
+        self.rates = swept(L, alpha, b)
+
+    def hand(self, t):
+        """Place, velocity, acceleration."""
+        phase, speed = W * t + self.alpha * t**2 / 2, W + self.alpha * t
+        b = self.b
+        return b * cos(phase), -b * speed * sin(phase), -b * (self.alpha * sin(phase) + speed**2 * cos(phase))
+
+    def tension(self, t, y):
+        return M * (L * y[1] ** 2 - self.hand(t)[2] * cos(y[0]))
+
+    def switches(self, count):
+        """Times of going slack, and of going taut with the tension just after it."""
+        t, y, found = 0.0, [0.0, W], []
+        while len(found) < count:
+            base = t
+
+            def rates(s, y, base=base):
+                return self.rates(base + s, y)
+
+            span, y = event(rates, y, lambda s, y, base=base: self.tension(base + s, y), before=5.0)
+            t += span
+            found.append((t, 0.0))
+            t, y = self.fly(t, y)
+            found.append((t, self.tension(t, y)))
+            if self.tension(t, y) < 0:
+                break
+        return found
+
+    def fly(self, t, y):
+        """Until it is taut again: time, angle and spin just after."""
+        x, v, _ = self.hand(t)
+        place = np.array([x + L * cos(y[0]), L * sin(y[0])])
+        speed = np.array([v - L * y[1] * sin(y[0]), L * y[1] * cos(y[0])])
+
+        def stretch(s):
+            px, py = place + s * speed
+            return hypot(px - self.hand(t + s)[0], py) - L
+
+        grid = np.linspace(1e-4, 1.0, 4000)
+        late = next(i for i, s in enumerate(grid) if stretch(s) > 0)
+        s = brentq(stretch, grid[late - 1], grid[late], xtol=1e-15)
+        x, v, _ = self.hand(t + s)
+        px, py = place + s * speed
+        spin = ((px - x) * speed[1] - py * (speed[0] - v)) / L**2
+        return t + s, [float(np.arctan2(py, px - x)), spin]
+
+
+@ask("A string that only pulls: the hand sweeps its frequency")
+def slackens(case):
+    for alpha, start in [(1.0, -0.2560930469), *((a, 0.0) for a in (2.0, 3.0, 4.0, 6.0, 10.0))]:
+        run, times = case.run("sweep.yaml", {"alpha": alpha, "theta0": start}), [1.25, 2.5, 3.75, 5.0]
+        leash, check = Leash(alpha), motion(swept(L, alpha), [start, W], times)
+        of = f"α = {alpha:g}"
+        tension = [leash.tension(t, y) for t, y in zip(times, check, strict=True)]
+        yield Answer(
+            f"tension at 1.25, 2.5, 3.75, 5 s, {of}", run.evaluate("leash.tension", times), "N", tension, EQUATIONS, 1e-7
+        )
+        slack = [c for c in json.loads(run.motion.changes) if c["kind"] == "slack"]
+        rod = motion(swept(L, alpha), [start, W], np.linspace(0.01, 5, 500))
+        least = min(leash.tension(t, y) for t, y in zip(np.linspace(0.01, 5, 500), rod, strict=True))
+        yield Answer(
+            f"goes slack (1) or not (0), {of}",
+            float(bool(slack)),
+            "",
+            float(least < 0),
+            f"{EQUATIONS}: least tension {least:.3g} N",
+        )
+    for alpha in (20.0, 40.0, 60.0):
+        check = Leash(alpha).switches(4)
+        run, of = case.run("sweep.yaml", {"alpha": alpha}, until=check[-1][0] + 0.01), f"α = {alpha:g}"
+        found = [c["t"] for c in json.loads(run.motion.changes) if c["kind"] in ("slack", "taut") and c["t"] > 0][: len(check)]
+        yield Answer(
+            f"slack, taut, … at t, {of}", found, "s", [t for t, _ in check], f"{EQUATIONS}, straight flights between", 1e-8
+        )
+        tension = [max(T, 0.0) for _, T in check]
+        yield Answer(
+            f"tension just after, {of}",
+            run.evaluate("leash.tension", found),
+            "N",
+            tension,
+            f"{EQUATIONS}, straight flights between",
+            1e-6,
+        )

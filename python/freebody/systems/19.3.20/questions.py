@@ -1,4 +1,4 @@
-"""19.3.20: the θ–y system: a mass on a vertical guide, on a spring (A) or free (B), with a pendulum.
+"""19.3.20: the θ–y system: a mass on a vertical guide, on a spring (A) or free (B), with a pendulum; or both on a cable (C).
 
 y down from the unstretched spring, θ from the downward vertical. The bob has (ℓ cos θ θ̈ − ℓ sin θ θ̇²) along x and
 ÿ − ℓ sin θ θ̈ − ℓ cos θ θ̇² down. Whole system down, bob across the rod, bob along the rod:
@@ -8,6 +8,11 @@ With y = (M + m)g/k + η the constant terms go: ky − (M + m)g = kη.
 
 Without spring (B) the mass centre falls freely, and seen from a frame that falls with it no force works: with
 w = y − ½gt², both P = (M + m)ẇ − mℓ sin θ θ̇ and ½mℓ²(1 − m sin²θ/(M + m))θ̇² are constant. So θ(t) is a quadrature.
+
+C: M hangs at depth y on one end of a cable, m swings on the other; both are hung over small pulleys on one level, y and r = ℓ − y below
+them. M down, m along and across its part of the cable:
+    Mÿ = Mg − T,   m(r̈ − rθ̇²) = mg cos θ − T,   rθ̈ + 2ṙθ̇ = −g sin θ,   with ṙ = −ẏ:
+    (M + m)ÿ = Mg − m(g cos θ + rθ̇²),   rθ̈ = 2ẏθ̇ − g sin θ.
 """
 
 from math import cos, pi, sin, sqrt
@@ -92,3 +97,41 @@ def turn(case):
     period = quad(slow, theta, theta + 2 * pi, epsabs=0, epsrel=1e-13)[0] / (slow(theta) * omega)
     run = case.run("free_fall.yaml")
     yield Answer("θ after that time, less 2π", run.evaluate("theta - 2*pi", period), "rad", theta, "quadrature", 1e-9)
+
+
+SWING = [1.0, 1.3, 0.0, 0.0]
+
+
+def on_cable(_t, s):
+    y, theta, v, omega = s
+    r = 3.0 - y
+    return v, omega, G - cable_tension(s) / M, (2 * v * omega - G * sin(theta)) / r
+
+
+def cable_tension(s):
+    y, theta, _, omega = s
+    return M * m * (G + G * cos(theta) + (3.0 - y) * omega**2) / (M + m)
+
+
+@ask("C, on a cable over two pulleys: one instant, motion for 1.5 s, tension")
+def cable(case):
+    """The cable only pulls: it stays taut, because T = Mm(g + g cos θ + rθ̇²)/(M + m) does not reach 0."""
+    for state in (SWING, [1.4, 0.7, 0.6, -2.0]):
+        y, theta, v, omega = state
+        r, c, s = 3.0 - y, cos(theta), sin(theta)
+        rates = {"block.x": 0, "block.y": -v, "bob.x": -v * s + r * omega * c, "bob.y": v * c + r * omega * s}
+        now = case.instant("cable.yaml", **{"block.y": -y, "bob.x": r * s, "bob.y": -r * c, "rates": rates})
+        check, of = on_cable(0, state), f"(y, θ, ẏ, θ̇) = {tuple(state)}"
+        yield Answer(f"ÿ, {of}", now["accel(y)"], "m/s²", check[2], "closed form: balances of M and m", 1e-12)
+        yield Answer(f"θ̈, {of}", now["accel(theta)"], "rad/s²", check[3], "closed form: balances of M and m", 1e-12)
+        yield Answer(f"tension, {of}", now["cable.tension"], "N", cable_tension(state), "closed form: balances of M and m", 1e-12)
+    run, times = case.run("cable.yaml"), [0.3, 0.6, 0.9, 1.2, 1.5]
+    check = motion(on_cable, SWING, times)
+    for i, (text, unit) in enumerate(COLUMNS):
+        yield Answer(f"{text} at 0.3 … 1.5 s", run.evaluate(text, times), unit, check[:, i], f"{EQUATIONS}, SciPy", 1e-9)
+    yield Answer(
+        "tension then", run.evaluate("cable.tension", times), "N", [cable_tension(s) for s in check], f"{EQUATIONS}, SciPy", 1e-9
+    )
+    many = [0.01 * n for n in range(1, 151)]
+    least = min(cable_tension(s) for s in motion(on_cable, SWING, many))
+    yield Answer("least tension", min(run.evaluate("cable.tension", many)), "N", least, f"{EQUATIONS}, SciPy", 1e-9)

@@ -5,6 +5,7 @@ rest, a torque c times as large gives the same motion at √c times the speed; s
 the same for every torque. The power T θ̇ makes the energy T θ.
 """
 
+import mpmath
 import numpy as np
 
 from freebody.catalogue import Answer, ask, reference
@@ -98,32 +99,49 @@ def starts(case):
         yield Answer(f"θ at exit, R0 = {r}", run.evaluate("theta", t), "rad", exit_of(1.0, r=r)[1][0], SCIPY, 1e-11)
 
 
+@ask("the moment of leaving to the last digits")
+def last_digits(case):
+    """The state near SciPy's moment in 30 digits, and from there the rest of the way at the speed it has."""
+    near, _ = exit_of(1.0)
+
+    def exact(t, y):
+        _, r, spin, speed = y
+        return [spin, speed, (1 - 2 * r * speed * spin) / (mpmath.mpf(1) / 9 + r**2), r * spin**2]
+
+    with mpmath.workdps(40):
+        ((theta, r, spin, speed),) = reference.many_digits(exact, [0, mpmath.mpf("0.1"), 0, 0], [near], step=0.05)
+        rest = (1 - r) / speed
+        check, angle = float(near + rest), float(theta + rest * spin)
+    digits = "other route: two balances in 30 digits"
+    run, t = shot(case)
+    ends = case.run("free_end.yaml").events[0]
+    yield Answer("t, by the event R = l", t, "s", check, digits, 1e-13)
+    yield Answer("t, by the free end of the slot", ends.t, "s", check, digits, 1e-13)
+    yield Answer("θ, by the event R = l", run.evaluate("theta", t), "rad", angle, digits, 1e-13)
+    yield Answer("θ, by the free end of the slot", ends.q["theta"], "rad", angle, digits, 1e-13)
+
+
 @ask("after the exit: the collar flies straight on, the rod goes on turning")
 def flight(case):
+    """Once handed over to another model, and once in one, where the slot ends free."""
     run, t = shot(case)
-    theta, spin = float(run.evaluate("theta", t)), float(run.evaluate("rate(theta)", t))
-    place = {name: float(run.evaluate(f"{name}(collar.centre)", t)) for name in ("x", "y", "vx", "vy")}
-    start = {
-        "theta": theta, "collar.x": place["x"], "collar.y": place["y"],
-        "rates": {"theta": spin, "collar.x": place["vx"], "collar.y": place["vy"]},
-    }  # fmt: skip
-    later = case.run("flight.yaml", initial=start)
     _, (theta, _, spin, speed) = exit_of(1.0)
     along, across = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
-    check = L * along + 0.5 * (speed * along + L * spin * across)
+    velocity = speed * along + L * spin * across
+    straight, alone = "closed form: straight on from SciPy's exit", "closed form: constant torque on the rod alone"
+    for how, later in (("handed over", run.next), ("free end", case.run("free_end.yaml"))):
+        for dt in (0.25, 0.5):
+            place = [later.evaluate(f"{name}(collar.centre)", t + dt) for name in "xy"]
+            yield Answer(f"place of the collar {dt} s after, {how}", place, "m", L * along + dt * velocity, straight, 1e-11)
+            turned = theta + spin * dt + dt**2 / 2 / I1
+            yield Answer(f"angle of the rod {dt} s after, {how}", later.evaluate("theta", t + dt), "rad", turned, alone, 1e-11)
+        moving = [later.evaluate(f"v{name}(collar.centre)", t + 0.5) for name in "xy"]
+        yield Answer(f"velocity of the collar 0.5 s after, {how}", moving, "m/s", velocity, straight, 1e-11)
+        work = theta + spin * 0.5 + 0.5**2 / 2 / I1
+        yield Answer(
+            f"kinetic energy 0.5 s after, {how}", later.evaluate("kinetic()", t + 0.5), "J", work, "conservation: T θ", 1e-11
+        )
+    push = case.run("free_end.yaml").evaluate("track.Fn", t + 0.5)
     yield Answer(
-        "place of the collar 0.5 s after",
-        [later.evaluate(f"{name}(collar.centre)", 0.5) for name in "xy"],
-        "m",
-        check,
-        "closed form: straight on from SciPy's exit",
-        1e-11,
-    )
-    yield Answer(
-        "angle of the rod 0.5 s after",
-        later.evaluate("theta", 0.5),
-        "rad",
-        theta + spin * 0.5 + 0.5**2 / 2 / I1,
-        "closed form: constant torque on the rod alone",
-        1e-11,
+        "force of the rod on the collar 0.5 s after, free end", push, "N", 0.0, "closed form: they are apart", 1e-14, 1.0
     )

@@ -1,0 +1,167 @@
+"""19.3.24: walking on straight legs, single stance.
+
+u = (−sin θ1, cos θ1) up the stance leg, w = (sin θ2, −cos θ2) down the swing leg: G1 = A + d1 u, B = A + ℓu, G2 = B + d2 w.
+ΣM/A = Ḣ/A for the whole and ΣM/B = Ḣ/B for leg BC (LEGS-1; true) hold no reaction: with a = I1 + m1d1² + (M + m2)ℓ²,
+b = I2 + m2d2², c = m2ℓd2, h = m1d1 + (M + m2)ℓ and Δ = θ1 − θ2
+    BC about B:                bθ̈2 − c cos Δ θ̈1 + c sin Δ θ̇1² = −m2 g d2 sin θ2
+    whole about A, less that:  aθ̈1 − c cos Δ θ̈2 − c sin Δ θ̇2² = h g sin θ1.
+The foot carries the rate of change of all momentum and all weight, the hip that of leg BC.
+
+A foot that can only push and does not slip ends where N = 0: friction still acts then. Let go, the foot would press into the floor;
+held, the floor would pull. No motion is possible; a foot with friction slides before.
+"""
+
+import json
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import event, motion
+
+G = 9.81
+START = [0.25, -0.3, -1.1, 0.8]
+TIMES = [0.2, 0.4, 0.6, 0.8, 0.9]
+SCIPY = "other route: moments about A and B, SciPy"
+MOMENTS = "closed form: moments about A and B"
+GIVEN = {"m1": 5.0, "m2": 5.0, "M": 10.0, "l": 1.0, "d1": 0.55, "d2": 0.45, "I1": 0.4, "I2": 0.4}
+SETS = {
+    "as given": {},
+    "M = 0": {"M": 0.0},
+    "uniform legs": {"d1": 0.5, "d2": 0.5, "I1": 5 / 12, "I2": 5 / 12},
+    "mass low in the legs": {"d1": 0.3, "d2": 0.7},
+    "unlike legs": {"m1": 6.0, "m2": 4.0, "I1": 0.5, "I2": 0.3},
+}
+
+
+class Legs:
+    """The two equations and the forces."""
+
+    def __init__(self, **changes):
+        self.__dict__.update(GIVEN | changes)
+
+    def turning(self, y):
+        one, two, w1, w2 = y
+        a = self.I1 + self.m1 * self.d1**2 + (self.M + self.m2) * self.l**2
+        b, c = self.I2 + self.m2 * self.d2**2, self.m2 * self.l * self.d2
+        h, cosine, sine = self.m1 * self.d1 + (self.M + self.m2) * self.l, np.cos(one - two), np.sin(one - two)
+        right = [h * G * np.sin(one) + c * sine * w2**2, -self.m2 * G * self.d2 * np.sin(two) - c * sine * w1**2]
+        return np.linalg.solve([[a, -c * cosine], [-c * cosine, b]], right)
+
+    def rates(self, _t, y):
+        return [y[2], y[3], *self.turning(y)]
+
+    def accelerations(self, y):
+        """Of G1, B, G2."""
+        one, two, w1, w2 = y
+        u, w = np.array([-np.sin(one), np.cos(one)]), np.array([np.sin(two), -np.cos(two)])
+        t1, t2 = self.turning(y)
+        along = t1 * np.array([-u[1], u[0]]) - w1**2 * u
+        return self.d1 * along, self.l * along, self.l * along + self.d2 * (t2 * np.array([-w[1], w[0]]) - w2**2 * w)
+
+    def foot(self, y):
+        masses, weight = (self.m1, self.M, self.m2), np.array([0, G])
+        return sum(m * (a + weight) for m, a in zip(masses, self.accelerations(y), strict=True))
+
+    def hip(self, y):
+        """On leg BC."""
+        return self.m2 * (self.accelerations(y)[2] + np.array([0, G]))
+
+
+@ask("One instant, with the forces of foot and hip")
+def instant(case):
+    for of, changes in SETS.items():
+        legs = Legs(**changes)
+        for file in ("model.yaml", "one_sided.yaml"):
+            now, label = case.instant(file, changes), f"{of}, {file}"
+            yield Answer(
+                f"θ̈1, θ̈2, {label}", [now["accel(theta1)"], now["accel(theta2)"]], "rad/s²", legs.turning(START), MOMENTS, 1e-12
+            )
+            foot = [now["foot.Fx"], now["foot.Fy"]]
+            yield Answer(f"floor on the foot, {label}", foot, "N", legs.foot(START), "closed form: momentum of the whole", 1e-12)
+            hip = [now["pelvis.Fx"], now["pelvis.Fy"]]
+            yield Answer(f"hip on leg BC, {label}", hip, "N", legs.hip(START), "closed form: momentum of leg BC", 1e-12)
+
+
+@ask("LEGS-1: ΣM/A = Ḣ/A for the whole, ΣM/B = Ḣ/B for leg BC")
+def balances(case):
+    """Printed statement, true: both sides from the solved instant, the rate of angular momentum taken of each part."""
+    now, legs = case.instant(), Legs()
+
+    def spin(points, about, turns):
+        at = np.array([now[f"x({about})"], now[f"y({about})"]])
+        weight, rate = 0.0, sum(turns)
+        for mass, point in points:
+            r = np.array([now[f"x({point})"], now[f"y({point})"]]) - at
+            weight += -mass * G * r[0]
+            rate += mass * (r[0] * now[f"ay({point})"] - r[1] * now[f"ax({point})"])
+        return weight, rate
+
+    one, two = (0.4 * now[f"alpha({leg})"] for leg in ("stance", "swing"))
+    parts = [(legs.m1, "stance.G"), (legs.M, "hip.centre"), (legs.m2, "swing.G")]
+    for label, sides in (
+        ("whole about A", spin(parts, "stance.A", [one, two])),
+        ("BC about B", spin(parts[2:], "stance.B", [two])),
+    ):
+        yield Answer(f"Ḣ, {label}", sides[1], "N·m", sides[0], "closed form: moment of the weights", 1e-12)
+
+
+@ask("1 s of motion, pinned")
+def pinned(case):
+    for of in ("as given", "M = 0"):
+        legs, run, times = Legs(**SETS[of]), case.run(parameters=SETS[of]), [*TIMES, 1.0]
+        check = motion(legs.rates, START, times)
+        for i, text in enumerate(("theta1", "theta2", "rate(theta1)", "rate(theta2)")):
+            yield Answer(f"{text} at 0.2 … 1 s, {of}", run.evaluate(text, times), "rad, rad/s", check[:, i], SCIPY, 1e-9)
+        for i, text in enumerate(("foot.Fx", "foot.Fy")):
+            forces = [legs.foot(y)[i] for y in check]
+            yield Answer(f"{text}, {of}", run.evaluate(text, times), "N", forces, SCIPY, 1e-9)
+
+
+@ask("On a floor that only pushes, without slip")
+def pushed(case):
+    legs = Legs()
+    when, state = event(legs.rates, START, lambda t, y: legs.foot(y)[1], before=1.0)
+    outcome = case.mechanism("one_sided.yaml").simulate(rtol=1e-12).outcome
+    yield Answer("the floor's push ends at t", outcome.t, "s", when, SCIPY, 1e-9)
+    yield Answer("neither holding nor parting is possible: the run ends by name (1)", float(outcome.name == "painleve_inconsistent"), "",
+                 float(released(legs, state) < 0), "closed form: let go, the foot presses into the floor")  # fmt: skip
+    force = case.run().evaluate("foot.Fy", [when, 1.0])
+    yield Answer(
+        "force of the pinned foot then, and at 1 s: it pulls",
+        force,
+        "N",
+        [0.0, legs.foot(motion(legs.rates, START, [1.0])[0])[1]],
+        SCIPY,
+        1e-8,
+    )
+    run, check = case.run("one_sided.yaml", until=0.9), motion(legs.rates, START, TIMES)
+    for i, text in enumerate(("theta1", "theta2")):
+        yield Answer(f"{text} until 0.9 s", run.evaluate(text, TIMES), "rad", check[:, i], SCIPY, 1e-9)
+    for i, text in enumerate(("foot.T", "foot.N")):
+        yield Answer(f"{text} until 0.9 s", run.evaluate(text, TIMES), "N", [legs.foot(y)[i] for y in check], SCIPY, 1e-9)
+
+
+def released(legs, y):
+    """Acceleration of the foot, upward, without any force from the floor: the two legs fly, the foot's place is two unknowns more."""
+    one, two, w1, w2 = y
+    u, w = np.array([-np.sin(one), np.cos(one)]), np.array([np.sin(two), -np.cos(two)])
+    du, dw = np.array([-u[1], u[0]]), np.array([-w[1], w[0]])
+    zero = np.zeros(2)
+    parts = [(legs.m1, legs.d1 * u, zero), (legs.M, legs.l * u, zero), (legs.m2, legs.l * u, legs.d2 * w)]
+    matrix, right = np.zeros((4, 4)), np.zeros(4)
+    for mass, one_arm, two_arm in parts:
+        columns = np.column_stack([np.eye(2), np.hypot(*one_arm) * du, np.hypot(*two_arm) * dw])
+        matrix += mass * columns.T @ columns
+        right += mass * columns.T @ (np.array([0, -G]) + w1**2 * one_arm + w2**2 * two_arm)
+    matrix[2, 2] += legs.I1
+    matrix[3, 3] += legs.I2
+    return np.linalg.solve(matrix, right)[1]
+
+
+@ask("On a floor with friction 3: the foot slides")
+def slides(case):
+    legs = Legs()
+    when, _ = event(legs.rates, START, lambda t, y: 3 * legs.foot(y)[1] - abs(legs.foot(y)[0]), before=1.0)
+    run = case.run("slippery.yaml", until=0.96)
+    slip = next(c["t"] for c in json.loads(run.motion.changes) if c["kind"] == "slip")
+    yield Answer("from t", slip, "s", when, SCIPY, 1e-9)

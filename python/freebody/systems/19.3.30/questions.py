@@ -1,0 +1,325 @@
+"""19.3.30: rimless spoked wheel.
+
+φ is the turn of the centre past the tip it stands on, clockwise from the vertical; half an opening α = π/k; a slope γ down to
++x. Between collisions φ goes from −(α − γ) to α + γ. Moments about the tip, J = I + mR²:  φ̈ = c sin φ, c = mgR/J.
+(a) With U = 0 at the height of the centre when both tips are on the ground, T_n− = ½J(ω_n−)², and T + U is constant until then.
+(b) Moments about the new tip, the impulse at the old one being none:  Jω+ = (I + mR² cos 2α)ω−, so ω+ = ηω−.
+(c) Level: the centre comes down as far as it went up, ω− = ω+ of the collision before: ω_(n+1)+ = ηω_n+.
+(d) Slope: between two collisions it comes down by d sin γ, d = 2R sin α:  (ω_(n+1)+)² = η²((ω_n+)² + 2(mg/J) d sin γ).
+(e) So ω*² = η²·2(mg/J) d sin γ/(1 − η²) repeats itself, if it carries the centre over the top; others come nearer by η² a step.
+(f) With k → ∞ a collision takes (2α)²mR²/J of the energy, a turn k times as much, 4π²mR²/kJ: nothing in the end. The floor
+then does what it does to a hoop of radius R: ω̇ = mgR sin γ/J. But ω* grows as √k: there is no steady speed.
+
+The foot's force along the spoke and across it: m(g cos φ − Rφ̇²) and m(g sin φ − Rφ̈). A foot that can only push and never slides
+comes to the moment where N is 0 and T is not. Without T the tip would be pressed into the floor, with it N would pull: no motion
+is possible, and the run says so. A real foot slides before.
+"""
+
+import json
+from functools import cache
+from math import cos, pi, radians, sin, sqrt
+
+import numpy as np
+from scipy.integrate import quad
+from scipy.optimize import brentq, minimize_scalar
+
+from freebody.catalogue import Answer, ask
+
+M, I, R, G = 1.0, 0.5, 1.0, 9.81
+J = I + M * R**2
+C = M * G * R / J
+MOMENTS = "closed form: moments about the new tip"
+MAP = "closed form: return map"
+
+
+class Steps:
+    """Motion on one tip after another, for k spokes on a slope in degrees."""
+
+    def __init__(self, k, slope=0.0):
+        self.half, self.slope = pi / k, radians(slope)
+        self.start, self.end = self.slope - self.half, self.slope + self.half
+        self.eta = (I + M * R**2 * cos(2 * self.half)) / J
+        self.gain = 4 * M * G * R * sin(self.half) * sin(self.slope) / J
+        self.steady = sqrt(self.eta**2 * self.gain / (1 - self.eta**2))
+        self.vault = sqrt(2 * C * (1 - cos(self.start))) if self.start < 0 else 0.0
+
+    def rate(self, phi, w):
+        """φ̇ where φ is, after a start with w."""
+        return sqrt(w**2 + 2 * C * (cos(self.start) - cos(phi)))
+
+    def time(self, w, end=None):
+        return quad(lambda phi: 1 / self.rate(phi, w), self.start, self.end if end is None else end, epsabs=0, epsrel=1e-13)[0]
+
+    def angle(self, w, t):
+        return brentq(lambda phi: self.time(w, phi) - t, self.start, self.end, xtol=1e-14) if t else self.start
+
+    def after(self, w):
+        """ω+ of the next collision."""
+        return self.eta * sqrt(w**2 + self.gain)
+
+    def force(self, phi, w):
+        """N and T (along the floor, downhill)."""
+        spin = self.rate(phi, w)
+        along, across = M * (G * cos(phi) - R * spin**2), M * (G * sin(phi) - R * C * sin(phi))
+        lean = phi - self.slope
+        return along * cos(lean) + across * sin(lean), along * sin(lean) - across * cos(lean)
+
+    def rocking(self, w):
+        """Time until the wheel is back on the tip behind: up to −φt and down again, level floor. Where w cannot carry it over.
+
+        φ = φt + δs², δ = α − φt, makes the integrand smooth; x = δ/2 solves 2 sin(α − x) sin x = w²/2c.
+        """
+        x = 0.0
+        for _ in range(60):
+            x += (w**2 / (2 * C) - 2 * sin(self.half - x) * sin(x)) / (2 * sin(self.half - 2 * x))
+
+        def integrand(s):
+            y = x * s**2
+            return sqrt(8 * x / (C * sin(self.half - 2 * x + y) * (sin(y) / y if y else 1)))
+
+        return 2 * quad(integrand, 0, 1, epsabs=0, epsrel=1e-13)[0]
+
+
+def collisions(run):
+    """Time, rates before and after of each."""
+    return [c for c in json.loads(run.motion.changes) if c["kind"] == "impact"]
+
+
+def spin(c):
+    return -c["after"]["u"][2]
+
+
+def step(case, w, until=3.0, file="model.yaml", **parameters):
+    """From just after a collision with ω+ = w to the next one: its time and ω+."""
+    mechanism = case.mechanism(file, **parameters)
+    mechanism.parameters["omega"] = w
+    (first, *_) = collisions(mechanism.simulate(until=until, rtol=1e-13))
+    return first["t"], spin(first)
+
+
+def steady(case, w, **parameters):
+    """ω+ that comes back, its time and the multiplier there: secants in ω² over runs from one collision to the next."""
+
+    def off(square):
+        return step(case, sqrt(square), **parameters)[1] ** 2 - square
+
+    old, new = w**2, 1.1 * w**2
+    gap = off(old)
+    while abs(new - old) > 1e-14 * new:
+        slope, gap = (off(new) - gap) / (new - old), off(new)
+        old, new = new, new - gap / slope
+    w, h = sqrt(new), 1e-3 * sqrt(new)
+    multiplier = (step(case, w + h, **parameters)[1] - step(case, w - h, **parameters)[1]) / (2 * h)
+    return w, step(case, w, **parameters)[0], multiplier
+
+
+@ask("(a), (b) One collision: energy before, ω+ after, what is lost, impulse")
+def collision(case):
+    for k in (3, 4, 6, 8, 16):
+        steps = Steps(k, 10)
+        w = max(1.2 * steps.vault, 1.0)
+        run = case.run("hinged.yaml", {"k": k, "n": 1, "slope": "10 deg", "omega": w}, until=3.0)
+        (hit,) = collisions(run)
+        before = steps.rate(steps.end, w)
+        of, scale = f"k = {k}", before
+        yield Answer(f"T−, {of}", run.evaluate("kinetic()", hit["t"] - 1e-12), "J", J / 2 * before**2, "closed form: ½Jω²", 1e-10)
+        yield Answer(f"ω+, {of}", spin(hit), "rad/s", steps.eta * before, MOMENTS, 1e-11, scale)
+        yield Answer(f"energy lost, {of}", hit["lost"], "J", J / 2 * (1 - steps.eta**2) * before**2, MOMENTS, 1e-11)
+        yield Answer(f"time, {of}", hit["t"], "s", steps.time(w), "quadrature", 1e-10)
+
+
+@ask("(c) Level floor: one after another, from ω+ = 3, k = 8")
+def level(case):
+    run, steps = case.run(parameters={"k": 8, "slope": 0, "omega": 3.0}, until=4.0), Steps(8)
+    check = [3 * steps.eta**n for n in range(1, 6)]
+    yield Answer("ω+ of five collisions", [spin(c) for c in collisions(run)[:5]], "rad/s", check, MAP, 1e-10)
+    times = np.cumsum([steps.time(w) for w in [3.0, *check[:4]]])
+    yield Answer("their times", [c["t"] for c in collisions(run)[:5]], "s", times, "quadrature", 1e-9)
+
+
+@ask("Level floor until rest, rocking included")
+def rest(case):
+    for k, start in ((4, 2.5), (4, 1.0), (8, 3.0), (8, 0.5)):
+        run, steps = case.run(parameters={"k": k, "slope": 0, "omega": start}, until=12.0), Steps(k)
+        w, t, forward, spins, tips = start, 0.0, 1, [], 0
+        while w > 1e-13:
+            over = w > steps.vault
+            t += steps.time(w) if over else steps.rocking(w)
+            forward = forward if over else -forward
+            tips, w = tips + forward, w * steps.eta
+            spins.append(forward * w)
+        of = f"k = {k}, ω+ = {start}"
+        n = 8
+        yield Answer(f"ω+ of {n} collisions, {of}", [spin(c) for c in collisions(run)[:n]], "rad/s", spins[:n], MAP, 1e-8)
+        changes = json.loads(run.motion.changes)
+        yield Answer(f"at rest from t, {of}", changes[-1]["t"], "s", t, "quadrature and geometric series", 1e-5)
+        energy = run.evaluate("kinetic()", 12.0)
+        yield Answer(f"kinetic energy at 12 s, {of}", energy, "J", 0.0, "closed form: rest", 1e-20, J / 2 * start**2)
+        height = run.evaluate("y(wheel.origin)", 12.0)
+        yield Answer(
+            f"height of the centre then: on two tips, {of}", height, "m", R * cos(pi / k), "closed form: R cos(π/k)", 1e-9
+        )
+        yield Answer(f"way forward, {of}", run.evaluate("x(wheel.origin)", 12.0) - run.evaluate("x(wheel.origin)", 0.0),
+                     "m", way(spins, steps), "closed form: 2R sin(π/k) a step", 1e-9)  # fmt: skip
+
+
+def way(spins, steps):
+    """The centre is amid two tips at every collision: whole steps forward, and none by rocking."""
+    return 2 * R * sin(steps.half) * sum(1 for w, old in zip(spins, [1.0, *spins], strict=False) if w > 0 and old > 0)
+
+
+@ask("(d) Down a slope: five collisions")
+def slope(case):
+    for degrees, start in ((5, 1.0), (10, 1.5), (10, 2.2)):
+        steps, w, t, check = Steps(8, degrees), start, 0.0, []
+        run = case.run(parameters={"slope": f"{degrees} deg", "omega": start}, until=5.0)
+        for _ in range(5):
+            t, w = t + steps.time(w), steps.after(w)
+            check.append((t, w))
+        hits = collisions(run)[:5]
+        of = f"{degrees}°, ω+ = {start}"
+        yield Answer(f"ω+, {of}", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10)
+        yield Answer(f"times, {of}", [c["t"] for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
+
+
+@ask("(e) Steady speed: reached from a push just past the first spoke, and found as the fixed point of the program's own map")
+def gait(case):
+    for degrees in (5, 10):
+        steps = Steps(8, degrees)
+        of, parameters = f"k = 8, {degrees}°", {"slope": f"{degrees} deg"}
+        w, period, multiplier = steady(case, steps.vault + 0.8, **parameters)
+        run = case.run(parameters={**parameters, "omega": steps.vault * 1.001}, until=45.0)
+        last = spin(collisions(run)[-1])
+        yield Answer(f"ω+ that comes back, {of}", w, "rad/s", steps.steady, "closed form: fixed point of the return map", 1e-11)
+        yield Answer(
+            f"ω+ of collision {len(collisions(run))} after the push, {of}", last, "rad/s", w, "the fixed point found", 1e-9
+        )
+        yield Answer(f"time of a step, {of}", period, "s", steps.time(steps.steady), "quadrature", 1e-10)
+        yield Answer(f"multiplier, {of}", multiplier, "", steps.eta**2, "closed form: η²; central difference of the runs", 1e-5)
+
+
+@ask("(e) Steady speed at other slopes and numbers of spokes, the tips hinged")
+def gaits(case):
+    """Three spokes have η = 0 with this inertia: they stop at every collision, and stand wherever α > γ."""
+    for k, degrees in ((4, 30), (6, 10), (6, 20), (8, 3), (8, 20), (8, 30), (8, 40), (16, 2), (16, 5)):
+        steps = Steps(k, degrees)
+        parameters = {"file": "hinged.yaml", "k": k, "n": 1, "slope": f"{degrees} deg"}
+        w, period, _ = steady(case, steps.vault + 0.9, **parameters)
+        yield Answer(f"ω+, k = {k}, {degrees}°", w, "rad/s", steps.steady, "closed form: fixed point", 1e-10)
+        yield Answer(f"time of a step, k = {k}, {degrees}°", period, "s", steps.time(steps.steady), "quadrature", 1e-10)
+
+
+@cache
+def least_slope(k):
+    return brentq(lambda degrees: Steps(k, degrees).steady - Steps(k, degrees).vault, 0.1, 180 / k, xtol=1e-12)
+
+
+@ask("(e) The least slope with a steady speed")
+def least(case):
+    """A little steeper, the wheel goes on for ever from the speed that repeats itself; a little flatter it stops."""
+    for k in (6, 8, 16):
+        for factor, goes in ((1.001, 1.0), (0.999, 0.0)):
+            degrees = least_slope(k) * factor
+            w = Steps(k, degrees).steady
+            run = case.run(parameters={"k": k, "slope": f"{degrees} deg", "omega": w}, until=30.0)
+            moving = float(run.evaluate("kinetic()", 30.0) > 1e-9)
+            label = f"goes on (1) or stops (0), k = {k}, {factor} of {least_slope(k):.6f}°"
+            yield Answer(label, moving, "", goes, "closed form: ω* just carries the centre over the tip", 1e-15)
+
+
+@ask("Force of the ground in a step, hinged and one-sided; friction ratio")
+def ground(case):
+    for degrees in (5, 10):
+        steps = Steps(8, degrees)
+        w, a = steps.steady, steps.start
+        parameters = {"slope": f"{degrees} deg", "omega": w}
+        hinged, pushed = (case.run(file, parameters, until=0.2) for file in ("hinged.yaml", "model.yaml"))
+        times, of = [0.0, 0.05, 0.1, 0.15, 0.2], f"{degrees}°, steady speed"
+        angles = [steps.angle(w, t) for t in times]
+        normal, along = zip(*(steps.force(phi, w) for phi in angles), strict=True)
+        N = "'pin[0]'.Fx*sin(slope) + 'pin[0]'.Fy*cos(slope)"
+        T = "'pin[0]'.Fx*cos(slope) - 'pin[0]'.Fy*sin(slope)"
+        for name, one, other, check in (("N", N, "'foot[1]'.N", normal), ("T", T, "'foot[1]'.T", along)):
+            yield Answer(
+                f"{name} at five times, hinged, {of}",
+                hinged.evaluate(one, times),
+                "N",
+                check,
+                "closed form, time by quadrature",
+                1e-9,
+            )
+            yield Answer(
+                f"{name} at five times, one-sided, {of}",
+                pushed.evaluate(other, times),
+                "N",
+                check,
+                "closed form, time by quadrature",
+                1e-9,
+            )
+        end = steps.time(w) - 1e-12
+        whole = case.run(parameters=parameters, until=1.0)
+        ratio = whole.evaluate("abs('foot[1]'.T)/'foot[1]'.N", np.linspace(0, end, 2001))
+
+        def needed(phi, steps=steps, w=w):
+            return -abs(steps.force(phi, w)[1]) / steps.force(phi, w)[0]
+
+        check = max(
+            -needed(a), -needed(steps.end), -minimize_scalar(needed, bounds=(0.3 * steps.end, steps.end), method="bounded").fun
+        )
+        yield Answer(f"friction ratio at most, {of}", ratio.max(), "", check, "closed form", 1e-6)
+
+
+@ask("Too fast for a foot that can only push: where its normal force ends")
+def lifting(case):
+    """Without any force a point of the wheel is accelerated by R φ̇² along its spoke and by g down. A hinged tip is pulled from then on."""
+    for k, degrees, w in ((8, 10, 3.0), (8, 20, 2.5), (4, 10, 3.0)):
+        steps = Steps(k, degrees)
+        phi = brentq(lambda x, s=steps, w=w: s.force(x, w)[0], 0.0, steps.end, xtol=1e-15)
+        t, of = steps.time(w, phi), f"k = {k}, {degrees}°, ω+ = {w}"
+        parameters = {"k": k, "slope": f"{degrees} deg", "omega": w}
+        outcome = case.mechanism(**parameters).simulate(until=2.0, rtol=1e-12).outcome
+        jams = R * steps.rate(phi, w) ** 2 * cos(phi - steps.slope) < G * cos(steps.slope)
+        yield Answer(
+            f"neither holding nor parting is possible: the run ends by name (1), {of}",
+            float(outcome.name == "painleve_inconsistent"),
+            "",
+            float(jams),
+            "closed form: let go, the tip would press into the floor",
+        )
+        yield Answer(f"when, {of}", outcome.t, "s", t, "quadrature up to N = 0", 1e-9)
+        hinged = case.run("hinged.yaml", {**parameters, "n": 1}, until=t + 0.01)
+        value = hinged.evaluate("'pin[0]'.Fx*sin(slope) + 'pin[0]'.Fy*cos(slope)", t)
+        yield Answer(f"N of the hinged tip then, {of}", value, "N", 0.0, "closed form", 1e-9, M * G)
+
+
+@ask("(f) More and more spokes: the wheel rolls as a hoop with spokes would")
+def many(case):
+    """From ω = 1 at 5° for a second: exact for each k; nearer to the rolling wheel by a factor as k grows."""
+    roll = 1 + C * sin(radians(5))
+    for k in (16, 64, 256):
+        steps, w, t = Steps(k, 5), 1.0, 0.0
+        while t + steps.time(w) < 1:
+            t, w = t + steps.time(w), steps.after(w)
+        run = case.run(parameters={"k": k, "omega": 1.0}, until=1.0)
+        last = collisions(run)[-1]
+        yield Answer(f"ω+ of the last collision before 1 s, k = {k}", spin(last), "rad/s", w, MAP, 1e-9)
+        yield Answer(f"its time, k = {k}", last["t"], "s", t, "quadrature", 1e-9)
+        wheel = 1 + (roll - 1) * last["t"]
+        yield Answer(
+            f"the same, against a wheel with a rim, k = {k}", spin(last), "rad/s", wheel, "closed form: ω̇ = mgR sin γ/J", 8 / k
+        )
+        if k > 16:
+            part = 1 - (spin(last) / -last["before"]["u"][2]) ** (2 * k)
+            against = "closed form: 4π²mR²/kJ, the first term in 1/k"
+            yield Answer(
+                f"part of the energy lost in a level turn, k = {k}", part, "", 4 * pi**2 * M * R**2 / J / k, against, 20 / k
+            )
+
+
+@ask("A foot with friction 0.9 slides before: 10°, ω+ = 3")
+def slides(case):
+    steps, w = Steps(8, 10), 3.0
+    phi = brentq(lambda x: -steps.force(x, w)[1] - 0.9 * steps.force(x, w)[0], 0.0, steps.end, xtol=1e-15)
+    run = case.run("slippery.yaml", {"omega": w}, until=steps.time(w, phi) + 0.01)
+    slip = next(c for c in json.loads(run.motion.changes) if c["kind"] == "slip")
+    yield Answer("it slides from t", slip["t"], "s", steps.time(w, phi), "quadrature up to −T = 0.9 N", 1e-9)

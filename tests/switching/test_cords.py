@@ -1,0 +1,166 @@
+"""Strings that pull, go slack and taut, wind and unwind: closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from seen import changes, kinds, motion
+
+G = 9.81
+
+ATWOOD = """
+parameters: {R: 0.2 m, mp: 3 kg, m1: 1 kg, m2: 2 kg}
+bodies:
+  pulley: {shape: disk, radius: R, mass: mp}
+  a: {shape: particle, mass: m1}
+  b: {shape: particle, mass: m2}
+joints: {axle: {type: hinge, of: [ground.O, pulley.centre], coordinate: turn}}
+strings:
+  left: {ends: [a.centre, {drum: pulley.centre, radius: R, sense: ccw, wound: 2 m}]}
+  right: {ends: [b.centre, {drum: pulley.centre, radius: R, sense: clockwise, wound: 2 m}]}
+initial: {a.x: -R, a.y: -1.5 m, b.x: R, b.y: -1 m, at_rest: true}
+"""
+
+
+@pytest.mark.parametrize("m2", [2.0, 0.4, 1.0])
+def test_atwood_with_a_pulley_of_mass(m2):
+    """a = (m₂ − m₁) g/(m₁ + m₂ + M/2) for a disk as pulley; the strings pull with m₁ (g + a) and m₂ (g − a)."""
+    run = motion(ATWOOD, 0.5, m2=m2)
+    a = (m2 - 1) * G / (1 + m2 + 1.5)
+    assert run.evaluate("accel(turn)", 0.3) == pytest.approx(-a / 0.2, abs=1e-12)
+    assert run.q[-1] == pytest.approx([-a / 1.6, -0.2, -1.5 + a / 8, 0.2, -1 - a / 8], abs=1e-12)
+    pulls = [run.evaluate(f"{s}.tension", 0.3) for s in ("left", "right")]
+    assert pulls == pytest.approx([1 * (G + a), m2 * (G - a)], rel=1e-12)
+    push = [run.evaluate(f"axle.F{axis}", 0.3) for axis in "xy"]
+    assert push == pytest.approx([0, sum(pulls) + 3 * G], abs=1e-11)
+
+
+LEASH = """
+gravity: none
+parameters: {m1: 1 kg, m2: 3 kg, e: 0}
+bodies: {a: {shape: particle, mass: m1}, b: {shape: particle, mass: m2}}
+strings: {leash: {ends: [a.centre, b.centre], length: 1 m, restitution: e}}
+initial: {a.x: 0, a.y: 0, b.x: 0.5 m, b.y: 0, rates: {a.y: 0.3, b.x: 2}}
+"""
+
+
+@pytest.mark.parametrize("e", [0, 0.4, 1])
+@pytest.mark.parametrize("m1, m2", [(1, 3), (5, 0.2)])
+def test_a_leash_goes_taut(m1, m2, e):
+    """Slack until |r| = 1; then the speed along it jumps to −e times what it was: ½ μ (1 − e²) v² is lost, μ = m₁m₂/(m₁ + m₂).
+
+    Without restitution the two have a common speed along the leash, and go round each other with the tension μ w²/l.
+    """
+    run = motion(LEASH, 2, m1=m1, m2=m2, e=e)
+    t = (-1 + math.sqrt(1 + 0.75 * 4.09)) / 4.09  # |(0.5 + 2t, −0.3t)| = 1
+    taut, *_ = changes(run, "taut")
+    assert taut.t == pytest.approx(t, abs=1e-12)
+    along = np.array([0.5 + 2 * t, -0.3 * t])
+    across = np.array([-along[1], along[0]])
+    reduced, jump = m1 * m2 / (m1 + m2), float(along @ [2, -0.3])
+    assert taut.lost == pytest.approx(reduced * jump**2 * (1 - e**2) / 2, abs=1e-12)
+    before, after = (np.array(u).reshape(2, 2) for u in (taut.before["u"], taut.after["u"]))
+    impulse = reduced * jump * (1 + e) * along
+    assert m1 * (after[0] - before[0]) == pytest.approx(impulse, abs=1e-12)
+    assert m2 * (after[1] - before[1]) == pytest.approx(-impulse, abs=1e-12)
+    assert (after[1] - after[0]) @ along == pytest.approx(-e * jump, abs=1e-12)
+    momentum = [m2 * 2, m1 * 0.3]
+    for end in (t / 2, t, 2.0):
+        told = [run.evaluate(f"momentum_{axis}()", end) for axis in "xy"]
+        assert told == pytest.approx(momentum, abs=1e-11)
+    if e == 0:
+        swing = float(across @ [2, -0.3])
+        assert after[0] @ along == pytest.approx(float(along @ momentum) / (m1 + m2), abs=1e-12)
+        assert run.evaluate("leash.tension", [t + 0.2, 1.9]) == pytest.approx([reduced * swing**2] * 2, rel=1e-9)
+    else:
+        assert run.evaluate("leash.tension", t + 0.01) == 0
+
+
+REEL = """
+gravity: none
+parameters: {R: 0.1 m, l: 1 m, v: 3 m/s}
+bodies: {bob: {shape: particle, mass: 2 kg}}
+strings: {cord: {ends: [bob.centre, {drum: ground.O, radius: R, sense: ccw, wound: 5 m}]}}
+initial: {bob.x: R, bob.y: l, rates: {bob.x: v}}
+"""
+
+
+@pytest.mark.parametrize("v, until", [(-3.0, 0.16), (-3.0, 1.6), (3.0, 1.0)])
+def test_a_bob_on_a_drum_runs_along_the_involute(v, until):
+    """Its speed stays. Wound on by φ, the free length is l − Rφ and its end moves across it: (l − Rφ) φ̇ = v, so
+    lφ − Rφ²/2 = vt; the tension is m v²/(l − Rφ)."""
+    run = motion(REEL, until, {"rtol": 1e-12}, v=v)
+    times = np.linspace(0, until, 41)
+    free = np.sqrt(1 + 2 * 0.1 * v * times)  # = l − Rφ, the root of the quadratic
+    phi = (1 - free) / 0.1
+    known = (0.1 + 1j * free) * np.exp(1j * phi)
+    place = run.evaluate("bob.x", times) + 1j * run.evaluate("bob.y", times)
+    assert np.abs(place - known).max() < 1e-9
+    assert np.abs(np.hypot(run.evaluate("vx(bob.centre)", times), run.evaluate("vy(bob.centre)", times)) - 3).max() < 1e-9
+    assert run.evaluate("cord.tension", times) == pytest.approx(2 * 9 / free, rel=1e-8)
+
+
+SPOOL = """
+parameters: {R: 0.05 m, r: 0.01 m, m: 0.2 kg}
+bodies: {spool: {shape: SHAPE, radius: R, mass: m}}
+ground: {points: {top: [-r, 0.2 m]}}
+strings: {cord: {ends: [ground.top, {drum: spool.centre, radius: r, sense: clockwise, wound: 0.5 m}]}}
+initial: {spool.x: 0, spool.y: 0, spool.angle: 0, at_rest: true}
+"""
+
+
+@pytest.mark.parametrize("shape, r", [("disk", 0.01), ("disk", 0.03), ("ring", 0.05)])
+def test_a_yo_yo_goes_down(shape, r):
+    """It falls with g/(1 + I/(mr²)), upright cord; a hoop on its own cord with g/2, and half of its weight hangs on the cord."""
+    run = motion(SPOOL.replace("SHAPE", shape), 0.3, r=r)
+    share = (0.5 if shape == "disk" else 1) * (0.05 / r) ** 2  # I/(mr²)
+    a = G / (1 + share)
+    assert run.q[-1] == pytest.approx([0, -a * 0.045, -a * 0.045 / r], abs=1e-12)
+    assert run.evaluate("cord.tension", 0.2) == pytest.approx(0.2 * (G - a), rel=1e-12)
+    assert run.evaluate("kinetic()", 0.3) == pytest.approx(0.2 * G * a * 0.045, rel=1e-12)
+
+
+def test_a_yo_yo_turns_over_at_the_end_of_its_cord():
+    """At the end the cord swings to the other side of the drum and is wound on again: a turn that takes no energy.
+
+    On its way up it has at each height the energy, and nearly the speed, of its way down.
+    """
+    run = motion(SPOOL.replace("SHAPE", "disk"), 1.6, {"rtol": 1e-11})
+    assert kinds(run) == [("taut", ("cord",))]
+    total = run.evaluate("kinetic() + potential()", np.linspace(0, 1.6, 200))
+    assert np.ptp(total) < 1e-9
+    lowest = run.evaluate("spool.y", np.linspace(1.1, 1.3, 2001)).min()
+    # The axle hangs at 0.2 m + 0.5 m and the straight stretch of the start below the top, give or take the drum.
+    assert -0.5 - 0.011 < lowest < -0.5
+    assert run.evaluate("rate(spool.y)", 1.5) > 0
+    assert (run.evaluate("cord.tension", np.linspace(0.01, 1.59, 100)) > 0).all()
+
+
+SWING = """
+bodies: {bob: {shape: particle, mass: 1 kg}}
+strings: {cord: {ends: [ground.O, bob.centre], length: 1 m}}
+parameters: {v: 6 m/s}
+initial: {bob.x: 0, bob.y: -1 m, rates: {bob.x: v}}
+"""
+
+
+@pytest.mark.parametrize("v", [5.0, 6.0, 6.8])
+def test_a_bob_that_does_not_reach_the_top(v):
+    """Between √(2gl) and √(5gl) the cord goes slack where v² = gl (2 + 3 sin θ), the bob flies a parabola, and the cord
+    jerks taut again where the parabola r = e + u t n − ½ g t² j cuts the circle: r² − 1 = ¼ g² t³ (t − 4 u cos θ/g)."""
+    run = motion(SWING, 1.5, {"rtol": 1e-11}, v=v)
+    slack, taut = changes(run, "slack")[0], next(c for c in changes(run, "taut") if c.t > 0)
+    sine = (v**2 / G - 2) / 3
+    assert run.evaluate("bob.y", slack.t) == pytest.approx(sine, abs=1e-9)
+    assert run.evaluate("speed(bob.centre)", slack.t) == pytest.approx(math.sqrt(G * sine), abs=1e-9)
+    flight = 4 * math.sqrt(G * sine) * math.sqrt(1 - sine**2) / G
+    assert taut.t - slack.t == pytest.approx(flight, abs=1e-9)
+    flying = slack.t + flight * np.array([0.1, 0.5, 0.9])
+    assert (run.evaluate("cord.tension", flying) == 0).all() and (run.evaluate("hypot(bob.x, bob.y)", flying) < 1).all()
+    # The jerk takes the speed along the cord, all of it.
+    u = np.array(taut.before["u"])
+    q = np.array(taut.before["q"])
+    assert taut.lost == pytest.approx((u @ q) ** 2 / 2, rel=1e-9)
+    assert np.array(taut.after["u"]) == pytest.approx(u - (u @ q) * q, abs=1e-9)
