@@ -59,6 +59,12 @@ class Source:
         return with_dimensions(json.loads(self.core.describe()), json.loads(self.spec))
 
     @cached_property
+    def openings(self) -> set[str]:
+        """Names of the events that happen at the start whatever it is."""
+        events = json.loads(self.spec).get("events", [])
+        return {event["name"] for event in events if event.get("opening") and event.get("condition") is None}
+
+    @cached_property
     def name(self) -> str:
         """Title for reports."""
         return json.loads(self.spec).get("name") or "mechanism"
@@ -262,7 +268,8 @@ class Run:
         if at in ("start", "end"):
             return [float(self.edges[0 if at == "start" else -1])]
         if isinstance(at, str):
-            return [event.t for event in self.events if event.name == at]
+            opened = [self.start.t] if at in self.source.openings else []
+            return opened + [event.t for event in self.events if event.name == at and event.t not in opened]
         return [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
 
     @cached_property

@@ -296,13 +296,14 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
 def comparison(found: Comparison, as_json: bool) -> None:
     """How far two runs lie apart, column by column."""
     if as_json:
-        print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only}))
+        print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only, "parting": found.parting}))
         return
     same = sum(not d.largest for d in found.differences)
     alike = f"{same} of {len(found.differences)} columns are the same at all {len(found.t)} common times"
     put(
         *([found, ""] if same < len(found.differences) else []),
         alike,
+        *([found.parting] if found.parting else []),
         *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []),
     )
 
