@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,60 +30,16 @@ from freebody.results import (
     reduce,
     unit_of,
 )
-from freebody.switched import Change, changes_of, with_dimensions
+from freebody.source import Settings, Source
+from freebody.switched import Change, changes_of
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from freebody import _core
 
 Progress = Callable[[float], bool]
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
-
-
-@dataclass(frozen=True)
-class Source:
-    """What is simulated: the compiled mechanism, the JSON it was compiled from, the model as JSON, what to report, and
-    what is worth saying about its assembly."""
-
-    core: _core.Mechanism
-    spec: str
-    model: str
-    report: tuple[ReportItem, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    @cached_property
-    def about(self) -> dict[str, Any]:
-        """What the core says of the mechanism: bodies, coordinates, joints and so on."""
-        return with_dimensions(json.loads(self.core.describe()), json.loads(self.spec))
-
-    @cached_property
-    def openings(self) -> set[str]:
-        """Names of the events that happen at the start whatever it is."""
-        events = json.loads(self.spec).get("events", [])
-        return {event["name"] for event in events if event.get("opening") and event.get("condition") is None}
-
-    @cached_property
-    def name(self) -> str:
-        """Title for reports."""
-        return json.loads(self.spec).get("name") or "mechanism"
-
-
-@dataclass(frozen=True)
-class Settings:
-    """How a run is made; times in s. ``every`` is the spacing of the output grid, ``impacts`` and ``painleve`` are the laws
-    of impacts and of friction that jams."""
-
-    until: float
-    method: str = "dop853"
-    rtol: float = 1e-9
-    step: float | None = None
-    max_step: float | None = None
-    route: str = "auto"
-    every: float | None = None
-    impacts: str = "stop"
-    painleve: str = "stop"
 
 
 def simulate(
