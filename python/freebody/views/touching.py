@@ -15,7 +15,7 @@ from freebody.views.scene import GROUND, Cord, Sketch
 
 Surface = Mapping[str, Any]
 _ROUND = np.linspace(0, 2 * np.pi, 121)
-_SAG, _ARC = np.linspace(0, 1, 13), np.linspace(0, 1, 17)
+_SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
 
 
 # Surfaces
