@@ -2,12 +2,30 @@
 
 use super::rows::{closing_rows, joint_rows};
 use super::{Balance, Source, Trouble};
-use crate::contact::{Gap, Piece};
+use crate::contact::{Gap, Group, Piece};
 use crate::mechanism::{Mechanism, Part};
 use crate::mode::{Held, Hold};
+use crate::numbers::Numbers;
 
 /// Depth, over the characteristic length, to which a limit may be violated at the start.
 const SHALLOW: f64 = 1e-8;
+/// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
+const CLEAR: f64 = 0.1;
+
+/// Of every contact, how far its surfaces reach from the pins of its two bodies, m; no bound for stops and strings.
+pub(super) fn reaches(m: &Mechanism, n: &Numbers) -> Vec<[f64; 2]> {
+    let none = |group: &Group| if group.word == "contact" { 0.0 } else { f64::INFINITY };
+    let mut reaches: Vec<[f64; 2]> = m.groups.iter().map(|group| [none(group); 2]).collect();
+    for limit in &m.limits {
+        let Gap::Touch(touch) = &limit.gap else { continue };
+        for (body, far) in touch.bodies(m).into_iter().zip(touch.extents(n)) {
+            let end = usize::from(m.groups[limit.group].ends[0] != body);
+            let reach = &mut reaches[limit.group][end];
+            *reach = reach.max(far);
+        }
+    }
+    reaches
+}
 
 impl Mechanism {
     /// The name of a part.
@@ -75,10 +93,22 @@ impl Balance<'_> {
         gap.gap(self.m, &self.mode, &at, gap.piece(self.m, &at, self.mode.limits[l].piece))
     }
 
-    /// Takes the present pieces of all open limits.
+    /// Of every contact, stop and string a distance that its two bodies keep at least, m, where they are clearly apart: then
+    /// none of its limits is near.
+    pub fn apart(&self) -> Vec<Option<f64>> {
+        let apart = |(group, reach): (&Group, &[f64; 2])| {
+            let [a, b] = group.ends.map(|body| self.k.pose[body].at);
+            Some((a - b).norm() - reach[0] - reach[1]).filter(|&least| least > CLEAR * self.length)
+        };
+        self.m.groups.iter().zip(&self.reaches).map(apart).collect()
+    }
+
+    /// Takes the present pieces of all open limits, those apart left as they were.
     pub fn find_pieces(&mut self) {
+        let apart = self.apart();
         for l in 0..self.m.limits.len() {
-            if matches!(self.mode.limits[l].hold, Hold::Open | Hold::Pressed) {
+            let open = self.mode.limits[l].hold == Hold::Open && apart[self.m.limits[l].group].is_none();
+            if open || self.mode.limits[l].hold == Hold::Pressed {
                 let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
                 self.mode.limits[l].piece = piece;
             }
@@ -87,7 +117,11 @@ impl Balance<'_> {
 
     /// The limits whose gap is closed, or open by less than `most`.
     pub fn touching(&self, most: f64) -> Vec<usize> {
+        let apart = self.apart();
         let touches = |l: &usize| {
+            if apart[self.m.limits[*l].group].is_some_and(|least| least > most) {
+                return self.mode.limits[*l].hold.is_closed();
+            }
             let held = self.mode.limits[*l];
             let can = || self.m.limits[*l].gap.can_close(held.piece.index);
             held.hold.is_closed() || (held.hold == Hold::Open && self.m.limits[*l].soft.is_none() && can() && self.limit_gap(*l) <= most)

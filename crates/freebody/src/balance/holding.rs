@@ -2,17 +2,59 @@
 
 use super::limits::force_on_first;
 use super::rows::{gap_row, slide_row};
-use super::{Balance, Source, Spread};
+use super::{Balance, Row, Source, Spread};
 use crate::contact::Friction;
 use crate::gauges::{Axis, Bound};
 use crate::mode::Hold;
 use crate::plane::Vec2;
+use crate::solve::{keep_above, Matrix};
 
 impl Balance<'_> {
     /// Of every limit the force along its gap and its slide in the last solution, N.
     pub fn limit_forces(&self) -> Vec<[f64; 2]> {
+        self.forces_of(&self.solved.lambda)
+    }
+
+    /// As [`Balance::limit_forces`], but where closed limits can load each other, as a block jammed between walls, the forces
+    /// of all that balance it by which every limit is farthest from letting go: it holds as long as any forces hold it. Of
+    /// the last solution by [`Route::Minimal`](super::Route::Minimal); margins of `most`, N, are enough.
+    pub fn safest_forces(&self, most: f64) -> Vec<[f64; 2]> {
+        let closed = |row: &Row| if let Source::Limit(l) = row.source { Some(l) } else { None };
+        let limits: Vec<usize> = self.rows.iter().filter_map(closed).collect();
+        if limits.is_empty() || self.rows.len() <= self.m.freedom() - self.dense.saddle.dof() {
+            return self.limit_forces();
+        }
+        let stress = self.dense.saddle.self_stress();
+        let margins = |lambda: &[f64]| {
+            let forces = self.forces_of(lambda);
+            let of = |&l: &usize| self.margins(l, forces[l]);
+            limits.iter().flat_map(of).collect::<Vec<f64>>()
+        };
+        let column = |j: usize| (0..stress.rows()).map(|i| stress[(i, j)]).collect::<Vec<f64>>();
+        let by: Vec<Vec<f64>> = (0..stress.cols()).map(|j| margins(&column(j))).collect();
+        let now = margins(&self.solved.lambda);
+        let a = Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i]);
+        let (share, _) = keep_above(&a, &now, most);
+        let more = stress.mul_vec(&share);
+        let lambda: Vec<f64> = self.solved.lambda.iter().zip(more).map(|(l, d)| l + d).collect();
+        self.forces_of(&lambda)
+    }
+
+    /// What must not fall below zero for a limit to go on as it does under a force along its gap and its slide, N.
+    pub fn margins(&self, limit: usize, [normal, tangent]: [f64; 2]) -> Vec<f64> {
+        match (self.mode.limits[limit].hold, self.m.limits[limit].friction) {
+            (Hold::Stuck, Some(Friction::Coulomb { fixed, .. })) => {
+                let most = self.n.slots[fixed] * normal;
+                vec![normal, most - tangent, most + tangent]
+            }
+            _ => vec![normal],
+        }
+    }
+
+    /// The forces of all limits by multipliers of the present rows.
+    fn forces_of(&self, lambda: &[f64]) -> Vec<[f64; 2]> {
         let mut forces = vec![[0.0; 2]; self.m.limits.len()];
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+        for (row, &lambda) in self.rows.iter().zip(lambda) {
             match row.source {
                 Source::Limit(l) => {
                     let rub = match (self.mode.limits[l].hold, self.m.limits[l].friction) {

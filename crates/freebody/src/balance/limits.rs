@@ -19,13 +19,15 @@ const CLOSE: f64 = 1e-8;
 /// Part of the mechanism's own accelerations below which one is round-off.
 const NOTHING: f64 = 1e-13;
 
-/// What counts as slow.
+/// What counts as slow, and what is done where nothing decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
     /// A speed of sliding below which there is none, m/s.
     pub still: f64,
     /// The mechanism's own accelerations, m/s².
     pub pace: f64,
+    /// Whether what can stay at rest stays, where Coulomb's law leaves it open.
+    pub stay: bool,
 }
 
 /// Limits whose gaps are closed at one state, k of them.
@@ -144,7 +146,9 @@ impl Balance<'_> {
     }
 
     /// How the limits reached go on from the present state: what parts, what sticks, what slides, for given speeds of
-    /// sliding; one below `still` is none. An acceleration far below `pace` decides nothing by itself.
+    /// sliding; one below `still` is none. An acceleration far below `pace` decides nothing by itself. Where several motions
+    /// satisfy Coulomb's law, as where a block in a gap may jam or go down, `stay` takes the one in which most limits stick:
+    /// what can stay at rest stays.
     ///
     /// # Errors
     /// `painleve_inconsistent`, `painleve_indeterminate`; as [`Balance::solve`].
@@ -161,6 +165,11 @@ impl Balance<'_> {
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
         match complementarity::solve(&problem) {
             Verdict::Solved(answer) => Ok(holding(&answer, &problem, scale.pace)),
+            Verdict::Indeterminate(answers) if scale.stay => {
+                let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
+                let most = answers.iter().rev().max_by_key(sticks).expect("several answers");
+                Ok(holding(most, &problem, scale.pace))
+            }
             verdict => Err(self.paradox(reached, &free, &grips, &verdict)),
         }
     }
@@ -180,7 +189,7 @@ impl Balance<'_> {
         let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
         let pace = self.n.gravity.norm().max(self.length);
-        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace })?;
+        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false })?;
         self.take(&reached, &holding);
         Ok(())
     }

@@ -103,6 +103,8 @@ pub struct Balance<'m> {
     pub mode: Mode,
     /// Characteristic length, for the scaling of rows and coordinates, m.
     pub length: f64,
+    /// Of every contact, how far its surfaces reach from the pins of its bodies, m.
+    reaches: Vec<[f64; 2]>,
     k: Kinematics,
     t: f64,
     q: Vec<f64>,
@@ -127,11 +129,13 @@ impl<'m> Balance<'m> {
         let n = m.bind(p);
         let (bodies, freedom) = (m.bodies.len(), m.freedom());
         let length = characteristic_length(&n);
+        let reaches = gaps::reaches(m, &n);
         let mut balance = Balance {
             m,
             n,
             mode: Mode::free(m),
             length,
+            reaches,
             k: Kinematics::of(m),
             t: 0.0,
             q: vec![0.0; freedom],
@@ -166,6 +170,7 @@ impl<'m> Balance<'m> {
     pub fn rebind(&mut self, p: &[f64]) {
         self.n = self.m.bind(p);
         self.length = characteristic_length(&self.n);
+        self.reaches = gaps::reaches(self.m, &self.n);
     }
 
     /// Goes to a state.

@@ -29,8 +29,10 @@ impl Shape {
     /// As what touches: a point or a solid circle.
     fn disk(&self) -> Option<Disk> {
         match *self {
-            Shape::Point(centre) => Some(Disk { centre, radius: None }),
-            Shape::Circle { centre, radius, hollow: false } => Some(Disk { centre, radius: Some(radius) }),
+            Shape::Point(centre) => Some(Disk { centre, radius: None, beside: None }),
+            Shape::Circle { centre, radius, hollow: false } => {
+                Some(Disk { centre, radius: Some(radius), beside: None })
+            }
             _ => None,
         }
     }
@@ -52,8 +54,13 @@ impl Shape {
     /// The corners that can touch others.
     fn corners(&self) -> Vec<Disk> {
         match self {
-            Shape::Polyline(outline) | Shape::Polygon(outline) => {
-                outline.points.iter().map(|&centre| Disk { centre, radius: None }).collect()
+            Shape::Polyline(outline) => {
+                outline.points.iter().map(|&centre| Disk { centre, radius: None, beside: None }).collect()
+            }
+            Shape::Polygon(outline) => {
+                let (points, n) = (&outline.points, outline.points.len());
+                let beside = |i: usize| Some([points[(i + n - 1) % n], points[(i + 1) % n]]);
+                (0..n).map(|i| Disk { centre: points[i], radius: None, beside: beside(i) }).collect()
             }
             _ => vec![],
         }

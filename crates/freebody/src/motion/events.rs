@@ -228,7 +228,8 @@ impl<'a> Probe<'a> {
     }
 
     fn one(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
-        Ok(self.all(t)?[i])
+        self.segment.at(t, &mut self.y);
+        self.system.switch_value(i, t, &self.y)
     }
 
     fn root(&mut self, i: usize, a: Node, b: Node) -> Result<f64, Trouble> {

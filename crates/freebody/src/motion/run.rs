@@ -144,7 +144,8 @@ impl<'a> Runner<'a> {
         let system = &mut self.system;
         let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
         // Where even the trial fails, the first steps are rejected until they fit.
-        self.pace.restart(h.unwrap_or(sign * 1e-6));
+        let most = self.system.system.horizon();
+        self.pace.restart(h.unwrap_or(sign * 1e-6).clamp(-most, most));
     }
 
     /// One accepted step, or the part of it up to an event.

@@ -86,6 +86,12 @@ pub trait System {
         None
     }
 
+    /// The longest step after a restart that does not pass over a zero of a switching function which starts at zero, and
+    /// soon comes back to it.
+    fn horizon(&mut self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Writes the physical size of each component (1 rad, a length, a speed …); positive.
     fn scale(&self, out: &mut [f64]) {
         out.fill(1.0);
@@ -102,6 +108,16 @@ pub trait System {
     /// A named failure; the run ends with it.
     fn switch_values(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> Result<(), Trouble> {
         Ok(())
+    }
+
+    /// The value of one switching function at (t, y), where that costs less than all.
+    ///
+    /// # Errors
+    /// As [`System::switch_values`].
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
+        let mut values = vec![0.0; self.switches()];
+        self.switch_values(t, y, &mut values)?;
+        Ok(values[i])
     }
 
     /// How switching function `i` is watched.

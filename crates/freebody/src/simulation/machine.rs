@@ -42,8 +42,8 @@ pub struct Machine<'m> {
     pub(super) jams_strike: bool,
     /// What has switched.
     pub(super) changes: Vec<Change>,
-    /// How long the flight after the last bounce lasts, where bounces grow short, s.
-    pub(super) flight: Option<f64>,
+    /// The limit that comes back first after the last bounce, and when, s.
+    pub(super) flight: Option<(usize, f64)>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
@@ -55,6 +55,8 @@ pub struct Machine<'m> {
     delicate: bool,
     independence: f64,
     scales: Vec<f64>,
+    /// Size of a guard, for its round-off.
+    grain: f64,
 }
 
 impl<'m> Machine<'m> {
@@ -85,6 +87,7 @@ impl<'m> Machine<'m> {
             delicate: false,
             independence: 1.0,
             scales: vec![1.0; size],
+            grain: 1.0,
         }
     }
 
@@ -164,6 +167,9 @@ impl<'m> Machine<'m> {
         let mass: f64 = self.balance.n.mass.iter().sum::<f64>() + self.balance.n.inertia[1..].iter().sum::<f64>();
         let energy = (mass.max(1e-300) * (length * pace).powi(2)).max(self.balance.kinetic_energy());
         scales.resize(self.scales.len(), energy);
+        // A gap is told to the round-off of places.
+        let far = |i: usize| if m.coordinate(i).dimension == "m" { q[i].abs() / length } else { 0.0 };
+        self.grain = 4.0 * (0..n).map(far).fold(1.0, f64::max);
         self.scales = scales;
         self.speed = length * pace;
         self.strength = energy / length;
@@ -345,6 +351,11 @@ impl System for Machine<'_> {
         (when > 0.0 && when.is_finite()).then_some(t + when)
     }
 
+    /// Twice the first flight after a bounce.
+    fn horizon(&mut self) -> f64 {
+        self.flight.map_or(f64::INFINITY, |(_, flight)| 2.0 * flight)
+    }
+
     fn scale(&self, out: &mut [f64]) {
         out.copy_from_slice(&self.scales);
     }
@@ -371,12 +382,22 @@ impl System for Machine<'_> {
         Ok(())
     }
 
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
+        let first = self.balance.m.events.len() + self.balance.m.kinks.len();
+        if let Some(value) = i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)) {
+            return Ok(value);
+        }
+        let mut values = vec![0.0; self.switches()];
+        self.switch_values(t, y, &mut values)?;
+        Ok(values[i])
+    }
+
     fn switch(&self, i: usize) -> Watch {
         let m = self.balance.m;
         match m.events.get(i) {
             Some(event) => Watch { is_positive: event.guard, ..Watch::event(event.direction) },
             None if i < m.events.len() + m.kinks.len() => Watch::kink(),
-            None => Watch::guard(1.0),
+            None => Watch::guard(self.grain),
         }
     }
 

@@ -1,9 +1,9 @@
 //! What switches during a motion: parts released and engaged, impacts, limits that hold and let go.
 
 use super::Machine;
-use crate::balance::{Blow, Reached, Scale, Trouble};
-use crate::contact::complementarity::{self, Law, Strike};
-use crate::contact::{Friction, Gap};
+use crate::balance::{Blow, Reached, Route, Scale, Trouble};
+use crate::contact::complementarity::{self, Law, NoImpact, Strike};
+use crate::contact::Gap;
 use crate::gauges::Law as Gauge;
 use crate::mechanism::{Deed, Part};
 use crate::mode::Hold;
@@ -109,39 +109,47 @@ impl Machine<'_> {
         let m = self.balance.m;
         let carries = !m.rubs.is_empty() || self.balance.mode.limits.iter().any(|held| held.hold.carries());
         if carries {
-            self.balance.solve()?;
+            self.balance.solve_by(Route::Minimal)?;
         }
-        let forces = if carries { self.balance.limit_forces() } else { vec![] };
+        let forces = if carries { self.balance.safest_forces(self.strength) } else { vec![] };
         let (out, rubs) = out.split_at_mut(GUARDS * m.limits.len());
         self.rub_values(rubs);
+        let apart = self.balance.apart();
         for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
-            let held = self.balance.mode.limits[l];
-            values.fill(1.0);
-            match held.hold {
-                Hold::Off => continue,
-                Hold::Open if m.limits[l].soft.is_some() => values[0] = self.free_of_spring(l),
-                Hold::Pressed => values[0] = self.kept_by_spring(l),
-                Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
-                Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
-                Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
-                    let [normal, tangent] = forces[l].map(|f| f / self.strength);
-                    values[0] = normal;
-                    match (held.hold, self.balance.m.limits[l].friction) {
-                        (Hold::Stuck, Some(Friction::Coulomb { fixed, .. })) => {
-                            let most = self.balance.n.slots[fixed] * normal;
-                            (values[1], values[2]) = (most - tangent, most + tangent);
-                        }
-                        (Hold::Sliding(sense), _) => values[1] = sense * self.balance.slide_rate(l) / self.speed,
-                        _ => {}
-                    }
+            match apart[m.limits[l].group] {
+                // Apart, as their bodies are.
+                Some(least) if self.balance.mode.limits[l].hold == Hold::Open => {
+                    values.copy_from_slice(&[least / self.balance.length, 1.0, 1.0, 1.0]);
                 }
-            }
-            // A string keeps count of its turns, slack or taut.
-            if held.hold.is_closed() || matches!(m.limits[l].gap, Gap::Cord(_)) {
-                values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
+                _ => self.guards_of(l, forces.get(l).copied().unwrap_or_default(), values),
             }
         }
         Ok(())
+    }
+
+    /// The guards of one limit under given forces along its gap and its slide, at the state placed.
+    fn guards_of(&self, l: usize, forces: [f64; 2], values: &mut [f64]) {
+        let (limit, held) = (&self.balance.m.limits[l], self.balance.mode.limits[l]);
+        values.fill(1.0);
+        match held.hold {
+            Hold::Off => return,
+            Hold::Open if limit.soft.is_some() => values[0] = self.free_of_spring(l),
+            Hold::Pressed => values[0] = self.kept_by_spring(l),
+            Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
+            Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
+            Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
+                for (value, margin) in values.iter_mut().zip(self.balance.margins(l, forces)) {
+                    *value = margin / self.strength;
+                }
+                if let Hold::Sliding(sense) = held.hold {
+                    values[1] = sense * self.balance.slide_rate(l) / self.speed;
+                }
+            }
+        }
+        // A string keeps count of its turns, slack or taut.
+        if held.hold.is_closed() || matches!(limit.gap, Gap::Cord(_)) {
+            values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
+        }
     }
 
     /// The values of the guards of all joints that rub, at the state of the last solution.
@@ -169,6 +177,21 @@ impl Machine<'_> {
     fn kept_by_spring(&self, l: usize) -> f64 {
         let gap = self.balance.limit_gap(l) / self.balance.length;
         (-gap).min(self.balance.press(l) / self.strength)
+    }
+
+    /// One guard, if it is of the configuration alone: then nothing needs to be solved.
+    pub(super) fn guard_value(&mut self, guard: usize, t: f64, y: &[f64]) -> Option<f64> {
+        let l = guard / GUARDS;
+        if l >= self.balance.m.limits.len() {
+            return None;
+        }
+        if self.balance.mode.limits[l].hold.carries() {
+            return None;
+        }
+        self.place(t, y);
+        let mut values = [0.0; GUARDS];
+        self.guards_of(l, [0.0; 2], &mut values);
+        Some(values[guard % GUARDS])
     }
 
     /// A guard of limit `l` fell to zero.
@@ -210,8 +233,7 @@ impl Machine<'_> {
     fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
-        let still = STILL * self.speed;
-        let mut struck = false;
+        let (still, mut seized) = (STILL * self.speed, false);
         for _ in 0..ROUNDS {
             // Joints pass impulses on without friction.
             self.balance.mode.rubs.fill(Hold::Open);
@@ -222,21 +244,23 @@ impl Machine<'_> {
             let k = reached.limits.len();
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
                 self.impact(t, y, &reached)?;
-                struck = true;
                 continue;
             }
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
             let staying: Vec<usize> = staying.iter().map(|&i| reached.limits[i]).collect();
             match self.stick(t, y, &staying, loose) {
-                Err(trouble) if self.jams_strike && !struck && trouble.name == "painleve_inconsistent" => {
+                Err(trouble) if self.jams_strike && !seized && trouble.name == "painleve_inconsistent" => {
                     self.seize(t, y, &staying)?;
-                    struck = true;
+                    seized = true;
                     continue;
                 }
                 done => done?,
             }
-            if struck && !parting.is_empty() && self.capture(t, y, &reached, &parting)? {
-                continue;
+            self.put_onto(t, y, &reached.limits)?;
+            match parting.is_empty() {
+                true => self.flight = None,
+                false if self.capture(t, y, &reached, &parting)? => continue,
+                false => {}
             }
             return self.take_mode(t, &before);
         }
@@ -246,9 +270,8 @@ impl Machine<'_> {
         ))
     }
 
-    /// Decides which limits hold and which joints stick, and brings the state exactly onto them.
-    fn stick(&mut self, t: f64, y: &mut [f64], limits: &[usize], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
-        let n = self.balance.m.freedom();
+    /// Decides which limits hold and which joints stick.
+    fn stick(&mut self, t: f64, y: &[f64], limits: &[usize], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         self.balance.start_rubs(STILL * self.speed);
         if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
@@ -261,8 +284,24 @@ impl Machine<'_> {
                 break;
             }
         }
+        Ok(())
+    }
+
+    /// Brings the state exactly onto the limits that hold, and out of those that open.
+    fn put_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
+        let n = self.balance.m.freedom();
+        self.place(t, y);
+        let inside = |l: &&usize| self.balance.mode.limits[**l].hold == Hold::Open && self.balance.limit_gap(**l) < 0.0;
+        let opening: Vec<usize> = reached.iter().filter(inside).copied().collect();
+        let carries = self.balance.mode.limits.iter().any(|held| held.hold.carries());
+        if opening.is_empty() && !carries && self.balance.m.rubs.is_empty() {
+            return Ok(());
+        }
         let (q, rest) = y.split_at_mut(n);
-        self.balance.close(t, q, &rest[..n])?;
+        opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Smooth);
+        let closed = self.balance.close(t, q, &rest[..n]);
+        opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Open);
+        closed?;
         self.balance.align(t, q, &mut rest[..n])?;
         self.place(t, y);
         self.balance.solve()?;
@@ -276,7 +315,8 @@ impl Machine<'_> {
 
     /// Decides how limits that neither approach nor part go on.
     fn take_holds(&mut self, t: f64, y: &[f64], limits: &[usize]) -> Result<(), Trouble> {
-        let scale = Scale { still: STILL * self.speed, pace: self.speed * self.speed / self.balance.length };
+        let (still, pace) = (STILL * self.speed, self.speed * self.speed / self.balance.length);
+        let scale = Scale { still, pace, stay: self.rule != Rule::Stop };
         self.place(t, y);
         let reached = self.balance.reach(limits.to_vec())?;
         let slips = reached.slips();
@@ -354,26 +394,31 @@ impl Machine<'_> {
         Impulses { limits, joints: blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect() }
     }
 
-    /// Whether bounces without end are over within a moment: then all that touches comes to rest.
+    /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.
     ///
     /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
-    /// lasts a constant part of the one before.
+    /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does not see
+    /// them.
     fn capture(&mut self, t: f64, y: &mut [f64], reached: &Reached, parting: &[usize]) -> Result<bool, Trouble> {
         self.place(t, y);
         self.balance.solve()?;
         let limits: Vec<usize> = parting.iter().map(|&i| reached.limits[i]).collect();
         let back = self.balance.gap_accelerations(&limits);
-        let flights = parting.iter().zip(&back).map(|(&i, &a)| if a < 0.0 { -2.0 * reached.rates[i] / a } else { f64::INFINITY });
-        let flight = flights.fold(0.0, f64::max);
+        let speeds = parting.iter().map(|&i| reached.rates[i]);
+        let flights: Vec<f64> = speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
         let (brief, before) = (BRIEF * self.balance.length / self.speed, self.flight.take());
-        if flight > brief {
-            self.flight = (flight <= 1e3 * brief).then_some(flight);
+        let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
+        let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
+        if over.is_empty() {
+            self.flight = flights[next].is_finite().then_some((limits[next], flights[next]));
             return Ok(false);
         }
-        let part = before.map_or(0.0, |before| (flight / before).min(0.999));
+        let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
+        let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
+        let part = before.filter(|(l, _)| over.contains(l)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
         let n = self.balance.m.freedom();
         let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
-        for &limit in &reached.limits {
+        for &limit in &over {
             self.balance.mode.limits[limit].hold = Hold::Smooth;
         }
         let (q, rest) = y.split_at_mut(n);
@@ -384,7 +429,7 @@ impl Machine<'_> {
         self.note(Change {
             t: t + flight / (1.0 - part),
             kind: "rest",
-            of: self.names(&limits),
+            of: self.names(&over),
             lost,
             states: Some([earlier, y.to_vec()]),
             impulses: None,
@@ -565,16 +610,29 @@ impl Machine<'_> {
 
 /// The impulses of a strike, by the rule where laws differ.
 fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
-    let law = match (rule, complementarity::undecided(strike)) {
-        (Rule::Stop, Some(alternatives)) => return Err(undecided(names, &alternatives)),
-        (Rule::Stop, None) => Law::Newton,
-        (Rule::Law(law), _) => law,
+    let law = match rule {
+        Rule::Law(law) => law,
+        Rule::Stop => match complementarity::undecided(strike) {
+            Some(alternatives) => return Err(undecided(names, &alternatives)),
+            None => Law::Newton,
+        },
     };
-    let settled = complementarity::settle(strike, law).map_err(|e| {
-        Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}"))
-    })?;
+    let settled = match (complementarity::settle(strike, law), rule) {
+        (Ok(settled), _) => settled,
+        (Err(NoImpact::Ambiguous(all)), Rule::Law(_)) => return Ok(least(all)),
+        (Err(e), _) => {
+            return Err(Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))
+        }
+    };
     let note = (!settled.notes.is_empty()).then(|| settled.notes.join("; "));
     Ok((settled.impulses, note))
+}
+
+/// Of plastic impacts that all satisfy Coulomb's law the one that leaves least energy.
+fn least(all: Vec<complementarity::Impulses>) -> (complementarity::Impulses, Option<String>) {
+    let note = format!("Taken as plastic, and of {} outcomes as the one that leaves least energy.", all.len());
+    let least = all.into_iter().min_by(|a, b| a.work.total_cmp(&b.work)).expect("several outcomes");
+    (least, Some(note))
 }
 
 fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> Trouble {

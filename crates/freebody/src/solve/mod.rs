@@ -11,6 +11,7 @@ mod matrix;
 mod ordering;
 mod orthogonal;
 mod saddle;
+mod simplex;
 mod sparse;
 
 pub use dense::{Lu, Singular};
@@ -18,6 +19,7 @@ pub use matrix::Matrix;
 pub use ordering::minimum_degree;
 pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};
 pub use saddle::{Saddle, SaddleError, Solution};
+pub use simplex::keep_above;
 pub use sparse::{Accuracy, Factor, Pattern, Stalled};
 
 #[cfg(test)]

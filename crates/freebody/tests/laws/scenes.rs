@@ -60,7 +60,7 @@ impl Scene {
                 Profile::Chain(Chain { corners: sites, closed: word == "polygon", beyond: [None; 2] })
             }
         };
-        Scene { m, touch: Touch { disk: Disk { centre, radius }, against }, word, told }
+        Scene { m, touch: Touch { disk: Disk { centre, radius, beside: None }, against }, word, told }
     }
 
     /// Bodies somewhere, in any motion, the disk near the surface or anywhere; a particle does not turn.

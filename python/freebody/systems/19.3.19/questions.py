@@ -16,8 +16,9 @@ Hanging under gravity, θ from the downward vertical, from a hand at height y: �
 multiplier of its two basic solutions. The swing θ = A cos ωt + B sin ωt has on average Ȧ = (bω/ℓ)B and Ḃ = (bω/ℓ)A,
 up to b²: A + B grows at the rate bω/ℓ.
 
-A string that only pulls goes slack where T = 0; the bob flies straight on until it is ℓ from the hand again, and there loses its speed
-along the string relative to the hand, whatever the hand spends on that. All four laws of the angle keep it taut, and so does a sweep that the bob follows.
+A string that only pulls goes slack where T = 0; the bob flies straight on until it is ℓ from the hand again, and there loses
+its speed along the string relative to the hand, whatever the hand spends on that. All four laws of the angle keep it taut,
+and so does a sweep that the bob follows.
 """
 
 import json
@@ -176,6 +177,8 @@ def grows(case):
         yield Answer(
             f"growth rate, b = {b:g}", rate, "1/s", growth_rate(check, period), "other route: Mathieu's equation, SciPy", 1e-9
         )
+        least, hanging = run.report["least tension"].value, M * G * (1 - 4 * b / L)
+        yield Answer(f"least tension, b = {b:g}", least, "N", hanging, "closed form: m(g − bν²), no swing", 1e-8)
         yield Answer(f"growth rate/b, b = {b:g}", rate / b, "1/m·s", omega / L, "closed form: bω/ℓ for small b", b**2)
 
 

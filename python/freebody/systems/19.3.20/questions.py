@@ -9,10 +9,12 @@ With y = (M + m)g/k + η the constant terms go: ky − (M + m)g = kη.
 Without spring (B) the mass centre falls freely, and seen from a frame that falls with it no force works: with
 w = y − ½gt², both P = (M + m)ẇ − mℓ sin θ θ̇ and ½mℓ²(1 − m sin²θ/(M + m))θ̇² are constant. So θ(t) is a quadrature.
 
-C: M hangs at depth y on one end of a cable, m swings on the other; both are hung over small pulleys on one level, y and r = ℓ − y below
-them. M down, m along and across its part of the cable:
+C: M hangs at depth y on one end of a cable, m swings on the other; both are hung over small pulleys on one level, y and r =
+ℓ − y below them. M down, m along and across its part of the cable:
     Mÿ = Mg − T,   m(r̈ − rθ̇²) = mg cos θ − T,   rθ̈ + 2ṙθ̇ = −g sin θ,   with ṙ = −ẏ:
     (M + m)ÿ = Mg − m(g cos θ + rθ̇²),   rθ̈ = 2ẏθ̇ − g sin θ.
+Over pulleys of radius ρ the bob is at ρn + re, e along the cable and n across it, and the cable winds on and off: ṙ = −ẏ + ρθ̇. Its
+velocity is −ẏe + rθ̇n, and only the last equation changes: rθ̈ = (2ẏ − ρθ̇)θ̇ − g sin θ.
 """
 
 from math import cos, pi, sin, sqrt
@@ -102,15 +104,20 @@ def turn(case):
 SWING = [1.0, 1.3, 0.0, 0.0]
 
 
-def on_cable(_t, s):
+def on_cable(_t, s, rho=0.0):
     y, theta, v, omega = s
-    r = 3.0 - y
-    return v, omega, G - cable_tension(s) / M, (2 * v * omega - G * sin(theta)) / r
+    r = free_part(y, theta, rho)
+    return v, omega, G - cable_tension(s, rho) / M, ((2 * v - rho * omega) * omega - G * sin(theta)) / r
 
 
-def cable_tension(s):
+def free_part(y, theta, rho):
+    """Of the cable, from the right pulley to the bob."""
+    return 3.0 - y + rho * (theta - SWING[1])
+
+
+def cable_tension(s, rho=0.0):
     y, theta, _, omega = s
-    return M * m * (G + G * cos(theta) + (3.0 - y) * omega**2) / (M + m)
+    return M * m * (G + G * cos(theta) + free_part(y, theta, rho) * omega**2) / (M + m)
 
 
 @ask("C, on a cable over two pulleys: one instant, motion for 1.5 s, tension")
@@ -135,3 +142,19 @@ def cable(case):
     many = [0.01 * n for n in range(1, 151)]
     least = min(cable_tension(s) for s in motion(on_cable, SWING, many))
     yield Answer("least tension", min(run.evaluate("cable.tension", many)), "N", least, f"{EQUATIONS}, SciPy", 1e-9)
+
+
+@ask("C, over pulleys of radius 0.1 m, 0.01 m, 1 mm")
+def pulleys(case):
+    """They come near the small ones as the radius does."""
+    times, small = [0.3, 0.6, 0.9, 1.2, 1.5], case.run("cable.yaml")
+    for rho in (0.1, 0.01, 0.001):
+        run, check = case.run("pulleys.yaml", {"rho": rho}), motion(lambda t, s, rho=rho: on_cable(t, s, rho), SWING, times)
+        for i, (text, unit) in enumerate(COLUMNS[:2]):
+            yield Answer(
+                f"{text} at 0.3 … 1.5 s, ρ = {rho}", run.evaluate(text, times), unit, check[:, i], f"{EQUATIONS}, SciPy", 1e-9
+            )
+        tension = [cable_tension(s, rho) for s in check]
+        yield Answer(f"tension then, ρ = {rho}", run.evaluate("cable.tension", times), "N", tension, f"{EQUATIONS}, SciPy", 1e-8)
+    limit = "other route: eyelets; the difference goes as ρ"
+    yield Answer("y, the last against small pulleys", run.evaluate("y", times), "m", small.evaluate("y", times), limit, 10 * rho)

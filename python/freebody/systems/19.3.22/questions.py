@@ -1,14 +1,15 @@
 """19.3.22: plastic collision of carts, the second with a bob on a cord.
 
-The cord is plumb as A runs into B and takes no part in the impulse, P = m_A m_B v0/(m_A + m_B): both carts have
-v1 = m_A v0/(m_A + m_B), the bob none. From then on the momentum m_A v0 goes along the track with v2 = m_A v0/(m_A + m_B + m_C) on the
+The cord is plumb as A runs into B and takes no part in the impulse, P = m_A m_B v0/(m_A + m_B): both carts have v1 = m_A
+v0/(m_A + m_B), the bob none. From then on the momentum m_A v0 goes along the track with v2 = m_A v0/(m_A + m_B + m_C) on the
 mean. With M the mass of what moves with B, m that of the bob, μ = m/(M + m), θ the cord's angle, the energy seen from the
-mass centre is ½mℓ²(1 − μ cos²θ)θ̇² − mgℓ cos θ: the time is a quadrature, and at the top, where all have v2, m g h = ½(1 − μ)m v1².
-This h holds for every ℓ ≥ h; a shorter cord goes slack past the horizontal.
+mass centre is ½mℓ²(1 − μ cos²θ)θ̇² − mgℓ cos θ: the time is a quadrature, and at the top, where all have v2, m g h = ½(1 −
+μ)m v1². This h holds for every ℓ ≥ h; a shorter cord goes slack past the horizontal.
 
-The cord pulls B back while the bob is behind, and A presses on with m_A T sin θ/M. Where the cord is plumb again, carts and bob
-have exchanged their speeds about v2, as after an elastic collision; from then on the cord pulls B away from A. The second swing is that of B and
-the bob alone, with the same relative speed v1: lower. A latch holds A: then both swings are alike.
+The cord pulls B back while the bob is behind, and A presses on with m_A T sin θ/M. Where the cord is plumb again, carts and
+bob have exchanged their speeds about v2, as after an elastic collision; from then on the cord pulls B away from A. The
+second swing is that of B and the bob alone, with the same relative speed v1: lower. A latch holds A: then both swings are
+alike.
 """
 
 import json

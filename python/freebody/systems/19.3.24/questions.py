@@ -7,8 +7,8 @@ b = I2 + m2d2², c = m2ℓd2, h = m1d1 + (M + m2)ℓ and Δ = θ1 − θ2
     whole about A, less that:  aθ̈1 − c cos Δ θ̈2 − c sin Δ θ̇2² = h g sin θ1.
 The foot carries the rate of change of all momentum and all weight, the hip that of leg BC.
 
-A foot that can only push and does not slip ends where N = 0: friction still acts then. Let go, the foot would press into the floor;
-held, the floor would pull. No motion is possible; a foot with friction slides before.
+A foot that can only push and does not slip ends where N = 0: friction still acts then. Let go, the foot would press into the
+floor; held, the floor would pull. No motion is possible; a foot with friction slides before.
 """
 
 import json
@@ -123,7 +123,7 @@ def pushed(case):
     when, state = event(legs.rates, START, lambda t, y: legs.foot(y)[1], before=1.0)
     outcome = case.mechanism("one_sided.yaml").simulate(rtol=1e-12).outcome
     yield Answer("the floor's push ends at t", outcome.t, "s", when, SCIPY, 1e-9)
-    yield Answer("neither holding nor parting is possible: the run ends by name (1)", float(outcome.name == "painleve_inconsistent"), "",
+    yield Answer("neither holding nor parting: the run ends by name (1)", float(outcome.name == "painleve_inconsistent"), "",
                  float(released(legs, state) < 0), "closed form: let go, the foot presses into the floor")  # fmt: skip
     force = case.run().evaluate("foot.Fy", [when, 1.0])
     yield Answer(
@@ -142,7 +142,7 @@ def pushed(case):
 
 
 def released(legs, y):
-    """Acceleration of the foot, upward, without any force from the floor: the two legs fly, the foot's place is two unknowns more."""
+    """Acceleration of the foot, upward, without any force from the floor: the foot's place is two unknowns more."""
     one, two, w1, w2 = y
     u, w = np.array([-np.sin(one), np.cos(one)]), np.array([np.sin(two), -np.cos(two)])
     du, dw = np.array([-u[1], u[0]]), np.array([-w[1], w[0]])

@@ -1,7 +1,7 @@
 """19.3.29: rocker on round feet.
 
-d = L/2 − R from the arc's centre up to G. Rolling, G is at (Rφ + d sin φ, R + d cos φ); J(φ) = mL²/12 + m(R² + d² + 2Rd cos φ) about
-the place of contact. The energy ½Jφ̇² + mgd cos φ is constant; its rate:
+d = L/2 − R from the arc's centre up to G. Rolling, G is at (Rφ + d sin φ, R + d cos φ); J(φ) = mL²/12 + m(R² + d² + 2Rd cos
+φ) about the place of contact. The energy ½Jφ̇² + mgd cos φ is constant; its rate:
     Jφ̈ = mgd sin φ + mRd sin φ φ̇²,  for small φ, φ̇:  φ̈ = g(L/2 − R)φ/(L²/3).
 (b) Upright it is stable for R > L/2, unstable for R < L/2, and for R = L/2 it stands in any position; m and g do not matter.
 The floor: N = m(g − d(φ̈ sin φ + φ̇² cos φ)), friction m((R + d cos φ)φ̈ − dφ̇² sin φ).
@@ -160,7 +160,7 @@ def above(case):
 
 @ask("Can the floor's force end? L from the arc's centre, R = 0.3, from φ = 0.1")
 def ends(case):
-    """Where N reaches 0 friction still acts; without it the foot would press into the floor, with it the floor would have to pull."""
+    """Where N reaches 0 friction still acts; without it the foot would press into the floor, with it the floor would pull."""
     rocker = Rocker(0.3, 1.8, above=True)
     when, (phi, w) = event(rocker.rates, [0.1, 0.0], lambda t, y: rocker.floor(*y)[0], before=2.0)
     outcome = case.mechanism("from_centre.yaml", R=0.3, phi0=0.1).simulate(until=2.0, rtol=1e-12).outcome

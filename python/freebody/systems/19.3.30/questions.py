@@ -8,7 +8,7 @@
 (d) Slope: between two collisions it comes down by d sin γ, d = 2R sin α:  (ω_(n+1)+)² = η²((ω_n+)² + 2(mg/J) d sin γ).
 (e) So ω*² = η²·2(mg/J) d sin γ/(1 − η²) repeats itself, if it carries the centre over the top; others come nearer by η² a step.
 (f) With k → ∞ a collision takes (2α)²mR²/J of the energy, a turn k times as much, 4π²mR²/kJ: nothing in the end. The floor
-then does what it does to a hoop of radius R: ω̇ = mgR sin γ/J. But ω* grows as √k: there is no steady speed.
+then does what it does to a round wheel: ω̇ = mgR sin γ/J. But ω* grows as √k: there is no steady speed.
 
 The foot's force along the spoke and across it: m(g cos φ − Rφ̇²) and m(g sin φ − Rφ̈). A foot that can only push and never slides
 comes to the moment where N is 0 and T is not. Without T the tip would be pressed into the floor, with it N would pull: no motion
@@ -16,13 +16,14 @@ is possible, and the run says so. A real foot slides before.
 """
 
 import json
-from functools import cache
+from functools import cache, partial
 from math import cos, pi, radians, sin, sqrt
 
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
+from freebody import MotionError
 from freebody.catalogue import Answer, ask
 
 M, I, R, G = 1.0, 0.5, 1.0, 9.81
@@ -75,7 +76,7 @@ class Steps:
 
         def integrand(s):
             y = x * s**2
-            return sqrt(8 * x / (C * sin(self.half - 2 * x + y) * (sin(y) / y if y else 1)))
+            return sqrt(4 * x / (C * sin(self.half - 2 * x + y) * (sin(y) / y if y else 1)))
 
         return 2 * quad(integrand, 0, 1, epsabs=0, epsrel=1e-13)[0]
 
@@ -152,7 +153,7 @@ def rest(case):
         n = 8
         yield Answer(f"ω+ of {n} collisions, {of}", [spin(c) for c in collisions(run)[:n]], "rad/s", spins[:n], MAP, 1e-8)
         changes = json.loads(run.motion.changes)
-        yield Answer(f"at rest from t, {of}", changes[-1]["t"], "s", t, "quadrature and geometric series", 1e-5)
+        yield Answer(f"at rest from t, {of}", changes[-1]["t"], "s", t, "quadrature and geometric series", 1e-8)
         energy = run.evaluate("kinetic()", 12.0)
         yield Answer(f"kinetic energy at 12 s, {of}", energy, "J", 0.0, "closed form: rest", 1e-20, J / 2 * start**2)
         height = run.evaluate("y(wheel.origin)", 12.0)
@@ -172,14 +173,14 @@ def way(spins, steps):
 def slope(case):
     for degrees, start in ((5, 1.0), (10, 1.5), (10, 2.2)):
         steps, w, t, check = Steps(8, degrees), start, 0.0, []
-        run = case.run(parameters={"slope": f"{degrees} deg", "omega": start}, until=5.0)
         for _ in range(5):
             t, w = t + steps.time(w), steps.after(w)
             check.append((t, w))
-        hits = collisions(run)[:5]
-        of = f"{degrees}°, ω+ = {start}"
-        yield Answer(f"ω+, {of}", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10)
-        yield Answer(f"times, {of}", [c["t"] for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
+        for file in ("model.yaml", "hinged.yaml"):
+            run = case.run(file, {"slope": f"{degrees} deg", "omega": start}, until=t + 0.1)
+            hits, of = collisions(run)[:5], f"{degrees}°, ω+ = {start}, {file}"
+            yield Answer(f"ω+, {of}", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10)
+            yield Answer(f"times, {of}", [c["t"] for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
 
 
 @ask("(e) Steady speed: reached from a push just past the first spoke, and found as the fixed point of the program's own map")
@@ -212,6 +213,21 @@ def gaits(case):
 @cache
 def least_slope(k):
     return brentq(lambda degrees: Steps(k, degrees).steady - Steps(k, degrees).vault, 0.1, 180 / k, xtol=1e-12)
+
+
+@ask("(e) Which of these a foot that can only push and never slides can walk")
+def walks(case):
+    """Those whose N stays above 0 until the next tip hits."""
+    for k, degrees in ((4, 30), (6, 10), (6, 20), (8, 3), (8, 15), (8, 20), (16, 2), (16, 5)):
+        steps = Steps(k, degrees)
+        least = min(steps.force(phi, steps.steady)[0] for phi in np.linspace(steps.start, steps.end, 2001))
+        mechanism = case.mechanism(k=k, slope=f"{degrees} deg")
+        mechanism.parameters["omega"] = steps.steady
+        run = mechanism.simulate(until=1.5 * steps.time(steps.steady), rtol=1e-12)
+        hits = collisions(run)
+        walked = bool(hits) and run.outcome.ok and abs(spin(hits[0]) - steps.steady) < 1e-9
+        against = f"closed form: least N {least:.3f} N"
+        yield Answer(f"walks (1) or not (0), k = {k}, {degrees}°", float(walked), "", float(least > 0), against)
 
 
 @ask("(e) The least slope with a steady speed")
@@ -269,9 +285,35 @@ def ground(case):
         yield Answer(f"friction ratio at most, {of}", ratio.max(), "", check, "closed form", 1e-6)
 
 
+@ask("Staying and parting both possible: k = 8, 30°, steady speed")
+def either(case):
+    """Held, the floor pushes; let go, the tip rises: no law says which, and the program does not choose."""
+    steps = Steps(8, 30)
+    w, mechanism = steps.steady, case.mechanism(slope="30 deg")
+    mechanism.parameters["omega"] = w
+    try:
+        named = mechanism.simulate(until=0.1).outcome.name
+    except MotionError as error:
+        named = error.args[0]
+    rises = R * w**2 * cos(steps.half) > G * cos(steps.slope)
+    both = float(rises and steps.force(steps.start, w)[0] > 0)
+    yield Answer("the run ends by name (1)", float(named == "painleve_indeterminate"), "", both, "closed form: both are motions")
+
+
+def flown(steps, w, t):
+    """Height of the next tip over the floor after a flight of t from just after a collision."""
+    lean = steps.start
+    x, y = R * sin(lean) + w * R * cos(lean) * t, R * cos(lean) - w * R * sin(lean) * t - G * t**2 / 2
+    tip = lean + w * t - 2 * steps.half
+    return (x - R * sin(tip)) * sin(steps.slope) + (y - R * cos(tip)) * cos(steps.slope)
+
+
 @ask("Too fast for a foot that can only push: where its normal force ends")
 def lifting(case):
-    """Without any force a point of the wheel is accelerated by R φ̇² along its spoke and by g down. A hinged tip is pulled from then on."""
+    """Without any force a tip is accelerated by Rφ̇² along its spoke and by g down.
+
+    Where the first wins it flies; where g wins it can neither stay nor part. A hinged tip is pulled from then on.
+    """
     for k, degrees, w in ((8, 10, 3.0), (8, 20, 2.5), (4, 10, 3.0)):
         steps = Steps(k, degrees)
         phi = brentq(lambda x, s=steps, w=w: s.force(x, w)[0], 0.0, steps.end, xtol=1e-15)
@@ -290,9 +332,20 @@ def lifting(case):
         hinged = case.run("hinged.yaml", {**parameters, "n": 1}, until=t + 0.01)
         value = hinged.evaluate("'pin[0]'.Fx*sin(slope) + 'pin[0]'.Fy*cos(slope)", t)
         yield Answer(f"N of the hinged tip then, {of}", value, "N", 0.0, "closed form", 1e-9, M * G)
+    run, steps, w = case.run(parameters={"slope": "40 deg", "omega": 3.0}, until=0.5), Steps(8, 40), 3.0
+    high = partial(flown, steps, w)
+    check = brentq(high, 0.1, 0.4, xtol=1e-15)
+    yield Answer(
+        "flies at once and lands on the next tip, k = 8, 40°, ω+ = 3",
+        collisions(run)[0]["t"],
+        "s",
+        check,
+        "closed form: free flight",
+        1e-9,
+    )
 
 
-@ask("(f) More and more spokes: the wheel rolls as a hoop with spokes would")
+@ask("(f) More and more spokes: it rolls as a round wheel does")
 def many(case):
     """From ω = 1 at 5° for a second: exact for each k; nearer to the rolling wheel by a factor as k grows."""
     roll = 1 + C * sin(radians(5))

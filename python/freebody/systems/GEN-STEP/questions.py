@@ -1,12 +1,15 @@
 """GEN-STEP: person, one foot on the ground.
 
-Nine unknowns: the back foot's place and the direction of every body, ccw. A point is the back foot plus an arm of every body on the way to
-it, so its velocity has a column for every unknown; with the columns of the mass centres, virtual power gives M z̈ = f, and the columns
-of the feet hold them or load them. A motor turns one body by τ = K(q0 − q) − cq̇ and the other by −τ.
+Nine unknowns: the back foot's place and the direction of every body, ccw. A point is the back foot plus an arm of every body
+on the way to it, so its velocity has a column for every unknown; with the columns of the mass centres, virtual power gives M
+z̈ = f, and the columns of the feet hold them or load them. A motor turns one body by τ = K(q0 − q) − cq̇ and the other by
+−τ.
 
-A strike without bounce: M(ż+ − ż−) = the columns of the feet that take part, times their impulses. With the back foot hinged and the other one rough, both are
-at rest after it. On the floor with friction the striking foot slides on with |T| = μN where it would take more to stop it, and the old
-foot is free to leave: it does, for its velocity after the strike is upward. Standing on both, the loop is closed; a foot slides from |T| = μN on and lifts off at N = 0. Nothing but the feet touches the floor.
+A strike without bounce: M(ż+ − ż−) = the columns of the feet that take part, times their impulses. With the back foot hinged
+and the other one rough, both are at rest after it. On the floor with friction the striking foot slides on with |T| = μN
+where it would take more to stop it, and the old foot is free to leave: it does, for its velocity after the strike is upward.
+Standing on both, the loop is closed; a foot slides from |T| = μN on and lifts off at N = 0. Nothing but the feet touches the
+floor.
 """
 
 import json
@@ -63,7 +66,7 @@ def place(z, arms):
 
 
 class Person:
-    """Motion with given motors; ``feet``: which foot is held (1), slides to +x or −x (with the sign of its velocity) or is free."""
+    """Motion with given motors. ``held``: pairs of a foot and None where it sticks, or the sign of its velocity where it slides."""
 
     def __init__(self, K, c):
         self.K, self.c = K, c
@@ -84,7 +87,7 @@ class Person:
         return mass, f
 
     def feet(self, z, held):
-        """Columns that load, rows that hold, and their bias; ``held``: (arms, None) is held, (arms, s) slides with velocity of sign s."""
+        """Columns by which the feet load, rows that hold them, and the bias of these."""
         load, rows, biases = [], [], []
         for arms, slides in held:
             J, bias = columns(z, arms)
@@ -233,7 +236,7 @@ def leaves(case):
         z[9:] = after
         feet = [(FRONT, None if abs(impulses[0]) < MU * impulses[1] else -np.sign(impulses[0]))]
         height = partial(lambda person, z, feet, t: motion(person.rates(feet), z, [t])[0][1], person, z, feet)
-        yield Answer(f"and comes down after, {of}", back, "s", brentq(height, 0.5 * back, 2 * back, xtol=1e-16), SCIPY, 1e-4)
+        yield Answer(f"and comes down after, {of}", back, "s", brentq(height, 0.5 * back, 2 * back, xtol=1e-16), SCIPY, 1e-7)
         gone = [c["kind"] for c in json.loads(run.motion.changes) if c["t"] == hit["t"] and c["of"] == ["foot"]]
         yield Answer(f"the old foot leaves (1), {of}", float(gone == ["lift-off"]), "", float(old[1] > 0), POWER)
 

@@ -10,6 +10,9 @@ use crate::scalar::Scalar;
 /// Depth to which both chains at a concave corner go on behind each other, in parts of the height of the one over the
 /// other: far more than round-off, and less than any blade is thin.
 const INSET: f64 = 0.01;
+/// Depth, in parts of its length, to which a side is sunk for a corner whose polygon reaches behind it: it cannot be what
+/// keeps them apart. Two polygons on one floor, their lower sides in line, so meet with the sides above.
+const SUNK: f64 = 2e-9;
 
 /// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their right.
 /// Each corner turns to the right, so a closed one has its corners clockwise.
@@ -81,8 +84,9 @@ impl Chain {
     pub(super) fn face<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, piece: usize) -> Face<T> {
         let first = piece == 2 * self.sides();
         if piece % 2 == 0 && !first {
-            let Seen { to, along, .. } = self.seen(m, poses, disk, piece / 2);
-            return Face::Flat { to, along };
+            let Seen { to, along, length } = self.seen(m, poses, disk, piece / 2);
+            let depth = length * SUNK * behind(m, poses, disk, along);
+            return Face::Flat { to: to - along.perp() * T::of(depth), along };
         }
         match disk.radius {
             Some(_) => {
@@ -199,6 +203,14 @@ impl Chain {
         let corners = sides().map(|(piece, _)| piece + 1).chain(start);
         nearest(over.chain(corners.map(|piece| (piece, height(piece)))))
     }
+}
+
+/// How far the polygon of a corner reaches behind a side through the corner: 0, or the sine of the angle of its own side.
+fn behind<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, along: Vec2<T>) -> f64 {
+    let Some(beside) = disk.beside else { return 0.0 };
+    let axes = turn(m, poses, m.body_of(disk.centre));
+    let rise = |next: usize| along.cross(axes.apply(way(poses, disk.centre, next))).value();
+    beside.into_iter().map(|next| -rise(next)).fold(0.0, f64::max)
 }
 
 /// Direction, in their body's axes, from one site to another of the same body.

@@ -11,6 +11,7 @@ pub use chain::Chain;
 use super::{Border, Contact};
 use crate::gauges::Poses;
 use crate::mechanism::{Marker, Mechanism, Slot};
+use crate::numbers::Numbers;
 use crate::plane::{vec2, Turn};
 use crate::scalar::Scalar;
 use face::Face;
@@ -32,6 +33,8 @@ pub struct Disk {
     pub centre: usize,
     /// Radius; None for a point.
     pub radius: Option<Slot>,
+    /// Sites of the corners before and after it, where it is the corner of a polygon.
+    pub beside: Option<[usize; 2]>,
 }
 
 /// A surface of a body.
@@ -114,6 +117,17 @@ impl Touch {
                 poses.span(first, self.disk.centre, m).norm() - size - self.radius(poses)
             }
         }
+    }
+
+    /// How far disk and surface reach from the pins of their bodies, m; without bound for what has no back.
+    pub fn extents(&self, n: &Numbers) -> [f64; 2] {
+        let far = |site: usize| n.arms[site].norm();
+        let surface = match &self.against {
+            Profile::Circle { centre, radius, hollow: false } => far(*centre) + n.slots[*radius],
+            Profile::Chain(chain) if chain.closed => chain.corners.iter().map(|&site| far(site)).fold(0.0, f64::max),
+            _ => f64::INFINITY,
+        };
+        [far(self.disk.centre) + self.disk.radius.map_or(0.0, |slot| n.slots[slot]), surface]
     }
 
     /// A site of the surface.

@@ -1,0 +1,79 @@
+//! How far several linear quantities can be kept above zero all together.
+
+use super::Matrix;
+
+/// A coefficient below this, of rows of order one, is round-off and no pivot.
+const PIVOT: f64 = 1e-10;
+
+/// The x for which the least of all (A x + b)ᵢ is greatest, and that least; no more than `most` is asked for.
+///
+/// The simplex method from x = 0 by Bland's rule, on which no basis comes twice (Chvátal, *Linear Programming*, 1983, ch. 3).
+pub fn keep_above(a: &Matrix, b: &[f64], most: f64) -> (Vec<f64>, f64) {
+    let (m, n) = (a.rows(), a.cols());
+    let least = b.iter().copied().fold(f64::INFINITY, f64::min);
+    if m == 0 || n == 0 || least >= most {
+        return (vec![0.0; n], least);
+    }
+    // Columns: the rise s of the least, x from below with one common shift down, slacks, right-hand side. Rows: s − (A x)ᵢ ≤
+    // bᵢ − least; s ≤ most − least; and last what is to be made great, s.
+    let (slack, right) = (n + 2, n + m + 3);
+    let entry = |i: usize, j: usize| match j {
+        _ if j == right && i == m => most - least,
+        _ if j == right && i < m => b[i] - least,
+        0 => if i > m { -1.0 } else { 1.0 },
+        _ if i >= m => f64::from(j == slack + m && i == m),
+        _ if j <= n => -a[(i, j - 1)],
+        _ if j == n + 1 => a.row(i).iter().sum(),
+        _ => f64::from(j == slack + i),
+    };
+    let mut table = Matrix::from_fn(m + 2, right + 1, entry);
+    let mut basis: Vec<usize> = (slack..=slack + m).collect();
+    // Bland's rule ends by itself, but for round-off.
+    for _ in 0..100 + 50 * m {
+        let Some(enter) = (0..right).find(|&j| table[(m + 1, j)] < -PIVOT) else { break };
+        let ratio = |i: usize| table[(i, right)].max(0.0) / table[(i, enter)];
+        let rows = (0..=m).filter(|&i| table[(i, enter)] > PIVOT);
+        let first = rows.min_by(|&i, &j| ratio(i).total_cmp(&ratio(j)).then(basis[i].cmp(&basis[j])));
+        let Some(row) = first else { break };
+        basis[row] = enter;
+        let pivot = table[(row, enter)];
+        table.row_mut(row).iter_mut().for_each(|v| *v /= pivot);
+        for i in (0..m + 2).filter(|&i| i != row) {
+            let (source, target) = table.two_rows_mut(row, i);
+            let s = target[enter];
+            target.iter_mut().zip(source.iter()).for_each(|(t, p)| *t -= s * p);
+        }
+    }
+    let value = |j: usize| basis.iter().position(|&v| v == j).map_or(0.0, |i| table[(i, right)]);
+    let shift = value(n + 1);
+    ((1..=n).map(|j| value(j) - shift).collect(), least + value(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least of several linear quantities is greatest where moving on along any direction lessens one of them: held
+    /// against a search over a fine grid.
+    #[test]
+    fn no_other_point_keeps_them_higher() {
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for _ in 0..200 {
+            let a = Matrix::from_fn(7, 2, |_, _| random());
+            let b: Vec<f64> = (0..7).map(|_| random()).collect();
+            let least = |x: &[f64]| a.mul_vec(x).iter().zip(&b).map(|(a, b)| a + b).fold(f64::INFINITY, f64::min);
+            let (x, most) = keep_above(&a, &b, 1.0);
+            assert!((least(&x) - most).abs() < 1e-12 || most >= 1.0 - 1e-12, "{} {most}", least(&x));
+            for i in -40..40 {
+                for j in -40..40 {
+                    let near = [x[0] + 0.05 * f64::from(i), x[1] + 0.05 * f64::from(j)];
+                    assert!(least(&near).min(1.0) <= most + 1e-12);
+                }
+            }
+        }
+    }
+}

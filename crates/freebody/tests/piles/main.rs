@@ -1,0 +1,151 @@
+//! Piles of polygons and disks thrown into a box: nothing goes through anything, no energy comes from nowhere, and the
+//! motion comes to its end.
+
+#[path = "../laws/model.rs"]
+#[allow(dead_code)]
+mod model;
+mod pile;
+#[path = "../laws/rng.rs"]
+#[allow(dead_code)]
+mod rng;
+
+use freebody::contact::complementarity::Law;
+use freebody::motion::Options;
+use freebody::simulation::{simulate, Rule, Settings, Start, Trajectory};
+use pile::Pile;
+use std::time::Instant;
+
+/// Penetration, m, and rise of the energy, in parts of what there is, that are let pass.
+const DEPTH: f64 = 1e-9;
+const RISE: f64 = 1e-9;
+
+/// What a run came to.
+struct Told {
+    seed: u64,
+    bodies: usize,
+    outcome: String,
+    sentence: String,
+    end: f64,
+    steps: [usize; 2],
+    changes: usize,
+    /// The deepest penetration, m, with when and where.
+    deepest: (f64, f64, String),
+    /// The largest rise of the energy from one look to the next, over the energy at the start, and when.
+    rise: (f64, f64),
+    /// What the ledger leaves over, over the energy at the start.
+    left: f64,
+    wall: f64,
+}
+
+impl Told {
+    fn line(&self) -> String {
+        let Told { seed, bodies, outcome, end, steps, changes, deepest, rise, left, wall, .. } = self;
+        format!(
+            "{seed:4} {bodies:3} {outcome:20} {end:6.3} {:6} {:5} {changes:6}  {:9.1e} {:14} {:9.1e} {left:9.1e} {wall:7.2}",
+            steps[0], steps[1], deepest.0, deepest.2, rise.0
+        )
+    }
+    fn is_sound(&self) -> bool {
+        self.deepest.0 > -DEPTH && self.rise.0 < RISE
+    }
+}
+
+const HEAD: &str =
+    "seed bodies outcome               end  steps  rej changes  clearance where               rise      left    wall";
+
+/// Throws a pile for some seconds.
+fn throw(seed: u64, until: f64, patience: f64) -> Told {
+    let pile = Pile::drawn(seed);
+    let m = pile.mechanism();
+    let [q, u] = pile.start();
+    let settings = Settings {
+        method: std::env::var("METHOD").unwrap_or("dop853".into()),
+        options: Options { max_steps: 200_000, ..Options::default() },
+        route: None,
+        impacts: Rule::Law(Law::Newton),
+    };
+    let clock = Instant::now();
+    let start = Start { p: &[], t: 0.0, q: &q, u: &u };
+    let run = simulate(m, &start, until, &settings, &mut |_| clock.elapsed().as_secs_f64() < patience);
+    let wall = clock.elapsed().as_secs_f64();
+    let run = run.unwrap_or_else(|e| panic!("seed {seed}: {}", e.sentence));
+    if std::env::var("CHANGES").is_ok() {
+        for c in &run.changes {
+            println!("{:.12} {:10} {:.3e} {}{}", c.t, c.kind, c.lost, c.of.join(", "), c.note.as_ref().map_or(String::new(), |n| format!(" | {n}")));
+        }
+    }
+    judge(seed, &pile, &run, wall)
+}
+
+fn judge(seed: u64, pile: &Pile, run: &Trajectory, wall: f64) -> Told {
+    let m = pile.mechanism();
+    let ends = &run.steps;
+    let mut times: Vec<f64> = ends.windows(2).flat_map(|s| [s[0], 0.5 * (s[0] + s[1])]).collect();
+    times.push(ends[ends.len() - 1]);
+    let (mut deepest, mut rise, mut left) = ((f64::INFINITY, 0.0, String::new()), (0.0_f64, 0.0), 0.0_f64);
+    let poses = run.poses(m, &times).expect("poses");
+    for (t, poses) in times.iter().zip(&poses) {
+        let (gap, of) = pile.clearance(poses);
+        if gap < deepest.0 {
+            deepest = (gap, *t, of);
+        }
+    }
+    let ledger = run.ledger(m, &times).expect("a ledger");
+    let energy = |row: &Vec<f64>| row[0] + row[1];
+    let unit = energy(&ledger.rows[0]);
+    for (i, rows) in ledger.rows.windows(2).enumerate() {
+        let more = (energy(&rows[1]) - energy(&rows[0])) / unit;
+        if more > rise.0 {
+            rise = (more, times[i + 1]);
+        }
+        left = left.max((rows[1][rows[1].len() - 1] / unit).abs());
+    }
+    let (outcome, sentence) = (run.outcome.name().to_string(), run.outcome.to_string());
+    let steps = [run.counts[0], run.counts[1]];
+    let (end, bodies, changes) = (ends[ends.len() - 1], pile.blocks.len(), run.changes.len());
+    Told { seed, bodies, outcome, sentence, end, steps, changes, deepest, rise, left, wall }
+}
+
+/// A few small piles, for half a second.
+#[test]
+fn nothing_goes_through_anything_and_no_energy_comes_from_nowhere() {
+    for seed in 0..6 {
+        let told = throw(seed, 0.5, f64::INFINITY);
+        assert!(told.outcome == "Completed" && told.is_sound(), "{}\n{}", told.line(), told.sentence);
+    }
+}
+
+/// All of them, for five seconds. PILES=from..to or a list of seeds chooses others.
+#[test]
+#[ignore = "minutes"]
+fn a_hundred_piles_come_to_rest() {
+    let wish = std::env::var("PILES").unwrap_or("0..100".into());
+    let seeds: Vec<u64> = match wish.split_once("..") {
+        Some((a, b)) => (a.parse().expect("a seed")..b.parse().expect("a seed")).collect(),
+        None => wish.split(',').map(|s| s.parse().expect("a seed")).collect(),
+    };
+    let patience = std::env::var("PATIENCE").map_or(120.0, |s| s.parse().expect("seconds"));
+    println!("{HEAD}");
+    let mut all = vec![];
+    for seed in seeds {
+        let told = throw(seed, 5.0, patience);
+        println!("{}", told.line());
+        if told.outcome != "Completed" || !told.is_sound() {
+            println!("      {} | deepest at {}, rise at {}", told.sentence, told.deepest.1, told.rise.1);
+        }
+        all.push(told);
+    }
+    let completed = all.iter().filter(|t| t.outcome == "Completed").count();
+    let mut walls: Vec<f64> = all.iter().map(|t| t.wall).collect();
+    walls.sort_by(f64::total_cmp);
+    let deepest = all.iter().map(|t| t.deepest.0).fold(f64::INFINITY, f64::min);
+    let rise = all.iter().map(|t| t.rise.0).fold(0.0, f64::max);
+    println!(
+        "{completed} of {} completed; deepest {deepest:.1e} m, largest rise {rise:.1e}; median {:.2} s, longest {:.2} s",
+        all.len(),
+        walls[walls.len() / 2],
+        walls[walls.len() - 1]
+    );
+    assert!(all.iter().all(Told::is_sound), "penetration, or energy from nowhere");
+    assert!(completed * 100 >= all.len() * 95, "{completed} of {} completed", all.len());
+}
