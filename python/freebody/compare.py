@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -48,6 +49,16 @@ class Comparison:
     def largest(self) -> Difference:
         """The column that differs most, relative to its size."""
         return max(self.differences, key=lambda difference: difference.relative)
+
+    @property
+    def parting(self) -> str:
+        """Where the two begin to switch differently, in words; empty where the same happens in the same order."""
+        told = [[f"{change.kind} of {', '.join(change.of)}" for change in run.changes] for run in (self.a, self.b)]
+        for i, (mine, other) in enumerate(zip_longest(*told, fillvalue="nothing")):
+            if mine != other:
+                t = min(run.changes[i].t for run in (self.a, self.b) if i < len(run.changes))
+                return f"from t = {t:.6g} s on they switch differently: {mine} in the first, {other} in the second"
+        return ""
 
     def plot(self, *names: str, ax: Axes | None = None) -> Axes:
         """Columns of both runs over time: the first solid, the second dashed."""

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from freebody.results import Array
+
+if TYPE_CHECKING:
+    from freebody import _core
 
 Times = Sequence[float] | Array
 
@@ -30,6 +33,7 @@ class Motion(Protocol):
     def evaluate(self, texts: Sequence[str], times: Array) -> Array: ...
     def poses(self, times: Array) -> Array: ...
     def instants(self, times: Array) -> tuple[Array, Any]: ...
+    def instant(self, t: float, route: str) -> _core.Instant: ...
     def ledger(self, times: Array) -> tuple[list[str], Array]: ...
     def final(self) -> tuple[float, Array, Array, Array, str]: ...
 

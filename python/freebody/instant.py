@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
@@ -19,10 +20,12 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from freebody import _core
+    from freebody.grid import Motion
 
 STILL = 1e-4
 """Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
 it a load that nothing carries."""
+_FORCES = "N|T|F|Fx|Fy|tension"
 _THROUGH_POINT = {"force along x", "force along y", "normal force", "tension"}
 
 
@@ -158,16 +161,24 @@ class State:
 
 
 class Instant:
-    """Accelerations and all reactions at a state; ``about`` is what the mechanism says of itself, where it is known already."""
+    """Accelerations and all reactions at a state; ``about`` is what the mechanism says of itself, where it is known already.
+    ``motion``: one that is at this state then; what it has switched holds here, too."""
 
     def __init__(
-        self, core: _core.Mechanism, state: State, route: str = "minimal", about: Mapping[str, Any] | None = None
+        self,
+        core: _core.Mechanism,
+        state: State,
+        route: str = "minimal",
+        about: Mapping[str, Any] | None = None,
+        motion: Motion | None = None,
     ) -> None:
         self.state = state
         self.route = route
         self.core = core
         self._about = about or with_dimensions(json.loads(core.describe()), {})
-        self._solved = core.instant(state.p, state.t, state.q, state.u, route)
+        self.motion = motion
+        at = state.p, state.t, state.q, state.u
+        self._solved = core.instant(*at, route) if motion is None else motion.instant(state.t, route)
         self._rank: dict[str, Any] = json.loads(self._solved.rank)
 
     @property
@@ -244,13 +255,18 @@ class Instant:
 
     def __getitem__(self, text: str) -> float:
         """The value of any expression at this instant; a reaction that is not determined raises."""
-        value = float(self.core.evaluate([text], self.state.p, self.state.t, self.state.q, self.state.u)[0])
+        value = float(self._values([text])[0])
         if np.isnan(value):
-            refuse_indeterminate(text, self.reactions)
+            refuse_indeterminate(text, self.reactions, self._about)
         return value
 
+    def _values(self, texts: list[str]) -> Array:
+        if self.motion is not None:
+            return self.motion.evaluate(texts, np.array([self.state.t]))[0]
+        return self.core.evaluate(texts, self.state.p, self.state.t, self.state.q, self.state.u)
+
     def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
-        s, texts = self.state, [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
+        texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
         return Reaction(
             name=joint["name"],
             first=joint["first"],
@@ -259,7 +275,7 @@ class Instant:
             values=without_couples(self._solved.reactions, self._about["joints"])[i],
             determined=self._solved.determinate[i],
             smallest=lambda: without_couples(self._solved.least_reactions, self._about["joints"])[i],
-            local=lambda: self.core.evaluate(texts, s.p, s.t, s.q, s.u),
+            local=lambda: self._values(texts),
             has_couple=passes_couple(joint),
             carries=bool(joint["reaction"]),
         )
@@ -289,8 +305,11 @@ class Instant:
         return capture.get()
 
 
-def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction]) -> None:
-    """Raise where an expression reads a reaction that is not determined."""
+def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], about: Mapping[str, Any]) -> None:
+    """Raise where an expression reads a reaction, or a force of a contact, that is not determined."""
+    for limit in about["limits"]:
+        if re.search(rf"(?<![\w.]){re.escape(quote(limit['name']))}\.({_FORCES})\b", text):
+            raise Indeterminate(f"{text!r} reads a force of {limit['name']}, which the balances do not determine")
     for name, reaction in reactions.items():
         if f"{quote(name)}." in text and not reaction.determinate:
             raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")

@@ -13,8 +13,9 @@ if TYPE_CHECKING:
 
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
-    from freebody.opening import Opening
     from freebody.run import Progress, Run, Source, Times
+
+_MOMENT = 1e-6  # s
 
 
 class Moving:
@@ -46,15 +47,19 @@ class Moving:
         with self.told():
             return Instant(self.compile(), state, route, self.source().about)
 
-    def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Opening | None:
-        """The instant just after the events at the start, from the state of ``solve``; None where the model has no such event."""
-        from freebody.opening import Opening, opens
+    def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
+        """A moment of motion from the state of ``solve``: at its start the events there have happened (``changes``, ``instant``);
+        None where the model has no such event."""
+        from freebody.run import simulate
 
-        if not opens(self.lowered().spec):
+        if not any(event.get("opening") for event in self.lowered().spec["events"]):
             return None
         state, notes = self.start(initial, t, **changes)
         with self.told():
-            return Opening.of(self.source(notes), state, self.run_plan(t + 1.0, {}))
+            run = simulate(self.source(notes), state, self.run_plan(t + _MOMENT, {"step": _MOMENT}))
+        if run.outcome.t == t:
+            raise ValueError(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
+        return run
 
     def simulate(
         self: Builder,

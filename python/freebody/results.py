@@ -179,6 +179,15 @@ class Reported:
     t: float | None = None
     note: str = ""
 
+    @classmethod
+    def of(cls, item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:
+        """A value in SI as the item asks for it; ``si`` is its unit there."""
+        if not item.unit:
+            return cls(value, si, t, note)
+        from freebody.model.units import convert
+
+        return cls(value / convert(item.unit)[0], item.unit, t, note)
+
     def __str__(self) -> str:
         figure = self.note if self.value is None else f"{self.value:.10g} {self.unit}".rstrip()
         return f"{figure} (t = {self.t:.6g} s)" if self.t is not None else figure

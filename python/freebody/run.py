@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.grid import Motion, Times, output_times
-from freebody.instant import Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
+from freebody.instant import Instant, Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
 from freebody.results import (
     BEFORE,
     ENTRIES,
@@ -30,54 +30,16 @@ from freebody.results import (
     reduce,
     unit_of,
 )
-from freebody.switched import Change, changes_of, with_dimensions
+from freebody.source import Settings, Source
+from freebody.switched import Change, changes_of
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from freebody import _core
 
 Progress = Callable[[float], bool]
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
-
-
-@dataclass(frozen=True)
-class Source:
-    """What is simulated: the compiled mechanism, the JSON it was compiled from, the model as JSON, what to report, and
-    what is worth saying about its assembly."""
-
-    core: _core.Mechanism
-    spec: str
-    model: str
-    report: tuple[ReportItem, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    @cached_property
-    def about(self) -> dict[str, Any]:
-        """What the core says of the mechanism: bodies, coordinates, joints and so on."""
-        return with_dimensions(json.loads(self.core.describe()), json.loads(self.spec))
-
-    @cached_property
-    def name(self) -> str:
-        """Title for reports."""
-        return json.loads(self.spec).get("name") or "mechanism"
-
-
-@dataclass(frozen=True)
-class Settings:
-    """How a run is made; times in s. ``every`` is the spacing of the output grid, ``impacts`` and ``painleve`` are the laws
-    of impacts and of friction that jams."""
-
-    until: float
-    method: str = "dop853"
-    rtol: float = 1e-9
-    step: float | None = None
-    max_step: float | None = None
-    route: str = "auto"
-    every: float | None = None
-    impacts: str = "stop"
-    painleve: str = "stop"
 
 
 def simulate(
@@ -225,8 +187,13 @@ class Run:
         times = np.atleast_1d(np.asarray(self.t if t is None else t, float))
         values = self.motion.evaluate([text], times)[:, 0]
         if np.isnan(values).any():
-            refuse_indeterminate(text, self.reactions)
+            refuse_indeterminate(text, self.reactions, self.about)
         return float(values[0]) if np.isscalar(t) else values
+
+    def instant(self, t: float, route: str = "minimal") -> Instant:
+        """The whole instant at a time within the run, with what is in place and holds then."""
+        q, u = self.motion.sample(np.array([t]))
+        return Instant(self.source.core, State(self.end.p, t, q[0], u[0]), route, self.about, self.motion)
 
     def before(self, text: str, t: float) -> float:
         """The value of an expression just before a time, at which something may switch."""
@@ -245,19 +212,20 @@ class Run:
         si = unit_of(item.value, self.columns)
         if item.how != "at":
             when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
-            return _reported(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
+            return Reported.of(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
         at, before = (item.at[len(BEFORE) :], True) if str(item.at).startswith(BEFORE) else (item.at, False)
         moments = self._moments(at)
         if not moments:
             return Reported(None, "", note=f"{at} did not happen")
         note = ", ".join(["just before"] * before + [f"the first of {len(moments)}"] * (len(moments) > 1))
-        return _reported(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
+        return Reported.of(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
 
     def _moments(self, at: str | float) -> list[float]:
         if at in ("start", "end"):
             return [float(self.edges[0 if at == "start" else -1])]
         if isinstance(at, str):
-            return [event.t for event in self.events if event.name == at]
+            opened = [self.start.t] if at in self.source.openings else []
+            return opened + [event.t for event in self.events if event.name == at and event.t not in opened]
         return [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
 
     @cached_property
@@ -386,11 +354,3 @@ class Run:
 
     def _named(self, values: Sequence[float]) -> dict[str, float]:
         return dict(zip(self.coordinates, values, strict=True))
-
-
-def _reported(item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:
-    if not item.unit:
-        return Reported(value, si, t, note)
-    from freebody.model.units import convert
-
-    return Reported(value / convert(item.unit)[0], item.unit, t, note)

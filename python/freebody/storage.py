@@ -108,6 +108,10 @@ class Recorded:
         values = self.blocks["reaction"][rows].reshape(len(rows), -1, 3)
         return values, ~np.isnan(values)
 
+    def instant(self, t: float, route: str) -> Any:
+        """A file holds no instants."""
+        raise LookupError("a run from a file holds no whole instants; run.again() simulates it anew and knows all")
+
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """The energy ledger at saved times."""
         return list(self.meta["ledger"]), self.blocks["energy"][self._rows(times)]

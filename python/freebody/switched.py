@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from freebody.results import Array, quote
+from freebody.results import Array
 
 _WORDS = {"string": {"open": "slack", "closed": "taut"}, "contact": {"closed": "touching"}, "stop": {"closed": "at its end"}}
-_CLOSED = 1e-9  # m or rad
 
 
 @dataclass(frozen=True)
@@ -85,6 +84,7 @@ class Limit:
     ``state``: off, open, touching, stuck or sliding; taut or slack; at its end. ``gap``: how far it is from closing,
      m (rad for a stop of an angle). ``N``: the normal force, tension or force of the stop, ``T``: friction along the
     tangent, N (N·m at an angle); ``Fx``, ``Fy``: the force on the body ``first``, N; ``at``: where a contact's resultant acts, m.
+    A force that the balances do not determine is NaN.
     """
 
     name: str
@@ -103,29 +103,17 @@ class Limit:
 
 def limits_of(told: Sequence[Mapping[str, Any]], about: Mapping[str, Any]) -> dict[str, Limit]:
     """Contacts, strings and stops by name, as the core's instant tells them."""
-    found = [
-        _limit(who, _WORDS[who["type"]].get(now["state"], now["state"]), now["gap"], now["normal"], now["friction"], *now["force"],
-               now["at"] and tuple(now["at"]))
-        for who, now in zip(about["limits"], told, strict=True)
-    ]  # fmt: skip
-    return {limit.name: limit for limit in found}
-
-
-def limits_at(evaluate: Callable[[list[str]], Array], limits: Sequence[Mapping[str, Any]]) -> dict[str, Limit]:
-    """Contacts, strings and stops by name, by their expressions; open or closed by the gap."""
     found = {}
-    for who in limits:
-        parts = [f"{quote(who['name'])}.{part}" for part in ("gap", "N", "T", "Fx", "Fy", "x", "y")]
-        gap, *forces, x, y = evaluate(parts).tolist()
-        state = "open" if gap > _CLOSED else "closed"
-        found[who["name"]] = _limit(
-            who, _WORDS[who["type"]].get(state, state), gap, *forces, (x, y) if np.isfinite(x + y) else None
+    for who, now in zip(about["limits"], told, strict=True):
+        forces = zip((now["normal"], now["friction"], *now["force"]), now["determinate"], strict=True)
+        found[who["name"]] = Limit(
+            *(who[word] for word in ("name", "type", "first", "second", "dimension")),
+            _WORDS[who["type"]].get(now["state"], now["state"]),
+            now["gap"],
+            *(force if known else np.nan for force, known in forces),
+            now["at"] and tuple(now["at"]),
         )
     return found
-
-
-def _limit(who: Mapping[str, Any], state: str, *numbers: Any) -> Limit:
-    return Limit(who["name"], who["type"], who["first"], who["second"], who["dimension"], state, *numbers)
 
 
 def with_dimensions(about: dict[str, Any], spec: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,9 @@ _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what roundin
 
 
 def figure(value: float) -> str:
-    """Six digits; -0 is 0."""
+    """Six digits; -0 is 0, NaN is indeterminate."""
+    if math.isnan(value):
+        return "indeterminate"
     return f"{value + 0.0:.6g}"
 
 
@@ -56,8 +59,8 @@ def of_forces(limits: Iterable[Limit]) -> Table:
     made = _table("their forces", "", "on", "Fx [N]", "Fy [N]", "at x [m]", "at y [m]")
     for limit in limits:
         noise = _ROUND_OFF * abs(limit.N)
-        if limit.kind != "stop" and limit.N:
-            force = [figure(f if abs(f) > noise else 0.0) for f in (limit.Fx, limit.Fy)]
+        if limit.kind != "stop" and limit.N != 0:
+            force = [figure(0.0 if abs(f) <= noise else f) for f in (limit.Fx, limit.Fy)]
             _add(made, limit.name, limit.first, *force, *(map(figure, limit.at) if limit.at else ("", "")))
     return made
 

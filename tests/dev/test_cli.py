@@ -57,7 +57,12 @@ def test_a_bad_end_is_code_3_and_says_when_and_where(command, bursting):
     done = command("run", bursting, "--no-report")
     assert done.exit_code == 3
     told = " ".join(done.output.split())
-    assert "StepUnderflow, t = " in told and ", at ball.x = " in told and "the tolerance asks for" in told and "Traceback" not in told
+    assert (
+        "StepUnderflow, t = " in told
+        and ", at ball.x = " in told
+        and "the tolerance asks for" in told
+        and "Traceback" not in told
+    )
 
 
 def test_solve_hands_the_state_on(command):

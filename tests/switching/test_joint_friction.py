@@ -10,7 +10,6 @@ from seen import changes, model
 G = 9.81
 
 
-
 RAIL = """
 name: block in a rubbing slider
 parameters: {pull: 0 N/s}

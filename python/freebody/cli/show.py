@@ -21,7 +21,6 @@ from freebody.views.peaks import Peak, peak_reactions
 if TYPE_CHECKING:
     from freebody.compare import Comparison
     from freebody.instant import Instant, Reaction
-    from freebody.opening import Opening
     from freebody.run import Run
     from freebody.switched import Change
 
@@ -153,7 +152,7 @@ def _peak_row(peak: Peak) -> Row:
 # One instant
 
 
-def instants(solved: Sequence[Instant], opening: Opening | None, joint_axes: bool, balance: bool, as_json: bool) -> None:
+def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, balance: bool, as_json: bool) -> None:
     """The first instant whole; the others, by other routes, by how far they are from it; what events at the start make of it."""
     first, *others = solved
     if as_json:
@@ -172,10 +171,11 @@ def instants(solved: Sequence[Instant], opening: Opening | None, joint_axes: boo
     for other in others:
         put(f"{other.route} agrees with {first.route} to {apart(first, other):.1e}")
     if opening:
-        accelerations, reactions, *limits = opening.tables()
+        after = opening.instant(first.state.t)
+        accelerations, reactions, *limits, _ = after.tables()
         put(Text("\njust after the events at the start\n", "bold"))
-        put(table("what switched", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opening.changes]))
-        put(accelerations, reactions_along(opening.reactions) if joint_axes else reactions, *limits)
+        put(table("what switched", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opened(opening)]))
+        put(accelerations, reactions_along(after.reactions) if joint_axes else reactions, *limits, after.explanation)
 
 
 def reactions_along(reactions: Mapping[str, Reaction]) -> Table:
@@ -222,13 +222,14 @@ def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
     }
 
 
-def _opening_as_dict(opening: Opening, joint_axes: bool) -> dict[str, Any]:
-    return {
-        "changes": [asdict(change) for change in opening.changes],
-        "accelerations": opening.accelerations,
-        "reactions": _reactions_as_dict(opening.reactions, joint_axes),
-        "limits": {name: asdict(limit) for name, limit in opening.limits.items()},
-    }
+def opened(opening: Run) -> list[Change]:
+    """What switched at the start."""
+    return [change for change in opening.changes if change.t == opening.start.t]
+
+
+def _opening_as_dict(opening: Run, joint_axes: bool) -> dict[str, Any]:
+    changes = [asdict(change) for change in opened(opening)]
+    return {"changes": changes} | _instant_as_dict(opening.instant(opening.start.t), joint_axes)
 
 
 def _reactions_as_dict(reactions: Mapping[str, Reaction], joint_axes: bool) -> dict[str, Any]:
@@ -268,6 +269,19 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
             [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]],
         ),
         table("joints", ["joint", "type", "between", ""], joints),
+        table(
+            "contacts, strings and stops",
+            ["", "type", "between", ""],
+            [
+                (
+                    x["name"],
+                    x["type"],
+                    "" if x["type"] == "stop" else f"{x['first']} – {x['second']}",
+                    "" if x["engaged"] else "comes later",
+                )
+                for x in about["limits"]
+            ],
+        ),
         table("forces", ["force", "type"], [(f["name"], f["type"]) for f in about["forces"]]),
         table(
             "prescribed motions",
@@ -282,13 +296,14 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
 def comparison(found: Comparison, as_json: bool) -> None:
     """How far two runs lie apart, column by column."""
     if as_json:
-        print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only}))
+        print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only, "parting": found.parting}))
         return
     same = sum(not d.largest for d in found.differences)
     alike = f"{same} of {len(found.differences)} columns are the same at all {len(found.t)} common times"
     put(
         *([found, ""] if same < len(found.differences) else []),
         alike,
+        *([found.parting] if found.parting else []),
         *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -67,7 +67,9 @@ def _peak_of_limit(run: Run, sampled: Run, limit: Mapping[str, Any]) -> Peak:
     """The largest force of a contact, string or stop on its first body; of a stop of an angle the largest couple."""
     name, own = limit["name"], quote(limit["name"])
     texts = {"contact": [f"{own}.N", f"{own}.T"], "string": [f"{own}.tension"], "stop": [f"{own}.N"]}[limit["type"]]
-    size = force_of(sampled, texts)
+    size = np.hypot.reduce(sampled.motion.evaluate(texts, sampled.t), axis=1)
+    if np.isnan(size).any():
+        return Peak(name, limit["first"], False)
     t, largest = _largest(run, sampled.t, size, lambda t: np.hypot.reduce(run.motion.evaluate(texts, t), axis=1))
     if limit["dimension"] == "rad":
         return Peak(name, limit["first"], True, couple=largest, t_couple=t)
@@ -75,12 +77,6 @@ def _peak_of_limit(run: Run, sampled: Run, limit: Mapping[str, Any]) -> Peak:
         return Peak(name, limit["first"], True, t, largest)
     force = run.motion.evaluate([f"{own}.Fx", f"{own}.Fy"], np.array([t]))[0]
     return Peak(name, limit["first"], True, t, largest, *force.tolist())
-
-
-def force_of(run: Run, texts: Sequence[str]) -> Array:
-    """The size (nt,) of a force of one or two components by their expressions."""
-    size: Array = np.hypot.reduce(run.motion.evaluate(list(texts), run.t), axis=1)
-    return size
 
 
 def _solved(run: Run, i: int, t: Array) -> Array:

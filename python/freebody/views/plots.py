@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from freebody.run import Run
 
+_JUMPS = 500  # at most so many gaps in a curve
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -175,8 +177,10 @@ def broken(run: Run) -> tuple[Run, Callable[..., Array]]:
 
 
 def refined_at_jumps(run: Run) -> Run:
-    """The run with the times at which something switched and those just before; one from a file knows no more than its own."""
+    """The run with the times at which something switched (of very many some) and those just before; one from a file knows no
+    more than its own."""
     jumps = run.jumps[(run.jumps > run.t[0]) & (run.jumps <= run.t[-1])]
+    jumps = jumps[:: len(jumps) // _JUMPS + 1]
     if run.recorded or not len(jumps):
         return run
     return run.at(np.unique(np.concatenate([run.t, jumps, np.nextafter(jumps, -np.inf)])))
@@ -197,9 +201,10 @@ def gaps(run: Run) -> Callable[..., Array]:
 def overlay(a: Run, b: Run, names: Sequence[str], ax: Axes | None = None) -> Axes:
     """Columns of two runs over time, the second dashed."""
     ax = axes(ax)
+    (a, breaks), (b, others) = broken(a), broken(b)
     for i, name in enumerate(names):
-        ax.plot(a.t, a[name], color=colour(i), label=f"{label(a, name)}, first")
-        ax.plot(b.t, b[name], color=colour(i), ls="--", label="second")
+        ax.plot(breaks(a.t), breaks(a[name], np.nan), color=colour(i), label=f"{label(a, name)}, first")
+        ax.plot(others(b.t), others(b[name], np.nan), color=colour(i), ls="--", label="second")
     units = list(dict.fromkeys(unit_of(name, a.columns) for name in names))
     ax.set(xlabel="t  [s]", ylabel=with_unit(label(a, names[0]) if len(names) == 1 else "", ", ".join(units)))
     _legend(ax)

@@ -15,7 +15,7 @@ from freebody.views.scene import GROUND, Cord, Sketch
 
 Surface = Mapping[str, Any]
 _ROUND = np.linspace(0, 2 * np.pi, 121)
-_SAG, _ARC = np.linspace(0, 1, 13), np.linspace(0, 1, 17)
+_SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
 
 
 # Surfaces
@@ -47,8 +47,16 @@ def _draw_line(sketch: Sketch, line: Surface, others: Sequence[Surface]) -> None
     named = [sketch.at[line[key]][1] for key in ("point", "towards") if isinstance(line, dict) and line.get(key)]
     reaches += [(np.array([place]), -3 * sketch.size) for place in named if line.get("towards")]
     ways = np.concatenate([((path - origin) @ along)[:, None] + [-far, far] for path, far in reaches])
-    room = 3 * sketch.size
-    hatched_path(sketch, body, origin + np.outer([ways.min() - room, ways.max() + room], along))
+    start, end = ways.min() - 3 * sketch.size, ways.max() + 3 * sketch.size
+    if body == GROUND:
+        hatched_path(sketch, body, origin + np.outer([start, end], along))
+        return
+    solid = np.vstack([origin, *(stroke.points for stroke in sketch.figures[body].strokes)])
+    own = (solid - origin) @ along
+    if np.ptp(own):
+        # Where the body ends, its surface is not shown to go on.
+        start, end = max(start, own.min()), min(end, own.max())
+    sketch.figures[body].add(origin + np.outer([start, end], along), "rail", closed=False)
 
 
 def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, float]:

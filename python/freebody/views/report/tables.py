@@ -22,8 +22,10 @@ def headline(run: Run) -> str:
     """Name, outcome and its sentence."""
     mood = "ok" if run.outcome.ok else "not-ok"
     badge = f'<span class="badge {mood}">{escape(run.outcome.name)}</span>'
-    told, *more = escape(_sentence(run.outcome.sentence)).split("; ")
-    return f"<h1>{escape(run.name)}</h1><p>{badge} {'<br>'.join([f'{told}, t = {_figure(run.outcome.t)} s', *more])}</p>"
+    when = f"t = {_figure(run.outcome.t)} s"
+    told = escape(_sentence(run.outcome.sentence))
+    words = f"{told}, {when}" if run.outcome.ok else "<br>".join([when, *told.split("; ")])
+    return f"<h1>{escape(run.name)}</h1><p>{badge} {words}</p>"
 
 
 def aside(run: Run) -> str:
