@@ -32,7 +32,7 @@ _CALLS_BY_UNIT = {
     "rad": "angle direction",
     "rad/s": "omega",
     "rad/s^2": "alpha",
-    "J": "kinetic potential energy",
+    "J": "kinetic potential energy friction_work",
     "N": "tension",
     "N*s": "momentum_x momentum_y",
     "N*m*s": "angular_momentum",

@@ -15,7 +15,7 @@ from freebody import _core
 from . import units
 from .errors import Complaint
 from .names import suggestion
-from .units import ANGLE, ENERGY, FORCE, NUMBER_ONLY, TIME, Dimension
+from .units import ANGLE, ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
 
 Tree = dict[str, Any]
 """A tree of the core: ``{"number": 2.0}``, ``{"name": …}``, ``{"call": [name, […]]}``, ``{"negate": …}``,
@@ -76,13 +76,14 @@ _READINGS = {
     "rad/s": "omega",
     "m/s^2": "ax ay",
     "rad/s^2": "alpha",
-    "J": "kinetic potential energy",
+    "J": "kinetic potential energy friction_work",
     "N": "tension",
     "N*s": "momentum_x momentum_y",
     "N*m*s": "angular_momentum",
 }
 _READS = {word: unit for unit, words in _READINGS.items() for word in words.split()}
 _PARTS = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "Fs": FORCE, "Fn": FORCE, "F1": FORCE, "F2": None, "tension": FORCE, "M": ENERGY}
+_PARTS |= {"N": FORCE, "T": FORCE, "gap": LENGTH, "slack": LENGTH, "slip": LENGTH.times(TIME, -1)}
 _PARTS |= {"power": ENERGY.times(TIME, -1), "work": ENERGY}
 FUNCTIONS = _PLAIN_FUNCTIONS | _ALIKE | set(_READS) | {"sqrt", "atan2", "sign", "step", "if", "rate", "accel"}
 """All functions of the language; tables come on top."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 from . import syntax, units
@@ -20,7 +19,6 @@ Unit = str | Dimension | None
 _ARGUMENTS = {"along": "pl", "across": "pl", "distance": "pp", "direction": "pp", "kinetic": "b?", "angular_momentum": "p"}
 _ARGUMENTS |= dict.fromkeys(("x", "y", "vx", "vy", "speed", "ax", "ay"), "p") | dict.fromkeys(("angle", "omega", "alpha"), "b")
 _ARGUMENTS |= {"tension": "s"}
-_TENSION = re.compile(r"\btension\(\s*([^()]+?)\s*\)")  # for the core a string's force is one of its parts
 _KINDS = {"p": "point", "l": "line", "b": "body", "s": "string"}
 
 
@@ -100,7 +98,7 @@ class Writer:
             return None if name == local else self.meanings.dimension(name, self.scope)
 
         measure = syntax.Measure(expression, lookup, self.meanings.tables.__contains__)
-        return _TENSION.sub(r"\1.tension", expression.text), measure.of(expression.tree)
+        return expression.text, measure.of(expression.tree)
 
     def number_of(self, value: Any) -> tuple[Number, Dimension | None]:
         """A number of the model with its dimension (None: fits anywhere). Raises ``Complaint``."""
