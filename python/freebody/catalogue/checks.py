@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 ROUTES = ("minimal", "newton_euler", "constraints")
 STATES_OF_A_RUN = 4
+NOTHING = 1e-30
+"""N and m/s²: what is less is no force and no acceleration in any of these systems."""
 
 
 def free_questions() -> list[Question]:
@@ -28,14 +30,12 @@ def free_questions() -> list[Question]:
 
 def _routes(case: Case) -> Iterator[Answer]:
     """Accelerations and determinate reactions by each route, and what is left of every body's balance."""
-    from freebody.instant import Instant
-
     if not case.runs and not case.instants:
         case.instant()
-    for name, core, states in _states(case):
+    for name, states in _states(case):
         accelerations, reactions, residuals = [0.0], [0.0], [0.0]
-        for state in states:
-            one, *others = (Instant(core, state, route) for route in ROUTES)
+        for solved in states:
+            one, *others = (solved(route) for route in ROUTES)
             residuals += [one.residual, *(other.residual for other in others)]
             for other in others:
                 force, acceleration = one.sizes
@@ -58,18 +58,14 @@ def _ledgers(case: Case) -> Iterator[Answer]:
         yield Answer(f"{name}: left over", left, "", 0.0, "conservation: energy stored − work done", 1e-9, 1.0)
 
 
-def _states(case: Case) -> Iterator[tuple[str, Any, list[Any]]]:
-    """Every instant that was asked for, and a few of every run, while its parts are those of the model."""
-    from freebody.instant import State
+def _states(case: Case) -> Iterator[tuple[str, list[Callable[[str], Instant]]]]:
+    """Every instant that was asked for, and a few of every run, each to be solved by a route."""
+    from freebody.instant import Instant
 
     for name, instant in case.instants.items():
-        yield name, instant.core, [instant.state]
+        yield name, [partial(Instant, instant.core, instant.state)]
     for name, run in case.runs.items():
-        times = np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)
-        exchanged = [change["t"] for change in json.loads(run.motion.changes) if change["kind"] in ("released", "engaged")]
-        times = times[(times < min(exchanged, default=np.inf)) | (times == times[0])]
-        rows = zip(times, *run.motion.sample(times), strict=True)
-        yield name, run.source.core, [State(run.start.p, float(t), q, u) for t, q, u in rows]
+        yield name, [partial(run.instant, float(t)) for t in np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)]
 
 
 def _accelerations(instant: Instant) -> np.ndarray:
@@ -86,4 +82,4 @@ def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
 
 def _apart(a: np.ndarray, b: np.ndarray, size: float) -> float:
     """Largest difference relative to the largest entry, or to the terms that cancel in it."""
-    return float(np.abs(a - b).max(initial=0.0) / max(np.abs([a, b]).max(initial=0.0), size))
+    return float(np.abs(a - b).max(initial=0.0) / max(np.abs([a, b]).max(initial=0.0), size, NOTHING))

@@ -42,8 +42,8 @@ pub struct Machine<'m> {
     pub(super) jams_strike: bool,
     /// What has switched.
     pub(super) changes: Vec<Change>,
-    /// The limit that comes back first after the last bounce, and when, s.
-    pub(super) flight: Option<(usize, f64)>,
+    /// After the last bounce: what struck and what comes back first, and how long its flight lasts, s.
+    pub(super) flight: Option<(Vec<usize>, f64)>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
@@ -353,7 +353,7 @@ impl System for Machine<'_> {
 
     /// Twice the first flight after a bounce.
     fn horizon(&mut self) -> f64 {
-        self.flight.map_or(f64::INFINITY, |(_, flight)| 2.0 * flight)
+        self.flight.as_ref().map_or(f64::INFINITY, |(_, flight)| 2.0 * flight)
     }
 
     fn scale(&self, out: &mut [f64]) {

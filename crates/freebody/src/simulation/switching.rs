@@ -261,7 +261,7 @@ impl Machine<'_> {
             self.put_onto(t, y, &at_rest)?;
             match parting.is_empty() {
                 true => self.flight = None,
-                false if self.capture(t, y, &reached, &parting)? => continue,
+                false if self.capture(t, y, &reached, &parting, &struck)? => continue,
                 false => {}
             }
             return self.take_mode(t, &before);
@@ -402,7 +402,14 @@ impl Machine<'_> {
     /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
     /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does not see
     /// them.
-    fn capture(&mut self, t: f64, y: &mut [f64], reached: &Reached, parting: &[usize]) -> Result<bool, Trouble> {
+    fn capture(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        reached: &Reached,
+        parting: &[usize],
+        struck: &[usize],
+    ) -> Result<bool, Trouble> {
         self.place(t, y);
         self.balance.solve()?;
         let limits: Vec<usize> = parting.iter().map(|&i| reached.limits[i]).collect();
@@ -413,13 +420,15 @@ impl Machine<'_> {
         let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
         let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
         if over.is_empty() {
-            self.flight = flights[next].is_finite().then_some((self.group(limits[next]), flights[next]));
+            let of = struck.iter().copied().chain([limits[next]]).collect();
+            self.flight = flights[next].is_finite().then_some((of, flights[next]));
             return Ok(false);
         }
         let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
         let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
-        let of = |group: &usize| over.iter().any(|&l| self.group(l) == *group);
-        let part = before.filter(|(group, _)| of(group)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
+        // What rocks alternates between its feet.
+        let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
+        let part = same.map_or(0.0, |(_, before)| (flight / before).min(0.999));
         let n = self.balance.m.freedom();
         let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
         let fastest = parting.iter().map(|&i| reached.rates[i]).fold(0.0, f64::max);
@@ -443,10 +452,6 @@ impl Machine<'_> {
             note: Some(format!("the bounces from t = {t:.12} s on, without end, are over")),
         });
         Ok(true)
-    }
-
-    fn group(&self, limit: usize) -> usize {
-        self.balance.m.limits[limit].group
     }
 
     /// The names of the contacts, stops and strings of limits, each once.
