@@ -76,7 +76,7 @@ def test_what_holds_of_any_blow(law):
     """
     rng, struck = np.random.default_rng(7), 0
     for _ in range(60):
-        a, mu, e = rng.uniform(0.05, math.pi - 0.05), rng.uniform(0, 1.3), rng.uniform(0, 1)
+        a, mu, e = rng.uniform(0.05, math.pi - 0.05), rng.uniform(0, 4), rng.uniform(0, 1)
         vx, vy, w = rng.uniform(-3, 3), rng.uniform(-2, 0.5), rng.uniform(-6, 6)
         arm = -0.5 * np.array([math.cos(a), math.sin(a)])
         if vy + w * arm[0] > -0.05:
@@ -90,15 +90,17 @@ def test_what_holds_of_any_blow(law):
         inertia = 1.5 / 12
         assert u1 - u0 == pytest.approx([px / 1.5, py / 1.5, (arm[0] * py - arm[1] * px) / inertia], abs=1e-11)
         assert py >= 0 and abs(px) <= mu * py * (1 + 1e-9) + 1e-12
-        energy = lambda u: 0.75 * (u[0] ** 2 + u[1] ** 2) + inertia / 2 * u[2] ** 2
-        assert blow.lost == pytest.approx(energy(u0) - energy(u1), abs=1e-11)
+        energy = np.array([0.75, 0.75, inertia / 2])
+        assert blow.lost == pytest.approx(energy @ (u0**2 - u1**2), abs=1e-11)
         assert blow.lost > -1e-12
-        tip = lambda u: np.array([u[0] - u[2] * arm[1], u[1] + u[2] * arm[0]])
-        assert tip(u1)[1] >= -1e-12
+        slip, parting = u1[0] - u1[2] * arm[1], u1[1] + u1[2] * arm[0]
+        assert parting >= -1e-12
+        if law == "poisson":
+            continue  # compression and restitution may slide either way each
         if abs(px) < mu * py * (1 - 1e-9):
-            assert tip(u1)[0] == pytest.approx(0, abs=1e-11)
-        elif abs(tip(u1)[0]) > 1e-9:
-            assert px * tip(u1)[0] < 1e-12
+            assert slip == pytest.approx(0, abs=1e-11)
+        elif abs(slip) > 1e-9:
+            assert px * slip < 1e-12
     assert struck > 30
 
 
