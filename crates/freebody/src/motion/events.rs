@@ -8,6 +8,14 @@ use super::system::{Role, System, Trouble};
 const NOISE: f64 = 4.0 * f64::EPSILON;
 /// An extremum touches zero when it is below this many times the size of its function.
 const TOUCH: f64 = 1e-12;
+/// A polynomial is trusted when its last coefficients are below this many times its swing,
+const CONVERGED: f64 = 1e-9;
+/// or below this many times its distance from zero.
+const CLEAR: f64 = 1e-2;
+/// A function changes at most this many times as fast as its steepest secant.
+const STEEPER: f64 = 1.5;
+/// Values of one function in one step that are asked for beside the samples and extrema.
+const PATIENCE: usize = 300;
 
 /// How a switching function met zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +137,48 @@ impl Watcher {
         }
         let (t0, ahead) = (probe.segment.t0, probe.ahead());
         nodes.sort_by(|a, b| (ahead * (a.t - t0)).total_cmp(&(ahead * (b.t - t0))));
-        Ok(nodes)
+        let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
+        let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
+        if tail <= CONVERGED * swing || tail <= CLEAR * nearest {
+            return Ok(nodes);
+        }
+        self.between(i, &nodes, values, probe)
+    }
+
+    /// The nodes with further ones wherever the function may reach zero between two and come back. The distance of things
+    /// that pass each other is a V, which no polynomial follows; but it changes no faster than they move.
+    fn between(
+        &self,
+        i: usize,
+        nodes: &[Node],
+        values: &[f64; SAMPLES],
+        probe: &mut Probe,
+    ) -> Result<Vec<Node>, Trouble> {
+        let times = self.points.map(|x| probe.time(x));
+        let secant = |j: usize| ((values[j + 1] - values[j]) / (times[j + 1] - times[j])).abs();
+        let steepest = STEEPER * (0..SAMPLES - 1).map(secant).fold(0.0, f64::max);
+        let memory = &self.memory[i];
+        let clear = TOUCH * memory.size;
+        let mut patience = PATIENCE;
+        let mut found = vec![nodes[0]];
+        for &node in &nodes[1..] {
+            let mut ahead = vec![node];
+            while let Some(&b) = ahead.last() {
+                let a = found[found.len() - 1];
+                let same = a.value * b.value > 0.0 && a.value.abs().min(b.value.abs()) > clear;
+                let t = 0.5 * (a.t + b.t);
+                let near = same && a.value.abs() + b.value.abs() < steepest * (b.t - a.t).abs();
+                // It was heading for the other side where it acted.
+                let back = memory.is_spent && found.len() == 1 && b.value * f64::from(memory.side) < 0.0;
+                if !(near || back) || patience == 0 || t == a.t || t == b.t {
+                    found.extend(ahead.pop());
+                } else {
+                    patience -= 1;
+                    ahead.push(Node { t, value: probe.one(i, t)?, is_extremum: false });
+                }
+            }
+        }
+        Ok(found)
     }
 
     fn walk(&mut self, i: usize, nodes: &[Node], probe: &mut Probe, marks: &mut Vec<Mark>) -> Result<(), Trouble> {

@@ -71,6 +71,24 @@ fn no_double_crossing_of_a_cubic_is_missed() {
     }
 }
 
+/// A point passes a peg: its distance is a V, and it is inside for as little as a millionth of the step.
+#[test]
+fn a_short_visit_is_not_missed() {
+    let mut seed = 5;
+    for _ in 0..10_000 {
+        let radius = 10.0_f64.powf(-6.0 * random(&mut seed));
+        let at = 2.0 * radius + 1.0 + random(&mut seed);
+        let off = 0.99 * radius * (2.0 * random(&mut seed) - 1.0);
+        let half = (radius * radius - off * off).sqrt();
+        let mut system = clock().watching(&[0], |_, y, g| g[0] = (y[0] - at).hypot(off) - radius);
+        let end = 2.5 + 4.0 * radius;
+        let options = Options { first_step: Some(end), ..rtol(1e-9) };
+        let found = times(&system.run("dop853", (0.0, &[0.0]), end, &options));
+        assert_eq!(found.len(), 2, "{radius} {off} {at}");
+        assert!((found[0] - at + half).abs() < 1e-9 && (found[1] - at - half).abs() < 1e-9);
+    }
+}
+
 #[test]
 fn touches_are_told_apart_and_not_acted_on() {
     let mut acted = 0;
