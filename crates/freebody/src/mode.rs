@@ -40,6 +40,8 @@ pub enum Hold {
     Smooth,
     /// Its gap is closed and it does not slide.
     Stuck,
+    /// Its gap is closed and others keep it from sliding: it rubs with a given part of its normal force.
+    Leaning(f64),
     /// Its gap is closed and it slides: the sign of the speed of sliding.
     Sliding(f64),
 }
@@ -47,7 +49,11 @@ pub enum Hold {
 impl Hold {
     /// Whether it carries load.
     pub fn carries(self) -> bool {
-        matches!(self, Hold::Smooth | Hold::Stuck | Hold::Sliding(_))
+        matches!(self, Hold::Smooth | Hold::Stuck | Hold::Leaning(_) | Hold::Sliding(_))
+    }
+    /// Whether it is closed and does not slide, though it could.
+    pub fn sticks(self) -> bool {
+        matches!(self, Hold::Stuck | Hold::Leaning(_))
     }
     /// Whether its gap is closed.
     pub fn is_closed(self) -> bool {

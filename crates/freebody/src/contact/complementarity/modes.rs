@@ -2,7 +2,7 @@
 
 use super::task::{Hold, Task};
 use super::{Grip, Status};
-use crate::solve::{Lu, Matrix, Orthogonal};
+use crate::solve::{keep_above, Lu, Matrix, Orthogonal};
 
 /// A pivot below this, of rows with unit diagonal, is round-off of G.
 const SINGULAR: f64 = 1e-11;
@@ -59,6 +59,13 @@ struct Column {
 }
 
 impl Column {
+    /// Adds `x` of it to the forces.
+    fn add(&self, x: f64, force: &mut [f64]) {
+        let n = force.len() / 2;
+        force[self.touch] += self.normal * x;
+        force[n + self.touch] += self.tangent * x;
+    }
+
     /// The acceleration of `row` by a unit of it.
     fn moves(&self, task: &Task, row: usize) -> f64 {
         task.g[(row, self.touch)] * self.normal + task.g[(row, task.len() + self.touch)] * self.tangent
@@ -72,31 +79,77 @@ pub(super) fn evaluate(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Fo
     Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
 }
 
+/// As [`evaluate`], for modes whose equations do not determine the forces: of all that satisfy them those by which every
+/// touch is farthest from letting go.
+pub(super) fn safest(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+    let Equations { columns, missing, a, mut force } = Equations::new(task, modes);
+    let factors = Orthogonal::factor(&a);
+    let mut x = vec![0.0; columns.len()];
+    factors.add_solution(&missing, &mut x);
+    let rank = factors.rank().rank;
+    let stress = Matrix::from_fn(columns.len(), columns.len() - rank, |i, j| factors.x()[(rank + j, i)]);
+    let margins = |x: &[f64]| {
+        let mut of = vec![0.0; 2 * task.len()];
+        columns.iter().zip(x).for_each(|(column, x)| column.add(*x, &mut of));
+        let closed = modes.iter().enumerate().filter(|(_, mode)| mode.closed);
+        let of = |(i, mode): (usize, &Mode)| match (task.holds[i], mode.tangent) {
+            (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Stick) => {
+                let (most, rub) = (fixed * of[i], of[task.len() + i]);
+                vec![of[i], most - rub, most + rub]
+            }
+            _ => vec![of[i]],
+        };
+        closed.flat_map(of).collect::<Vec<f64>>()
+    };
+    let by: Vec<Vec<f64>> = (0..stress.cols())
+        .map(|j| margins(&(0..columns.len()).map(|i| stress[(i, j)]).collect::<Vec<f64>>()))
+        .collect();
+    let now = margins(&x);
+    let (share, _) = keep_above(&Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i]), &now, 1.0);
+    x.iter_mut().zip(stress.mul_vec(&share)).for_each(|(x, d)| *x += d);
+    columns.iter().zip(&x).for_each(|(column, x)| column.add(*x, &mut force));
+    Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
+}
+
+/// What modes ask of the forces: A x = missing, for x times the columns beside those given.
+struct Equations {
+    columns: Vec<Column>,
+    missing: Vec<f64>,
+    a: Matrix,
+    force: Vec<f64>,
+}
+
 /// The forces (2n) that keep the promises aN = 0 and aT = 0 of the modes.
 fn forces(task: &Task, modes: &[Mode]) -> Result<Vec<f64>, Refusal> {
-    let n = task.len();
-    let (mut rows, mut columns, mut force) = (Vec::new(), Vec::new(), vec![0.0; 2 * n]);
-    for (i, mode) in modes.iter().enumerate() {
-        let ratio = ratio(task.holds[i], mode.tangent);
-        (force[i], force[n + i]) = (task.pressed[i], ratio * task.pressed[i]);
-        if mode.closed {
-            rows.push(i);
-            columns.push(Column { touch: i, normal: 1.0, tangent: ratio });
-        }
-        if matches!(mode.tangent, Tangent::Stick | Tangent::Lean | Tangent::Brink(_)) {
-            rows.push(n + i);
-        }
-        if mode.tangent == Tangent::Stick {
-            columns.push(Column { touch: i, normal: 0.0, tangent: 1.0 });
-        }
-    }
-    let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(task, r, &force)).collect();
-    let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(task, rows[i]));
+    let Equations { columns, missing, a, mut force } = Equations::new(task, modes);
     for (column, x) in columns.iter().zip(solved(&a, &missing)?) {
-        force[column.touch] += column.normal * x;
-        force[n + column.touch] += column.tangent * x;
+        column.add(x, &mut force);
     }
     Ok(force)
+}
+
+impl Equations {
+    fn new(task: &Task, modes: &[Mode]) -> Equations {
+        let n = task.len();
+        let (mut rows, mut columns, mut force) = (Vec::new(), Vec::new(), vec![0.0; 2 * n]);
+        for (i, mode) in modes.iter().enumerate() {
+            let ratio = ratio(task.holds[i], mode.tangent);
+            (force[i], force[n + i]) = (task.pressed[i], ratio * task.pressed[i]);
+            if mode.closed {
+                rows.push(i);
+                columns.push(Column { touch: i, normal: 1.0, tangent: ratio });
+            }
+            if matches!(mode.tangent, Tangent::Stick | Tangent::Lean | Tangent::Brink(_)) {
+                rows.push(n + i);
+            }
+            if mode.tangent == Tangent::Stick {
+                columns.push(Column { touch: i, normal: 0.0, tangent: 1.0 });
+            }
+        }
+        let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(task, r, &force)).collect();
+        let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(task, rows[i]));
+        Equations { columns, missing, a, force }
+    }
 }
 
 /// x with A x = b, for A with independent columns; a residual is left to the check of the accelerations.

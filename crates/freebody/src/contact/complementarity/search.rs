@@ -1,7 +1,7 @@
 //! The decision on a task: pivoting, enumeration, and the order of static before kinetic friction.
 
 use super::form::{propose, Proposal};
-use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal, Tangent};
+use super::modes::{admissible, choices, evaluate, safest, vertices, Found, Mode, Refusal, Tangent};
 use super::task::{Hold, Task};
 use super::{Grip, Status};
 
@@ -137,10 +137,13 @@ pub(super) fn enumerate(task: &Task, mut all: Vec<Found>, tolerance: f64) -> Vec
     all
 }
 
-/// The finding of these modes; where they do not determine the forces, the first of its vertices.
+/// The finding of these modes; where they do not determine the forces, the first of its vertices, or with many touches the
+/// forces well inside.
 fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(task, modes, tolerance);
-    if matches!(result, Err(Refusal::Singular)) {
+    if matches!(result, Err(Refusal::Singular)) && task.len() > ENUMERABLE {
+        result = safest(task, modes, tolerance);
+    } else if matches!(result, Err(Refusal::Singular)) {
         let lists: Vec<Vec<Mode>> = modes.iter().zip(&task.holds).map(|(m, h)| vertices(*h, *m)).collect();
         let mut tries = 0;
         choices(&lists, |modes| {
@@ -151,7 +154,7 @@ fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     }
     let found = result.ok()?;
     // On the edge of its cone but held by others, a touch may not need a tangential force at all.
-    match held(task, modes, &found) {
+    match held(task, modes, &found).filter(|_| task.len() <= ENUMERABLE) {
         Some(modes) => vertex(task, &modes, tolerance).or(Some(found)),
         None => Some(found),
     }
