@@ -198,7 +198,8 @@ impl Balance<'_> {
         }
         for &(l, rub) in &sticking {
             self.mode.limits[l].hold = Hold::Stuck;
-            if self.solve_by(super::Route::Minimal).is_err() && self.dense.saddle.authority() > self.dense.saddle.rank().rank {
+            let fails = self.solve_by(super::Route::Minimal).is_err();
+            if fails && self.dense.saddle.authority() >= self.dense.saddle.rank().rank {
                 self.mode.limits[l].hold = Hold::Leaning(rub);
             }
         }

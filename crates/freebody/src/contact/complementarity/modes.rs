@@ -79,36 +79,68 @@ pub(super) fn evaluate(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Fo
     Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
 }
 
-/// As [`evaluate`], for modes whose equations do not determine the forces: of all that satisfy them those by which every
-/// touch is farthest from letting go.
-pub(super) fn safest(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
-    let Equations { columns, missing, a, mut force } = Equations::new(task, modes);
-    let factors = Orthogonal::factor(&a);
-    let mut x = vec![0.0; columns.len()];
-    factors.add_solution(&missing, &mut x);
-    let rank = factors.rank().rank;
-    let stress = Matrix::from_fn(columns.len(), columns.len() - rank, |i, j| factors.x()[(rank + j, i)]);
-    let margins = |x: &[f64]| {
-        let mut of = vec![0.0; 2 * task.len()];
-        columns.iter().zip(x).for_each(|(column, x)| column.add(*x, &mut of));
-        let closed = modes.iter().enumerate().filter(|(_, mode)| mode.closed);
-        let of = |(i, mode): (usize, &Mode)| match (task.holds[i], mode.tangent) {
-            (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Stick) => {
-                let (most, rub) = (fixed * of[i], of[task.len() + i]);
-                vec![of[i], most - rub, most + rub]
-            }
-            _ => vec![of[i]],
+/// As [`evaluate`], for modes whose equations do not determine the forces: from forces well inside their bounds on along
+/// self-stresses, each to the next bound that a touch reaches, until what is left is determined.
+pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+    let mut modes = modes.to_vec();
+    for _ in 0..=3 * modes.len() {
+        let Equations { columns, missing, a, force } = Equations::new(task, &modes);
+        let factors = Orthogonal::factor(&a);
+        let (n, rank) = (columns.len(), factors.rank().rank);
+        if rank == n {
+            break;
+        }
+        let mut x = vec![0.0; n];
+        factors.add_solution(&missing, &mut x);
+        let spread = |x: &[f64], mut force: Vec<f64>| {
+            columns.iter().zip(x).for_each(|(column, x)| column.add(*x, &mut force));
+            force
         };
-        closed.flat_map(of).collect::<Vec<f64>>()
-    };
-    let by: Vec<Vec<f64>> = (0..stress.cols())
-        .map(|j| margins(&(0..columns.len()).map(|i| stress[(i, j)]).collect::<Vec<f64>>()))
-        .collect();
-    let now = margins(&x);
-    let (share, _) = keep_above(&Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i]), &now, 1.0);
-    x.iter_mut().zip(stress.mul_vec(&share)).for_each(|(x, d)| *x += d);
-    columns.iter().zip(&x).for_each(|(column, x)| column.add(*x, &mut force));
-    Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
+        let nothing = vec![0.0; force.len()];
+        let along = |j: usize| margins(task, &modes, &spread(factors.x().row(rank + j), nothing.clone()));
+        let by: Vec<Vec<(usize, Bound, f64)>> = (0..n - rank).map(along).collect();
+        let mut now = margins(task, &modes, &spread(&x, force));
+        now.iter_mut().filter(|m| m.1 == Bound::Pressed).for_each(|m| m.2 -= task.pressed[m.0]);
+        let least: Vec<f64> = now.iter().map(|m| m.2).collect();
+        let (share, most) = keep_above(&Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i].2), &least, 1.0);
+        if most < -tolerance {
+            return Err(Refusal::Violated);
+        }
+        now.iter_mut().enumerate().for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
+        let ways = now.iter().zip(&by[0]).filter(|(_, by)| by.2.abs() > SINGULAR);
+        let next = ways.map(|(now, by)| (now.0, now.1, (now.2 / by.2).abs())).min_by(|a, b| a.2.total_cmp(&b.2));
+        let (touch, bound, _) = next.ok_or(Refusal::Singular)?;
+        modes[touch] = match bound {
+            Bound::Pressed if task.pressed[touch] == 0.0 => Mode::OPEN,
+            Bound::Pressed => Mode { closed: false, ..modes[touch] },
+            Bound::Cone(sense) => Mode { tangent: Tangent::Brink(sense), ..modes[touch] },
+        };
+    }
+    evaluate(task, &modes, tolerance)
+}
+
+/// What bounds the force of a touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bound {
+    /// The least normal force.
+    Pressed,
+    /// The cone of friction, on the side where it resists sliding with this sense.
+    Cone(f64),
+}
+
+/// How far forces are inside the bounds of touches that could carry more or less.
+fn margins(task: &Task, modes: &[Mode], force: &[f64]) -> Vec<(usize, Bound, f64)> {
+    let mut all = vec![];
+    for (i, mode) in modes.iter().enumerate() {
+        if mode.closed {
+            all.push((i, Bound::Pressed, force[i]));
+        }
+        if let (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Stick) = (task.holds[i], mode.tangent) {
+            let (most, rub) = (fixed * force[i], force[modes.len() + i]);
+            all.extend([(i, Bound::Cone(-1.0), most - rub), (i, Bound::Cone(1.0), most + rub)]);
+        }
+    }
+    all
 }
 
 /// What modes ask of the forces: A x = missing, for x times the columns beside those given.
