@@ -154,13 +154,6 @@ impl Machine<'_> {
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
-        if std::env::var("TRACE").is_ok() {
-            let name = self.names(&[l]);
-            let held = self.balance.mode.limits[l];
-            let mut v = vec![0.0; GUARDS * self.balance.m.limits.len()];
-            self.guard_values(t, y, &mut v)?;
-            eprintln!("{t:.15} guard {l}.{guard} {name:?} {held:?} values {:?} gap {:.3e} rates {:.3e}", &v[GUARDS*l..GUARDS*l+GUARDS], self.balance.limit_gap(l), self.balance.slide_rate(l));
-        }
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
@@ -189,11 +182,6 @@ impl Machine<'_> {
             }
             let reached = self.balance.reach(touching)?;
             let k = reached.limits.len();
-            if std::env::var("TRACE").is_ok() {
-                for (i, &l) in reached.limits.iter().enumerate() {
-                    eprintln!("   {l} {:?} {:?} gap {:.3e} rate {:.3e} slip {:.3e}", self.names(&[l]), before.limits[l].hold, self.balance.limit_gap(l), reached.rates[i], reached.rates[k + i]);
-                }
-            }
             let still = STILL * self.speed;
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
                 self.impact(t, y, &reached)?;
@@ -236,9 +224,6 @@ impl Machine<'_> {
         self.balance.take(&reached, &holding);
         self.place(t, y);
         self.balance.share(&reached, &holding)?;
-        if std::env::var("TRACE").is_ok() {
-            eprintln!("   holds {:?} close {}", holding.holds, holding.close);
-        }
         Ok(())
     }
 

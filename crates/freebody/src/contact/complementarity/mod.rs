@@ -152,14 +152,7 @@ fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict
     let (mut answers, mut unknown) = (vec![nothing], false);
     for group in task::groups(g) {
         let task = Task::new(g, free, grips, pressed, &group);
-        let decided = search::decide(&task);
-        if std::env::var("TRACE").is_ok() && !matches!(&decided, search::Outcome::Found(f) if f.len() == 1) {
-            eprintln!("   LCP group {group:?} holds {:?} pressed {:?}", task.holds, task.pressed);
-            eprintln!("   free {:?}", task.free);
-            for i in 0..task.g.rows() { eprintln!("   {:?}", task.g.row(i)); }
-            match &decided { search::Outcome::Found(f) => f.iter().for_each(|f| eprintln!("   FOUND {f:?}")), o => eprintln!("   {o:?} {}", task.rank_is_doubtful()) }
-        }
-        match decided {
+        match search::decide(&task) {
             search::Outcome::Found(found) => answers = combine(answers, &task, &found),
             search::Outcome::Nothing if !task.rank_is_doubtful() => return Verdict::Inconsistent,
             search::Outcome::Nothing | search::Outcome::Unknown => unknown = true,
