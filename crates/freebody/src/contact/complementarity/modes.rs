@@ -109,7 +109,13 @@ pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found
         now.iter_mut().enumerate().for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
         let ways = now.iter().zip(&by[0]).filter(|(_, by)| by.2.abs() > SINGULAR);
         let next = ways.map(|(now, by)| (now.0, now.1, (now.2 / by.2).abs())).min_by(|a, b| a.2.total_cmp(&b.2));
-        let (touch, bound, _) = next.ok_or(Refusal::Singular)?;
+        let Some((touch, bound, _)) = next else {
+            // Friction without bound, of touches that need it all the less.
+            let rub = (0..n).find(|&j| columns[j].normal == 0.0 && factors.x()[(rank, j)].abs() > SINGULAR);
+            let touch = columns[rub.ok_or(Refusal::Singular)?].touch;
+            modes[touch].tangent = Tangent::Lean;
+            continue;
+        };
         modes[touch] = match bound {
             Bound::Pressed if task.pressed[touch] == 0.0 => Mode::OPEN,
             Bound::Pressed => Mode { closed: false, ..modes[touch] },
