@@ -44,6 +44,8 @@ pub enum Hold {
     Smooth,
     /// Its gap is closed and it does not slide.
     Stuck,
+    /// Its gap is closed and others keep it from sliding: it rubs with a given part of its normal force.
+    Leaning(f64),
     /// Its gap is closed and it slides: the sign of the speed of sliding.
     Sliding(f64),
 }
@@ -51,7 +53,11 @@ pub enum Hold {
 impl Hold {
     /// Whether it carries load.
     pub fn carries(self) -> bool {
-        matches!(self, Hold::Smooth | Hold::Stuck | Hold::Sliding(_))
+        matches!(self, Hold::Smooth | Hold::Stuck | Hold::Leaning(_) | Hold::Sliding(_))
+    }
+    /// Whether it is closed and does not slide, though it could.
+    pub fn sticks(self) -> bool {
+        matches!(self, Hold::Stuck | Hold::Leaning(_))
     }
     /// Whether it is reached, closed or pressed.
     pub fn touches(self) -> bool {

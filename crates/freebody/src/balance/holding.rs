@@ -59,11 +59,12 @@ impl Balance<'_> {
                 Source::Limit(l) => {
                     let rub = match (self.mode.limits[l].hold, self.m.limits[l].friction) {
                         (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => -sense * self.n.slots[kinetic],
+                        (Hold::Leaning(part), _) => part,
                         _ => 0.0,
                     };
                     forces[l] = [lambda, forces[l][1] + rub * lambda];
                 }
-                Source::Friction(l) => forces[l][1] = lambda,
+                Source::Friction(l) if self.mode.limits[l].hold == Hold::Stuck => forces[l][1] = lambda,
                 _ => {}
             }
         }

@@ -60,7 +60,7 @@ impl Balance<'_> {
         let state = match () {
             _ if holds().all(|h| h == Hold::Off) => "off",
             _ if holds().any(|h| matches!(h, Hold::Sliding(_))) => "sliding",
-            _ if holds().any(|h| h == Hold::Stuck) => "stuck",
+            _ if holds().any(Hold::sticks) => "stuck",
             _ if holds().any(|h| h.is_closed()) => "closed",
             _ => "open",
         };

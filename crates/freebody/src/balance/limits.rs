@@ -53,6 +53,8 @@ pub struct Holding {
     pub holds: Vec<Hold>,
     /// Whether something that decides was too small to be sure of.
     pub close: bool,
+    /// Part of its normal force with which each rubs.
+    pub rubs: Vec<f64>,
 }
 
 /// A blow: what impulses through limits did.
@@ -224,6 +226,30 @@ impl Balance<'_> {
         }
     }
 
+    /// Of limits that stick, though others that slide keep them from it, takes as many as there are forces too many for the
+    /// motions that are excluded: these go on to rub as they do now. What holds them does not say how much.
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn share(&mut self, reached: &Reached, holding: &Holding) -> Result<(), Trouble> {
+        let sticking = |(&l, &rub): (&usize, &f64)| Some((l, rub)).filter(|_| self.mode.limits[l].hold == Hold::Stuck);
+        let sticking: Vec<(usize, f64)> = reached.limits.iter().zip(&holding.rubs).filter_map(sticking).collect();
+        if self.solve_by(super::Route::Minimal).is_ok() || sticking.is_empty() {
+            return Ok(());
+        }
+        for &(l, rub) in &sticking {
+            self.mode.limits[l].hold = Hold::Leaning(rub);
+        }
+        for &(l, rub) in &sticking {
+            self.mode.limits[l].hold = Hold::Stuck;
+            let fails = self.solve_by(super::Route::Minimal).is_err();
+            if fails && self.dense.saddle.authority() >= self.dense.saddle.rank().rank {
+                self.mode.limits[l].hold = Hold::Leaning(rub);
+            }
+        }
+        self.solve_by(super::Route::Minimal)
+    }
+
     /// The impulses by which the present closing rows come to rest, limits apart from those that carry.
     ///
     /// # Errors
@@ -392,5 +418,6 @@ fn holding(answer: &Answer, problem: &Problem, pace: f64) -> Holding {
         (Status::Slip(_), Grip::Resting { .. }) => weak(i) || slow(answer.acceleration[k + i]),
         _ => weak(i),
     };
-    Holding { holds: (0..k).map(hold).collect(), close: (0..k).any(close) }
+    let rubs = answer.normal.iter().zip(&answer.tangent).map(|(n, t)| if *n > 0.0 { t / n } else { 0.0 }).collect();
+    Holding { holds: (0..k).map(hold).collect(), close: (0..k).any(close), rubs }
 }

@@ -74,6 +74,11 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
                 rows.push(gap_row(at, limit, base));
                 rows.extend(slide_row(at, limit, base));
             }
+            // It does not slide, but no force of its own sees to that.
+            Hold::Leaning(_) => {
+                rows.push(gap_row(at, limit, base));
+                rows.extend(slide_row(at, limit, base).map(|row| Row { force: Some(vec![]), ..row }));
+            }
             Hold::Off | Hold::Open | Hold::Pressed | Hold::Idle => {}
         }
     }
@@ -97,13 +102,17 @@ pub fn gap_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row
     let jet = limit.gap.gap(at.m, at.mode, &Moving { at, bodies: base, accelerations: None }, held.piece);
     let load = |body| limit.gap.gap(at.m, at.mode, &Seeded { at, body }, held.piece).du;
     let motion: Spread<S> = limit.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect();
-    let force = match (held.hold, limit.friction) {
-        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => {
-            let rub = -at.n.slots[kinetic].scale(sense);
+    let rub = match (held.hold, limit.friction) {
+        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => Some(-at.n.slots[kinetic].scale(sense)),
+        (Hold::Leaning(part), _) => Some(S::of(part)),
+        _ => None,
+    };
+    let force = match rub {
+        Some(rub) => {
             let along = slide_loads(at, index);
             Some(motion.iter().zip(along).map(|(n, t)| (n.0, n.1 + t.1 * rub)).collect())
         }
-        _ => None,
+        None => None,
     };
     let (value, rate) = (Some(jet.d0), Some(jet.d1));
     Row { source: Source::Limit(index), value, rate, bias: jet.d2, motion, force }

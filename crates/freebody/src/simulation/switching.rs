@@ -137,7 +137,7 @@ impl Machine<'_> {
             Hold::Pressed => values[0] = self.kept_by_spring(l),
             Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
             Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
-            Hold::Smooth | Hold::Stuck | Hold::Sliding(_) => {
+            Hold::Smooth | Hold::Stuck | Hold::Leaning(_) | Hold::Sliding(_) => {
                 for (value, margin) in values.iter_mut().zip(self.balance.margins(l, forces)) {
                     *value = margin / self.strength;
                 }
@@ -326,14 +326,16 @@ impl Machine<'_> {
         if holding.close {
             // What nothing decides now is decided by what comes next.
             self.balance.take(&reached, &holding);
+            self.place(t, y);
+            self.balance.share(&reached, &holding)?;
             let (q, u) = self.ahead(t, y)?;
             self.balance.place(t + self.glimpse(), &q, &u);
             let next = self.balance.reach(reached.limits.clone())?;
             holding = self.balance.hold(&next, &slips, scale)?;
-            self.place(t, y);
         }
         self.balance.take(&reached, &holding);
-        Ok(())
+        self.place(t, y);
+        self.balance.share(&reached, &holding)
     }
 
     /// A time that is short beside any of the motion, s.
@@ -477,8 +479,8 @@ impl Machine<'_> {
                 (false, true) if string => "taut",
                 (false, true) => "contact",
                 _ => match (was, is) {
-                    (Hold::Stuck, Hold::Sliding(_)) => "slip",
-                    (Hold::Sliding(_), Hold::Stuck) => "stick",
+                    (was, Hold::Sliding(_)) if was.sticks() => "slip",
+                    (Hold::Sliding(_), is) if is.sticks() => "stick",
                     (Hold::Sliding(a), Hold::Sliding(b)) if a != b => "reversal",
                     _ => continue,
                 },

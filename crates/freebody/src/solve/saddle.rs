@@ -176,6 +176,11 @@ impl Saddle {
         self.motion.rank()
     }
 
+    /// The rank of B.
+    pub fn authority(&self) -> usize {
+        self.force().rank().rank
+    }
+
     /// Degrees of freedom: n − rank G.
     pub fn dof(&self) -> usize {
         self.mass.rows() - self.rank().rank

@@ -80,12 +80,16 @@ impl Pile {
 }
 
 fn block(i: usize, rng: &mut Rng) -> Block {
-    let size = rng.within(0.06, 0.15);
+    let size = rng.within(0.06, 0.13);
     let outline = match rng.chance(0.3) {
         true => Outline::Disk(size),
         false => Outline::Polygon(polygon(size, rng)),
     };
-    let shift = 0.5 * CELL - size;
+    let reach = match &outline {
+        Outline::Disk(radius) => *radius,
+        Outline::Polygon(corners) => corners.iter().map(|c| c.norm()).fold(0.0, f64::max),
+    };
+    let shift = 0.5 * CELL - reach;
     let x = (i % 3) as f64 * CELL - CELL + rng.about(shift);
     let y = (i / 3) as f64 * CELL + 0.5 * CELL + rng.about(shift);
     Block { outline, at: [x, y, rng.about(3.0)], rates: [rng.about(1.0), rng.about(1.0), rng.about(5.0)] }
@@ -166,7 +170,7 @@ fn surface(i: usize, outline: &Outline) -> Surface {
 
 fn contact(model: &mut Model, name: String, of: [Surface; 2], surfaces: &mut dyn FnMut(&str) -> Surfaces) {
     let [friction, restitution] = surfaces(&name).map(literal);
-    model.0.contacts.push(Contact { name, of, friction, static_friction: None, rough: false, restitution, engaged: true });
+    model.0.contacts.push(Contact { name, of, friction, static_friction: None, rough: false, restitution, stiffness: None, damping: None, engaged: true });
 }
 
 /// An outline in its place: corners round which a disk of a radius goes.

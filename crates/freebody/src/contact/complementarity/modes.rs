@@ -2,7 +2,7 @@
 
 use super::task::{Hold, Task};
 use super::{Grip, Status};
-use crate::solve::{Lu, Matrix, Orthogonal};
+use crate::solve::{keep_above, Lu, Matrix, Orthogonal};
 
 /// A pivot below this, of rows with unit diagonal, is round-off of G.
 const SINGULAR: f64 = 1e-11;
@@ -59,6 +59,13 @@ struct Column {
 }
 
 impl Column {
+    /// Adds `x` of it to the forces.
+    fn add(&self, x: f64, force: &mut [f64]) {
+        let n = force.len() / 2;
+        force[self.touch] += self.normal * x;
+        force[n + self.touch] += self.tangent * x;
+    }
+
     /// The acceleration of `row` by a unit of it.
     fn moves(&self, task: &Task, row: usize) -> f64 {
         task.g[(row, self.touch)] * self.normal + task.g[(row, task.len() + self.touch)] * self.tangent
@@ -72,31 +79,115 @@ pub(super) fn evaluate(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Fo
     Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
 }
 
+/// As [`evaluate`], for modes whose equations do not determine the forces: from forces well inside their bounds on along
+/// self-stresses, each to the next bound that a touch reaches, until what is left is determined.
+pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+    let mut modes = modes.to_vec();
+    for _ in 0..=3 * modes.len() {
+        let Equations { columns, missing, a, force } = Equations::new(task, &modes);
+        let factors = Orthogonal::factor(&a);
+        let (n, rank) = (columns.len(), factors.rank().rank);
+        if rank == n {
+            break;
+        }
+        let mut x = vec![0.0; n];
+        factors.add_solution(&missing, &mut x);
+        let spread = |x: &[f64], mut force: Vec<f64>| {
+            columns.iter().zip(x).for_each(|(column, x)| column.add(*x, &mut force));
+            force
+        };
+        let nothing = vec![0.0; force.len()];
+        let along = |j: usize| margins(task, &modes, &spread(factors.x().row(rank + j), nothing.clone()));
+        let by: Vec<Vec<(usize, Bound, f64)>> = (0..n - rank).map(along).collect();
+        let mut now = margins(task, &modes, &spread(&x, force));
+        now.iter_mut().filter(|m| m.1 == Bound::Pressed).for_each(|m| m.2 -= task.pressed[m.0]);
+        let least: Vec<f64> = now.iter().map(|m| m.2).collect();
+        let (share, most) = keep_above(&Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i].2), &least, 1.0);
+        if most < -tolerance {
+            return Err(Refusal::Violated);
+        }
+        now.iter_mut().enumerate().for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
+        let ways = now.iter().zip(&by[0]).filter(|(_, by)| by.2.abs() > SINGULAR);
+        let next = ways.map(|(now, by)| (now.0, now.1, (now.2 / by.2).abs())).min_by(|a, b| a.2.total_cmp(&b.2));
+        let Some((touch, bound, _)) = next else {
+            // Friction without bound, of touches that need it all the less.
+            let rub = (0..n).find(|&j| columns[j].normal == 0.0 && factors.x()[(rank, j)].abs() > SINGULAR);
+            let touch = columns[rub.ok_or(Refusal::Singular)?].touch;
+            modes[touch].tangent = Tangent::Lean;
+            continue;
+        };
+        modes[touch] = match bound {
+            Bound::Pressed if task.pressed[touch] == 0.0 => Mode::OPEN,
+            Bound::Pressed => Mode { closed: false, ..modes[touch] },
+            Bound::Cone(sense) => Mode { tangent: Tangent::Brink(sense), ..modes[touch] },
+        };
+    }
+    evaluate(task, &modes, tolerance)
+}
+
+/// What bounds the force of a touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bound {
+    /// The least normal force.
+    Pressed,
+    /// The cone of friction, on the side where it resists sliding with this sense.
+    Cone(f64),
+}
+
+/// How far forces are inside the bounds of touches that could carry more or less.
+fn margins(task: &Task, modes: &[Mode], force: &[f64]) -> Vec<(usize, Bound, f64)> {
+    let mut all = vec![];
+    for (i, mode) in modes.iter().enumerate() {
+        if mode.closed {
+            all.push((i, Bound::Pressed, force[i]));
+        }
+        if let (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Stick) = (task.holds[i], mode.tangent) {
+            let (most, rub) = (fixed * force[i], force[modes.len() + i]);
+            all.extend([(i, Bound::Cone(-1.0), most - rub), (i, Bound::Cone(1.0), most + rub)]);
+        }
+    }
+    all
+}
+
+/// What modes ask of the forces: A x = missing, for x times the columns beside those given.
+struct Equations {
+    columns: Vec<Column>,
+    missing: Vec<f64>,
+    a: Matrix,
+    force: Vec<f64>,
+}
+
 /// The forces (2n) that keep the promises aN = 0 and aT = 0 of the modes.
 fn forces(task: &Task, modes: &[Mode]) -> Result<Vec<f64>, Refusal> {
-    let n = task.len();
-    let (mut rows, mut columns, mut force) = (Vec::new(), Vec::new(), vec![0.0; 2 * n]);
-    for (i, mode) in modes.iter().enumerate() {
-        let ratio = ratio(task.holds[i], mode.tangent);
-        (force[i], force[n + i]) = (task.pressed[i], ratio * task.pressed[i]);
-        if mode.closed {
-            rows.push(i);
-            columns.push(Column { touch: i, normal: 1.0, tangent: ratio });
-        }
-        if matches!(mode.tangent, Tangent::Stick | Tangent::Lean | Tangent::Brink(_)) {
-            rows.push(n + i);
-        }
-        if mode.tangent == Tangent::Stick {
-            columns.push(Column { touch: i, normal: 0.0, tangent: 1.0 });
-        }
-    }
-    let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(task, r, &force)).collect();
-    let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(task, rows[i]));
+    let Equations { columns, missing, a, mut force } = Equations::new(task, modes);
     for (column, x) in columns.iter().zip(solved(&a, &missing)?) {
-        force[column.touch] += column.normal * x;
-        force[n + column.touch] += column.tangent * x;
+        column.add(x, &mut force);
     }
     Ok(force)
+}
+
+impl Equations {
+    fn new(task: &Task, modes: &[Mode]) -> Equations {
+        let n = task.len();
+        let (mut rows, mut columns, mut force) = (Vec::new(), Vec::new(), vec![0.0; 2 * n]);
+        for (i, mode) in modes.iter().enumerate() {
+            let ratio = ratio(task.holds[i], mode.tangent);
+            (force[i], force[n + i]) = (task.pressed[i], ratio * task.pressed[i]);
+            if mode.closed {
+                rows.push(i);
+                columns.push(Column { touch: i, normal: 1.0, tangent: ratio });
+            }
+            if matches!(mode.tangent, Tangent::Stick | Tangent::Lean | Tangent::Brink(_)) {
+                rows.push(n + i);
+            }
+            if mode.tangent == Tangent::Stick {
+                columns.push(Column { touch: i, normal: 0.0, tangent: 1.0 });
+            }
+        }
+        let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(task, r, &force)).collect();
+        let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(task, rows[i]));
+        Equations { columns, missing, a, force }
+    }
 }
 
 /// x with A x = b, for A with independent columns; a residual is left to the check of the accelerations.

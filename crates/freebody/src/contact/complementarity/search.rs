@@ -1,7 +1,7 @@
 //! The decision on a task: pivoting, enumeration, and the order of static before kinetic friction.
 
 use super::form::{propose, Proposal};
-use super::modes::{admissible, choices, evaluate, vertices, Found, Mode, Refusal, Tangent};
+use super::modes::{admissible, choices, evaluate, basic, vertices, Found, Mode, Refusal, Tangent};
 use super::task::{Hold, Task};
 use super::{Grip, Status};
 
@@ -16,7 +16,7 @@ const SAME: f64 = 1e-9;
 
 /// Where touches oppose each other, round-off can leave no motion that opens or closes all; so pivoting is
 /// tried again with touches moved apart by this, and what it proposes is judged without.
-const APART: [f64; 2] = [0.0, 1e-9];
+const APART: [f64; 4] = [0.0, 1e-9, 1e-7, 1e-5];
 
 /// Vertices tried of forces that their equations do not determine: all, for six touches.
 const TRIES: usize = 4_096;
@@ -137,10 +137,13 @@ pub(super) fn enumerate(task: &Task, mut all: Vec<Found>, tolerance: f64) -> Vec
     all
 }
 
-/// The finding of these modes; where they do not determine the forces, the first of its vertices.
+/// The finding of these modes; where they do not determine the forces, the first of its vertices, with many touches one
+/// near the middle.
 fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(task, modes, tolerance);
-    if matches!(result, Err(Refusal::Singular)) {
+    if matches!(result, Err(Refusal::Singular)) && task.len() > ENUMERABLE {
+        result = basic(task, modes, tolerance);
+    } else if matches!(result, Err(Refusal::Singular)) {
         let lists: Vec<Vec<Mode>> = modes.iter().zip(&task.holds).map(|(m, h)| vertices(*h, *m)).collect();
         let mut tries = 0;
         choices(&lists, |modes| {
@@ -151,7 +154,7 @@ fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     }
     let found = result.ok()?;
     // On the edge of its cone but held by others, a touch may not need a tangential force at all.
-    match held(task, modes, &found) {
+    match held(task, modes, &found).filter(|_| task.len() <= ENUMERABLE) {
         Some(modes) => vertex(task, &modes, tolerance).or(Some(found)),
         None => Some(found),
     }

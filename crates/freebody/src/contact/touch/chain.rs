@@ -12,7 +12,7 @@ use crate::scalar::Scalar;
 const INSET: f64 = 0.01;
 /// Depth, in parts of its length, to which a side is sunk for a corner whose polygon reaches behind it: it cannot be what
 /// keeps them apart. Two polygons on one floor, their lower sides in line, so meet with the sides above.
-const SUNK: f64 = 2e-9;
+const SUNK: f64 = 1e-7;
 
 /// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their right.
 /// Each corner turns to the right, so a closed one has its corners clockwise.
