@@ -331,7 +331,10 @@ impl Machine<'_> {
         }
         let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
         let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
-        let part = before.filter(|(l, _)| over.contains(l)).map_or(0.0, |(_, before)| (flight / before).min(0.999));
+        // A block that rocks comes down on its corners by turns: the contact is the same, the limits are not.
+        let group = |&l: &usize| self.balance.m.limits[l].group;
+        let same = |(last, _): &(usize, f64)| over.iter().any(|l| group(l) == group(last));
+        let part = before.filter(same).map_or(0.0, |(_, before)| (flight / before).min(0.999));
         let n = self.balance.m.freedom();
         let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
         for &limit in &over {
