@@ -197,7 +197,13 @@ impl Mechanism {
             max_step: max_step.unwrap_or(f64::INFINITY),
             max_steps,
         };
-        let settings = Settings { method: method.to_string(), options, route: chosen(route)?, impacts, jams_strike: painleve == "impact" };
+        let settings = Settings {
+            method: method.to_string(),
+            options,
+            route: chosen(route)?,
+            impacts,
+            jams_strike: painleve == "impact",
+        };
         let (p, q, u) = (p.as_slice()?.to_vec(), q.as_slice()?.to_vec(), u.as_slice()?.to_vec());
         let of = self.0.clone();
         let mut trouble = None;

@@ -365,7 +365,8 @@ impl Mechanism {
     /// Whether what holds it can change during a motion: limits, friction, or parts that are released and engaged.
     pub fn changes(&self) -> bool {
         let switches = |deed: &Deed| matches!(deed, Deed::Release(_) | Deed::Engage(_));
-        !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty()) || self.events.iter().any(|e| e.then.iter().any(switches))
+        !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty())
+            || self.events.iter().any(|e| e.then.iter().any(switches))
     }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {

@@ -4,8 +4,8 @@
 use super::rows::{closing_rows, joint_rows, pair};
 use super::{Balance, Row, Source, Trouble};
 use crate::gauges::Placed;
-use crate::mechanism::Part;
 use crate::kinematics::{relative, JointView};
+use crate::mechanism::Part;
 use crate::plane::{vec2, Twist, Wrench};
 use crate::scalar::Jet;
 use crate::solve::{Factor, Lu, Matrix, Pattern};

@@ -124,7 +124,8 @@ impl Balance<'_> {
             }
             let held = self.mode.limits[*l];
             let can = || self.m.limits[*l].gap.can_close(held.piece.index);
-            held.hold.is_closed() || (held.hold == Hold::Open && self.m.limits[*l].soft.is_none() && can() && self.limit_gap(*l) <= most)
+            held.hold.is_closed()
+                || (held.hold == Hold::Open && self.m.limits[*l].soft.is_none() && can() && self.limit_gap(*l) <= most)
         };
         (0..self.m.limits.len()).filter(touches).collect()
     }
@@ -180,7 +181,8 @@ impl Balance<'_> {
 
     /// Whether the rows of the last solution leave nothing free, and no motion drives it.
     pub fn is_locked(&self) -> bool {
-        let driven = self.m.drives.iter().enumerate().any(|(d, drive)| !drive.coupling && self.mode.has(Part::Drive(d)));
+        let driven =
+            self.m.drives.iter().enumerate().any(|(d, drive)| !drive.coupling && self.mode.has(Part::Drive(d)));
         !driven && self.dense.saddle.dof() == 0
     }
 

@@ -58,7 +58,9 @@ impl Balance<'_> {
             match row.source {
                 Source::Limit(l) => {
                     let rub = match (self.mode.limits[l].hold, self.m.limits[l].friction) {
-                        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => -sense * self.n.slots[kinetic],
+                        (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => {
+                            -sense * self.n.slots[kinetic]
+                        }
                         (Hold::Leaning(part), _) => part,
                         _ => 0.0,
                     };

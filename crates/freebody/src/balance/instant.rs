@@ -1,6 +1,6 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
-use super::{force_power, force_value, Balance, Labels, JointLoad, Route, Sizes, Trouble};
+use super::{force_power, force_value, Balance, JointLoad, Labels, Route, Sizes, Trouble};
 use crate::gauges::{Axis, Bound, Law, Leaf, Observed, Reading};
 use crate::mode::Hold;
 use crate::plane::Vec2;

@@ -5,13 +5,12 @@
 //! and impulses (Pfeiffer & Glocker 1996, *Multibody Dynamics with Unilateral Contacts*).
 
 use super::minimal::Force;
-use super::reactions::joint_load;
 use super::rows::{closing_rows, gap_row, slide_row};
-use super::{project, Balance, JointLoad, Row, Trouble};
-use crate::contact::complementarity::{self, Answer, Grip, Problem, Status, Strike, Verdict};
+use super::{project, Balance, Row, Trouble};
+use crate::contact::complementarity::{self, Answer, Grip, Problem, Status, Verdict};
 use crate::contact::Friction;
 use crate::mode::Hold;
-use crate::plane::{Twist, Vec2, Wrench};
+use crate::plane::{Vec2, Wrench};
 use crate::solve::Matrix;
 
 /// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
@@ -37,12 +36,12 @@ pub struct Scale {
 pub struct Reached {
     /// Which.
     pub limits: Vec<usize>,
-    gaps: Vec<Row>,
-    slides: Vec<Option<Row>>,
+    pub(super) gaps: Vec<Row>,
+    pub(super) slides: Vec<Option<Row>>,
     /// Joint accelerations for a unit force: of the k gaps, then of the k slides.
     columns: Vec<Vec<f64>>,
     /// Accelerations of gaps, then slides, by unit forces along them, 2k × 2k.
-    g: Matrix,
+    pub(super) g: Matrix,
     /// Rates of the k gaps, then of the k slides, m/s.
     pub rates: Vec<f64>,
 }
@@ -57,25 +56,8 @@ pub struct Holding {
     pub rubs: Vec<f64>,
 }
 
-/// A blow: what impulses through limits did.
-#[derive(Clone, Debug)]
-pub struct Blow {
-    /// Change of the user's rates.
-    pub change: Vec<f64>,
-    /// Impulses along each reached gap, N·s.
-    pub normal: Vec<f64>,
-    /// Impulses along each slide, N·s.
-    pub tangent: Vec<f64>,
-    /// The impulse of each limit on its contact's first body, N·s, fixed axes.
-    pub on_first: Vec<Vec2>,
-    /// Impulsive reaction of every joint, N·s and N·m·s.
-    pub joints: Vec<JointLoad>,
-    /// What was to be said of the law.
-    pub note: Option<String>,
-}
-
 impl Reached {
-    fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.limits.len()
     }
 
@@ -105,7 +87,7 @@ impl Reached {
     }
 
     /// Row i of gaps and slides together; None for a slide that cannot rub.
-    fn row(&self, i: usize) -> Option<&Row> {
+    pub(super) fn row(&self, i: usize) -> Option<&Row> {
         let k = self.len();
         if i < k {
             Some(&self.gaps[i])
@@ -126,10 +108,8 @@ impl Balance<'_> {
         }
         let at = self.at();
         let gaps: Vec<Row> = limits.iter().map(|&l| gap_row(at, l, None)).collect();
-        let slides: Vec<Option<Row>> = limits
-            .iter()
-            .map(|&l| self.m.limits[l].friction.and_then(|_| slide_row(at, l, None)))
-            .collect();
+        let slides: Vec<Option<Row>> =
+            limits.iter().map(|&l| self.m.limits[l].friction.and_then(|_| slide_row(at, l, None))).collect();
         self.rows = closing_rows(at, None);
         let mut arms = std::mem::take(&mut self.arms);
         super::load::centre_arms(self.at(), &mut arms);
@@ -147,7 +127,7 @@ impl Balance<'_> {
     }
 
     /// What a unit force along a row does on each joint coordinate.
-    fn along(&self, row: Option<&Row>) -> Vec<f64> {
+    pub(super) fn along(&self, row: Option<&Row>) -> Vec<f64> {
         let mut force = vec![0.0; self.m.freedom()];
         if let Some(row) = row {
             project(self.at(), &row.motion, &mut force);
@@ -164,9 +144,11 @@ impl Balance<'_> {
         let at = self.at();
         let bodies = Some(self.solved.bodies.as_slice());
         let gaps = reached.limits.iter().map(|&l| gap_row(at, l, bodies).bias);
-        let slides = reached.limits.iter().zip(&reached.slides).map(|(&l, slide)| {
-            slide.as_ref().and_then(|_| slide_row(at, l, bodies)).map_or(0.0, |row| row.bias)
-        });
+        let slides = reached
+            .limits
+            .iter()
+            .zip(&reached.slides)
+            .map(|(&l, slide)| slide.as_ref().and_then(|_| slide_row(at, l, bodies)).map_or(0.0, |row| row.bias));
         Ok(gaps.chain(slides).collect())
     }
 
@@ -180,7 +162,8 @@ impl Balance<'_> {
     pub fn hold(&mut self, reached: &Reached, slips: &[f64], scale: Scale) -> Result<Holding, Trouble> {
         let mut free = self.free_accelerations(reached)?;
         if !free.iter().all(|a| a.is_finite()) {
-            let what = "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
+            let what =
+                "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
             return Err(Trouble::new("not_finite", what));
         }
         // Round-off is no reason to part.
@@ -250,20 +233,6 @@ impl Balance<'_> {
         self.solve_by(super::Route::Minimal)
     }
 
-    /// The impulses by which the present closing rows come to rest, limits apart from those that carry.
-    ///
-    /// # Errors
-    /// As [`Balance::solve`].
-    pub fn joining_blow(&mut self) -> Result<Blow, Trouble> {
-        let nothing = self.reach(vec![])?;
-        let asked: Vec<f64> = self.rows.iter().map(|row| -row.rate.unwrap_or(0.0)).collect();
-        let solution = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked);
-        let mut change = vec![0.0; self.m.freedom()];
-        self.to_user(&solution.a, &mut change);
-        let joints = self.impulsive_loads(&nothing, &[], &solution.a, &solution.lambda);
-        Ok(Blow { change, normal: vec![], tangent: vec![], on_first: vec![], joints, note: None })
-    }
-
     fn grip(&self, limit: usize, slip: f64, still: f64) -> Grip {
         match self.m.limits[limit].friction {
             None => Grip::Smooth,
@@ -283,10 +252,15 @@ impl Balance<'_> {
         let names = self.names_of(&reached.limits);
         let mut told = match verdict {
             Verdict::Indeterminate(answers) => {
-                format!("at {names} {} different motions satisfy Coulomb's law and the balance equations", answers.len())
+                format!(
+                    "at {names} {} different motions satisfy Coulomb's law and the balance equations",
+                    answers.len()
+                )
             }
             Verdict::Unknown => format!("at {names} no motion was found that satisfies Coulomb's law"),
-            _ => format!("at {names} no motion satisfies both Coulomb's law and the balance equations: the contact jams"),
+            _ => {
+                format!("at {names} no motion satisfies both Coulomb's law and the balance equations: the contact jams")
+            }
         };
         let sliding = (0..reached.len()).find_map(|i| match grips[i] {
             Grip::Sliding { sense, kinetic } => Some((i, sense, kinetic)),
@@ -314,72 +288,6 @@ impl Balance<'_> {
             limits.iter().map(|&l| format!("`{}`", self.m.groups[self.m.limits[l].group].name)).collect();
         names.dedup();
         names.join(" and ")
-    }
-
-    /// What impulses along the limits reached would do, by `settle` of the strike that it is given.
-    ///
-    /// # Errors
-    /// What `settle` finds.
-    pub fn blow(
-        &mut self,
-        reached: &Reached,
-        restitution: &[f64],
-        settle: impl FnOnce(&Strike) -> Result<(complementarity::Impulses, Option<String>), Trouble>,
-    ) -> Result<Blow, Trouble> {
-        let friction: Vec<f64> = reached.limits.iter().map(|&l| self.friction_of(l)).collect();
-        let strike = Strike { g: &reached.g, before: &reached.rates, restitution, friction: &friction };
-        let (impulses, note) = settle(&strike)?;
-        let p: Vec<f64> = impulses.normal.iter().chain(&impulses.tangent).copied().collect();
-        let mut force = vec![0.0; self.m.freedom()];
-        for (i, &p) in p.iter().enumerate() {
-            self.along(reached.row(i)).iter().zip(&mut force).for_each(|(f, sum)| *sum += p * f);
-        }
-        let solution = self.dense.saddle.solve(&force, &vec![0.0; self.rows.len()]);
-        let mut change = vec![0.0; self.m.freedom()];
-        self.to_user(&solution.a, &mut change);
-        let joints = self.impulsive_loads(reached, &p, &solution.a, &solution.lambda);
-        let k = reached.len();
-        let on_first = (0..k).map(|i| self.on_first(reached, i, p[i], p[k + i])).collect();
-        let (normal, tangent) = (impulses.normal, impulses.tangent);
-        Ok(Blow { change, normal, tangent, on_first, joints, note })
-    }
-
-    fn friction_of(&self, limit: usize) -> f64 {
-        match self.m.limits[limit].friction {
-            None => 0.0,
-            Some(Friction::Rough) => f64::INFINITY,
-            Some(Friction::Coulomb { kinetic, .. }) => self.n.slots[kinetic],
-        }
-    }
-
-    /// The force on the first body of a limit's contact (of a string, on its first end), for forces along gap and slide.
-    fn on_first(&self, reached: &Reached, i: usize, normal: f64, tangent: f64) -> Vec2 {
-        let mut sum = Vec2::zero();
-        let parts = [(Some(&reached.gaps[i]), normal), (reached.slides[i].as_ref(), tangent)];
-        for (row, p) in parts.into_iter().filter_map(|(row, p)| row.map(|row| (row, p))) {
-            sum += force_on_first(self.m, reached.limits[i], &row.motion) * p;
-        }
-        sum
-    }
-
-    /// Reactions of all joints to impulses: the balance of momentum of all that hangs on them.
-    fn impulsive_loads(&self, reached: &Reached, p: &[f64], change: &[f64], lambda: &[f64]) -> Vec<JointLoad> {
-        let n = self.m.bodies.len();
-        let mut bodies = vec![Twist::zero(); n];
-        self.k.spread(self.m, change, false, &mut bodies);
-        let mut needed: Vec<Wrench> = (0..n)
-            .map(|i| {
-                let momentum = bodies[i].at(self.arms[i]) * self.n.mass[i];
-                Wrench { f: momentum, m: self.arms[i].cross(momentum) + self.n.inertia[i] * bodies[i].w }
-            })
-            .collect();
-        for (i, &p) in p.iter().enumerate() {
-            for &(body, load) in reached.row(i).map_or(&[][..], |row| &row.motion) {
-                needed[body] = needed[body] - load * p;
-            }
-        }
-        let passed = self.passed(needed, lambda);
-        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &passed, &self.rows, lambda)).collect()
     }
 }
 

@@ -7,6 +7,7 @@
 //!
 //! All agree to round-off where the reactions are determinate; they share the loads and the rows, and nothing else.
 
+mod blows;
 mod constraints;
 mod energy;
 mod gaps;
@@ -25,8 +26,9 @@ mod sizes;
 mod sweep;
 mod teeth;
 
+pub use blows::Blow;
 pub use instant::{Instant, LimitLoad, Observer};
-pub use limits::{Blow, Holding, Reached, Scale};
+pub use limits::{Holding, Reached, Scale};
 pub use load::{add_force, effective, force_power, force_value, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, Labels, SelfStress};

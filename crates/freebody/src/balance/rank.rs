@@ -3,8 +3,8 @@
 //! A reaction component is determinate if and only if no self-stress, a set of multipliers that loads no motion
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
-use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::limits::force_on_first;
+use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Row, Source};
@@ -110,7 +110,8 @@ impl Balance<'_> {
         let drives = || (0..m.drives.len()).filter(|&d| self.mode.has(Part::Drive(d)));
         let couplings = drives().filter(|&d| m.drives[d].coupling).count();
         let joints = (0..m.joints.len()).filter(|&j| self.mode.has(Part::Joint(j)));
-        let (rows, driven) = (joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings, drives().count() - couplings);
+        let (rows, driven) =
+            (joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings, drives().count() - couplings);
         let (rank, uncertain) = self.closing_rank();
         let closing = self.geometric().len();
         let redundant = closing - rank;

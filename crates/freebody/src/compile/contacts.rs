@@ -169,7 +169,11 @@ impl Compiler<'_> {
         let Some(stiffness) = stiffness else {
             if damping.is_some() {
                 let what = "`damping` goes with `stiffness`";
-                return Err(CompileError::new(format!("{path}.damping"), what, "give the stiffness of its spring, too"));
+                return Err(CompileError::new(
+                    format!("{path}.damping"),
+                    what,
+                    "give the stiffness of its spring, too",
+                ));
             }
             return Ok(None);
         };

@@ -99,7 +99,11 @@ impl Compiler<'_> {
             return Err(CompileError::new(path, what, "give it to a hinge, a slot or a slider, or write a contact"));
         }
         if turns != friction.radius.is_some() {
-            let what = if turns { "the friction of a hinge needs the radius of its bearing" } else { "this joint has no bearing" };
+            let what = if turns {
+                "the friction of a hinge needs the radius of its bearing"
+            } else {
+                "this joint has no bearing"
+            };
             return Err(CompileError::new(path, what, "the bearing radius belongs to the friction of a hinge"));
         }
         let kinetic = self.number_slot(&path, &friction.kinetic)?;
@@ -108,7 +112,13 @@ impl Compiler<'_> {
             None => kinetic,
         };
         let radius = friction.radius.as_ref().map(|r| self.number_slot(&path, r)).transpose()?;
-        self.m.rubs.push(crate::mechanism::Rub { joint, along: Law::leaf(Leaf::Coordinate(joint, 0)), fixed, kinetic, radius });
+        self.m.rubs.push(crate::mechanism::Rub {
+            joint,
+            along: Law::leaf(Leaf::Coordinate(joint, 0)),
+            fixed,
+            kinetic,
+            radius,
+        });
         Ok(())
     }
 

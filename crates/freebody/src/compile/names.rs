@@ -147,22 +147,21 @@ impl Scope<'_> {
         let reading = if let (Some(&(joint, _)), "friction") = (n.joints.get(owner), part) {
             Reading::Rub(joint)
         } else if let Some(&(joint, kind)) = n.joints.get(owner) {
-            let axis = match (part, kind) {
-                ("Fx", _) => Axis::X,
-                ("Fy", _) => Axis::Y,
-                ("M", _) => Axis::Couple,
-                ("F", _) => Axis::Size,
-                ("Fs", _) => Axis::Along,
-                ("Fn", _) => Axis::Across,
-                ("tension", Kind::Link) => Axis::Tension,
-                ("F1" | "F2", _) if kind.card().rows.len() >= row_number(part) => Axis::Row(row_number(part) - 1),
-                _ => {
-                    return Some(Err(parts(
+            let axis =
+                match (part, kind) {
+                    ("Fx", _) => Axis::X,
+                    ("Fy", _) => Axis::Y,
+                    ("M", _) => Axis::Couple,
+                    ("F", _) => Axis::Size,
+                    ("Fs", _) => Axis::Along,
+                    ("Fn", _) => Axis::Across,
+                    ("tension", Kind::Link) => Axis::Tension,
+                    ("F1" | "F2", _) if kind.card().rows.len() >= row_number(part) => Axis::Row(row_number(part) - 1),
+                    _ => return Some(Err(parts(
                         owner,
                         "Fx, Fy, M, F, Fs, Fn, friction, for each of its constraints F1, F2 (and tension for a link)",
-                    )))
-                }
-            };
+                    ))),
+                };
             Reading::Reaction(joint, axis)
         } else if let Some(&drive) = n.drives.get(owner) {
             match part {
@@ -331,7 +330,9 @@ impl expr::Scope<Leaf> for Scope<'_> {
         }
         if name == "tension" {
             let mut of = |argument: &Ast| match &argument.kind {
-                AstKind::Name(owner) => expr::Scope::name(self, &format!("{owner}.tension")).map_err(|m| m.at(&argument.span)),
+                AstKind::Name(owner) => {
+                    expr::Scope::name(self, &format!("{owner}.tension")).map_err(|m| m.at(&argument.span))
+                }
                 _ => Err(Message::new("a link or a string is needed here", "write its name").at(&argument.span)),
             };
             return Some(match (wanted(&[1]), arguments) {

@@ -4,13 +4,19 @@
 //! every prescribed motion, so that the energy ledger has the accuracy of the motion.
 
 mod canonical;
+mod changes;
+mod guards;
+mod happenings;
+mod impacts;
 mod machine;
+mod parts;
 mod switching;
 mod trajectory;
 
 pub use canonical::mass_matrix;
+pub use changes::{Change, Impulses};
+pub use impacts::Rule;
 pub use machine::Machine;
-pub use switching::{Change, Impulses, Rule};
 pub use trajectory::{Ledger, Trajectory};
 
 use crate::balance::{Balance, Route, Trouble};

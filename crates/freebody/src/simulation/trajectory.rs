@@ -1,7 +1,7 @@
 //! What is kept of a run, and how it is read.
 
+use super::changes::Change;
 use super::machine::Stretch;
-use super::switching::Change;
 use super::{Machine, Settings};
 use crate::balance::{Balance, Freedom, Instant, Observer, Route, Trouble};
 use crate::gauges::Law;

@@ -20,7 +20,13 @@ pub fn keep_above(a: &Matrix, b: &[f64], most: f64) -> (Vec<f64>, f64) {
     let entry = |i: usize, j: usize| match j {
         _ if j == right && i == m => most - least,
         _ if j == right && i < m => b[i] - least,
-        0 => if i > m { -1.0 } else { 1.0 },
+        0 => {
+            if i > m {
+                -1.0
+            } else {
+                1.0
+            }
+        }
         _ if i >= m => f64::from(j == slack + m && i == m),
         _ if j <= n => -a[(i, j - 1)],
         _ if j == n + 1 => a.row(i).iter().sum(),

@@ -19,7 +19,13 @@ fn instant(compiled: &Compiled, q: &[f64], u: &[f64]) -> Instant {
 }
 
 fn run(compiled: &Compiled, q: &[f64], u: &[f64], until: f64, method: &str, options: Options) -> Trajectory {
-    let settings = Settings { method: method.into(), options, route: None, impacts: freebody::simulation::Rule::Stop, jams_strike: false };
+    let settings = Settings {
+        method: method.into(),
+        options,
+        route: None,
+        impacts: freebody::simulation::Rule::Stop,
+        jams_strike: false,
+    };
     let run = simulate(&compiled.mechanism, &Start { p: &[], t: 0.0, q, u }, until, &settings, &mut |_| true);
     let run = run.expect("starts");
     assert!(run.outcome.is_ok(), "{method}: {}", run.outcome);

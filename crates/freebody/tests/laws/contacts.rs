@@ -12,11 +12,28 @@ use freebody::spec::{Contact, Number, Stop, Surface};
 fn contact(name: &str, of: [Surface; 2]) -> Contact {
     let nought = literal(0.0);
     let (friction, restitution) = (nought.clone(), nought);
-    Contact { name: name.into(), of, friction, static_friction: None, rough: false, restitution, stiffness: None, damping: None, engaged: true }
+    Contact {
+        name: name.into(),
+        of,
+        friction,
+        static_friction: None,
+        rough: false,
+        restitution,
+        stiffness: None,
+        damping: None,
+        engaged: true,
+    }
 }
 
 fn stop(name: &str, gap: &str) -> Stop {
-    Stop { name: name.into(), gap: gap.into(), restitution: literal(0.5), stiffness: None, damping: None, engaged: false }
+    Stop {
+        name: name.into(),
+        gap: gap.into(),
+        restitution: literal(0.5),
+        stiffness: None,
+        damping: None,
+        engaged: false,
+    }
 }
 
 fn point(name: &str) -> Surface {

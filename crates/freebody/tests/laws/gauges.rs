@@ -175,7 +175,13 @@ fn rates_and_accelerations_are_those_of_the_motion() {
         let m = &bench.compiled.mechanism;
         let u = Rng::new(seed).vector(bench.q.len(), 0.5);
         let options = freebody::motion::Options { rtol: 1e-13, ..Default::default() };
-        let settings = Settings { method: "dop853".into(), options, route: None, impacts: freebody::simulation::Rule::Stop, jams_strike: false };
+        let settings = Settings {
+            method: "dop853".into(),
+            options,
+            route: None,
+            impacts: freebody::simulation::Rule::Stop,
+            jams_strike: false,
+        };
         let start = Start { p: &bench.p, t: 0.0, q: &bench.q, u: &u };
         let run = simulate(m, &start, 0.1, &settings, &mut |_| true).expect("starts");
         assert!(run.outcome.is_ok(), "seed {seed}: {}", run.outcome);

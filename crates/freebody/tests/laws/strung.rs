@@ -106,7 +106,16 @@ pub fn strung(arms: &[[f64; 2]], string: Cord) -> Model {
 }
 
 pub fn string(ends: [CordEnd; 2], over: Vec<Guide>) -> Cord {
-    Cord { name: "s".into(), ends, over, length: None, restitution: literal(0.0), stiffness: None, damping: None, engaged: true }
+    Cord {
+        name: "s".into(),
+        ends,
+        over,
+        length: None,
+        restitution: literal(0.0),
+        stiffness: None,
+        damping: None,
+        engaged: true,
+    }
 }
 
 pub fn tied(point: &str) -> CordEnd {

@@ -72,7 +72,14 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
     let run = run.unwrap_or_else(|e| panic!("seed {seed}: {}", e.sentence));
     if std::env::var("CHANGES").is_ok() {
         for c in &run.changes {
-            println!("{:.12} {:10} {:.3e} {}{}", c.t, c.kind, c.lost, c.of.join(", "), c.note.as_ref().map_or(String::new(), |n| format!(" | {n}")));
+            println!(
+                "{:.12} {:10} {:.3e} {}{}",
+                c.t,
+                c.kind,
+                c.lost,
+                c.of.join(", "),
+                c.note.as_ref().map_or(String::new(), |n| format!(" | {n}"))
+            );
         }
     }
     judge(seed, &pile, &run, wall)

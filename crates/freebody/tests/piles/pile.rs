@@ -163,14 +163,26 @@ fn solid(mut model: Model, name: &str, outline: &Outline) -> Model {
 
 fn surface(i: usize, outline: &Outline) -> Surface {
     match outline {
-        Outline::Disk(r) => Surface::Circle { centre: format!("b{i}.origin"), radius: Number::Literal(*r), hollow: false },
+        Outline::Disk(r) => {
+            Surface::Circle { centre: format!("b{i}.origin"), radius: Number::Literal(*r), hollow: false }
+        }
         Outline::Polygon(corners) => Surface::Polygon((0..corners.len()).map(|k| format!("b{i}.P{k}")).collect()),
     }
 }
 
 fn contact(model: &mut Model, name: String, of: [Surface; 2], surfaces: &mut dyn FnMut(&str) -> Surfaces) {
     let [friction, restitution] = surfaces(&name).map(literal);
-    model.0.contacts.push(Contact { name, of, friction, static_friction: None, rough: false, restitution, stiffness: None, damping: None, engaged: true });
+    model.0.contacts.push(Contact {
+        name,
+        of,
+        friction,
+        static_friction: None,
+        rough: false,
+        restitution,
+        stiffness: None,
+        damping: None,
+        engaged: true,
+    });
 }
 
 /// An outline in its place: corners round which a disk of a radius goes.
@@ -184,7 +196,9 @@ impl Placed {
         let pose = pose(at);
         match outline {
             Outline::Disk(radius) => Placed { corners: vec![pose.at], radius: *radius },
-            Outline::Polygon(corners) => Placed { corners: corners.iter().map(|c| pose.place(*c)).collect(), radius: 0.0 },
+            Outline::Polygon(corners) => {
+                Placed { corners: corners.iter().map(|c| pose.place(*c)).collect(), radius: 0.0 }
+            }
         }
     }
 

@@ -106,7 +106,9 @@ pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found
         if most < -tolerance {
             return Err(Refusal::Violated);
         }
-        now.iter_mut().enumerate().for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
+        now.iter_mut()
+            .enumerate()
+            .for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
         let ways = now.iter().zip(&by[0]).filter(|(_, by)| by.2.abs() > SINGULAR);
         let next = ways.map(|(now, by)| (now.0, now.1, (now.2 / by.2).abs())).min_by(|a, b| a.2.total_cmp(&b.2));
         let Some((touch, bound, _)) = next else {

@@ -1,7 +1,7 @@
 //! The decision on a task: pivoting, enumeration, and the order of static before kinetic friction.
 
 use super::form::{propose, Proposal};
-use super::modes::{admissible, choices, evaluate, basic, vertices, Found, Mode, Refusal, Tangent};
+use super::modes::{admissible, basic, choices, evaluate, vertices, Found, Mode, Refusal, Tangent};
 use super::task::{Hold, Task};
 use super::{Grip, Status};
 

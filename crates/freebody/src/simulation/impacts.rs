@@ -1,0 +1,214 @@
+//! Impacts: blows of limits that are reached, the end of bounces without end, and contacts that jam.
+
+use super::changes::{Change, Impulses};
+use super::switching::STILL;
+use super::Machine;
+use crate::balance::{Blow, Reached, Trouble};
+use crate::contact::complementarity::{self, Law, NoImpact, Strike};
+use crate::mode::Hold;
+use crate::plane::Vec2;
+
+/// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more: its
+/// height comes near the round-off of the gap.
+const BRIEF: f64 = 1e-5;
+/// Part of the largest impulse below which one is round-off.
+const NOTHING: f64 = 1e-12;
+
+/// What to do about impacts whose outcome rigid bodies leave open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// End the run by name.
+    Stop,
+    /// Take a law.
+    Law(Law),
+}
+
+impl Rule {
+    /// Every rule with its word.
+    pub const ALL: &'static [(&'static str, Rule)] = &[
+        ("stop", Rule::Stop),
+        ("newton", Rule::Law(Law::Newton)),
+        ("poisson", Rule::Law(Law::Poisson)),
+        ("sequential", Rule::Law(Law::Sequential)),
+    ];
+    /// The rule of a word.
+    pub fn named(word: &str) -> Option<Rule> {
+        Rule::ALL.iter().find(|r| r.0 == word).map(|r| r.1)
+    }
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        Rule::ALL.iter().find(|r| r.1 == self).map_or("", |r| r.0)
+    }
+}
+
+impl Machine<'_> {
+    /// The limits reached strike; returns those that did.
+    pub(super) fn impact(&mut self, t: f64, y: &mut [f64], reached: &Reached) -> Result<Vec<usize>, Trouble> {
+        let n = self.balance.m.freedom();
+        let restitution: Vec<f64> = reached.limits.iter().map(|&l| self.balance.restitution(l)).collect();
+        let names = self.balance.names_of(&reached.limits);
+        let rule = self.rule;
+        let before = y.to_vec();
+        let energy = self.balance.kinetic_energy();
+        let blow = self.balance.blow(reached, &restitution, |strike| decide(strike, rule, &names))?;
+        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
+        let part = reached.takes_part(STILL * self.speed);
+        let struck = (0..part.len()).filter(|&i| part[i] && blow.normal[i] > NOTHING * most);
+        let struck: Vec<usize> = struck.map(|i| reached.limits[i]).collect();
+        let m = self.balance.m;
+        let string = |&l: &usize| m.groups[m.limits[l].group].word == "string";
+        self.begin_stretch(t, 0.0, -lost);
+        self.note(Change {
+            t,
+            kind: if struck.iter().all(string) { "taut" } else { "impact" },
+            of: self.names(&struck),
+            lost,
+            states: Some([before, y.to_vec()]),
+            impulses: Some(self.impulses(reached, &blow)),
+            note: blow.note,
+        });
+        Ok(struck)
+    }
+
+    fn impulses(&self, reached: &Reached, blow: &Blow) -> Impulses {
+        let m = self.balance.m;
+        let mut limits: Vec<(String, Vec2)> = vec![];
+        for (&l, &p) in reached.limits.iter().zip(&blow.on_first) {
+            let name = &m.groups[m.limits[l].group].name;
+            match limits.iter_mut().find(|(known, _)| known == name) {
+                Some((_, sum)) => *sum += p,
+                None => limits.push((name.clone(), p)),
+            }
+        }
+        let most = limits.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
+        limits.retain(|(_, p)| p.norm() > NOTHING * most);
+        Impulses { limits, joints: blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect() }
+    }
+
+    /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.
+    ///
+    /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
+    /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does not see
+    /// them.
+    pub(super) fn capture(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        reached: &Reached,
+        parting: &[usize],
+        struck: &[usize],
+    ) -> Result<bool, Trouble> {
+        self.place(t, y);
+        self.balance.solve()?;
+        let limits: Vec<usize> = parting.iter().map(|&i| reached.limits[i]).collect();
+        let back = self.balance.gap_accelerations(&limits);
+        let speeds = parting.iter().map(|&i| reached.rates[i]);
+        let flights: Vec<f64> =
+            speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
+        let (brief, before) = (BRIEF * self.balance.length / self.speed, self.flight.take());
+        let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
+        let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
+        if over.is_empty() {
+            let of = struck.iter().copied().chain([limits[next]]).collect();
+            self.flight = flights[next].is_finite().then_some((of, flights[next]));
+            return Ok(false);
+        }
+        let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
+        let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
+        // What rocks alternates between its feet.
+        let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
+        let part = same.map_or(0.0, |(_, before)| (flight / before).min(0.999));
+        let n = self.balance.m.freedom();
+        let (energy, earlier) = (self.balance.kinetic_energy(), y.to_vec());
+        let fastest = parting.iter().map(|&i| reached.rates[i]).fold(0.0, f64::max);
+        for &limit in &over {
+            // What rocks comes to rest as a whole; what slides goes on sliding.
+            let rocks =
+                self.balance.m.limits[limit].friction.is_some() && self.balance.slide_rate(limit).abs() <= fastest;
+            self.balance.mode.limits[limit].hold = if rocks { Hold::Stuck } else { Hold::Smooth };
+        }
+        let (q, rest) = y.split_at_mut(n);
+        self.balance.align(t, q, &mut rest[..n])?;
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        self.begin_stretch(t, 0.0, -lost);
+        self.note(Change {
+            t: t + flight / (1.0 - part),
+            kind: "rest",
+            of: self.names(&over),
+            lost,
+            states: Some([earlier, y.to_vec()]),
+            impulses: None,
+            note: Some(format!("the bounces from t = {t:.12} s on, without end, are over")),
+        });
+        Ok(true)
+    }
+
+    /// Contacts that jam seize: the impact without a collision that brings their sliding to an end (Génot & Brogliato
+    /// 1999, *European Journal of Mechanics A* 18).
+    pub(super) fn seize(&mut self, t: f64, y: &mut [f64], limits: &[usize]) -> Result<(), Trouble> {
+        for &limit in limits {
+            self.balance.mode.limits[limit].hold = Hold::Stuck;
+        }
+        let (n, before) = (self.balance.m.freedom(), y.to_vec());
+        self.place(t, y);
+        let energy = self.balance.kinetic_energy();
+        let blow = self.balance.joining_blow()?;
+        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let note = Some("the contact jammed: an impact without a collision".to_string());
+        let (impulses, states) = (Some(Impulses { limits: vec![], joints }), Some([before, y.to_vec()]));
+        self.note_jump(Change { t, kind: "impact", of: self.names(limits), lost, states, impulses, note });
+        Ok(())
+    }
+}
+
+/// The impulses of a strike, by the rule where laws differ.
+fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+    let law = match rule {
+        Rule::Law(law) => law,
+        Rule::Stop => match complementarity::undecided(strike) {
+            Some(alternatives) => return Err(undecided(names, &alternatives)),
+            None => Law::Newton,
+        },
+    };
+    let settled = match (complementarity::settle(strike, law), rule) {
+        (Ok(settled), _) => settled,
+        (Err(NoImpact::Ambiguous(all)), Rule::Law(_)) => return Ok(least(all)),
+        (Err(e), _) => {
+            return Err(Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))
+        }
+    };
+    let note = (!settled.notes.is_empty()).then(|| settled.notes.join("; "));
+    Ok((settled.impulses, note))
+}
+
+/// Of plastic impacts that all satisfy Coulomb's law the one that leaves least energy.
+fn least(all: Vec<complementarity::Impulses>) -> (complementarity::Impulses, Option<String>) {
+    let note = format!("Taken as plastic, and of {} outcomes as the one that leaves least energy.", all.len());
+    let least = all.into_iter().min_by(|a, b| a.work.total_cmp(&b.work)).expect("several outcomes");
+    (least, Some(note))
+}
+
+fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> Trouble {
+    let told: Vec<String> = alternatives
+        .iter()
+        .map(|(law, impulses)| {
+            let speeds: Vec<String> =
+                impulses.after[..impulses.normal.len()].iter().map(|v| format!("{v:.6}")).collect();
+            format!("by {} they part at {} m/s", Rule::Law(*law).word(), speeds.join(", "))
+        })
+        .collect();
+    Trouble::new(
+        "simultaneous_impact",
+        format!(
+            "{names} strike at once, and rigid bodies do not decide what follows: {}; choose a rule, `impacts: newton`, `poisson` or `sequential`",
+            told.join("; ")
+        ),
+    )
+}

@@ -1,0 +1,95 @@
+//! Parts that are released and engaged during a motion, and rates that are given at once.
+
+use super::changes::{Change, Impulses};
+use super::Machine;
+use crate::balance::Trouble;
+use crate::gauges::Law as Gauge;
+use crate::mechanism::{Deed, Part};
+use crate::mode::Hold;
+
+impl Machine<'_> {
+    /// Releases and engages parts and resets rates, as deeds ask.
+    ///
+    /// # Errors
+    /// As [`Machine::settle`].
+    pub(super) fn switch_parts(&mut self, t: f64, y: &mut [f64], deeds: &[Deed]) -> Result<bool, Trouble> {
+        let mut switched = false;
+        let before: f64 = self.energy(t, y).iter().sum();
+        for deed in deeds {
+            switched |= match deed {
+                Deed::Release(part) => self.put(t, *part, false),
+                Deed::Engage(part) => self.put(t, *part, true),
+                _ => false,
+            };
+        }
+        let jump = self.energy(t, y).iter().sum::<f64>() - before;
+        if jump != 0.0 {
+            self.begin_stretch(t, jump, 0.0);
+        }
+        let resets: Vec<(&Gauge, &Gauge)> =
+            deeds.iter().filter_map(|d| if let Deed::Reset(of, rate) = d { Some((of, rate)) } else { None }).collect();
+        if !resets.is_empty() {
+            self.reset(t, y, &resets)?;
+            switched = true;
+        }
+        if switched {
+            self.close_up(t, y)?;
+            self.settle(t, y)?;
+        }
+        Ok(switched)
+    }
+
+    fn put(&mut self, t: f64, part: Part, there: bool) -> bool {
+        let changed = self.balance.put(part, there);
+        if changed {
+            let of = vec![self.balance.m.name_of(part).to_string()];
+            let kind = if there { "engaged" } else { "released" };
+            self.note(Change { t, kind, of, lost: 0.0, states: None, impulses: None, note: None });
+        }
+        changed
+    }
+
+    /// Gives gauges their new rates, with the least change of momentum.
+    fn reset(&mut self, t: f64, y: &mut [f64], resets: &[(&Gauge, &Gauge)]) -> Result<(), Trouble> {
+        let n = self.balance.m.freedom();
+        let rates: Vec<&Gauge> = resets.iter().map(|r| r.1).collect();
+        let values = self.read(&rates, t, y)?;
+        let held: Vec<_> = resets.iter().zip(values).map(|(r, x)| (String::new(), r.0.clone(), x)).collect();
+        let before = y.to_vec();
+        self.place(t, y);
+        let energy = self.balance.kinetic_energy();
+        let (q, rest) = y.split_at_mut(n);
+        self.balance.align_with(t, q, &mut rest[..n], &held)?;
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        let states = Some([before, y.to_vec()]);
+        self.note_jump(Change { t, kind: "reset", of: vec![], lost, states, impulses: None, note: None });
+        Ok(())
+    }
+
+    /// Lets what was engaged take hold: a plastic impact of the joints.
+    fn close_up(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
+        let n = self.balance.m.freedom();
+        self.place(t, y);
+        let energy = self.balance.kinetic_energy();
+        // Limits join in afterwards; the whole is the same impact, for what they do leaves the joints closed.
+        let mut limits = std::mem::take(&mut self.balance.mode.limits);
+        let held = limits.clone();
+        limits.iter_mut().filter(|h| h.hold.carries()).for_each(|h| h.hold = Hold::Idle);
+        self.balance.mode.limits = limits;
+        let blow = self.balance.joining_blow()?;
+        self.balance.mode.limits = held;
+        let before = y.to_vec();
+        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        if lost.abs() <= 1e-14 * energy {
+            return Ok(());
+        }
+        let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let impulses = Some(Impulses { limits: vec![], joints });
+        let states = Some([before, y.to_vec()]);
+        self.note_jump(Change { t, kind: "impact", of: vec![], lost, states, impulses, note: None });
+        Ok(())
+    }
+}
