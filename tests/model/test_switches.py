@@ -194,7 +194,7 @@ def test_welds_are_joints_that_come_later():
         ("at: 200 ms", "t - 0.2", 1, False),
         ("at: 2*e, if: theta > 0", "t - (2*e)", 1, False),
         ("at: start", "1", 0, True),
-        ("when: tension(leash) - 50 N, direction: rising", "leash.tension - 50.0", 1, False),
+        ("when: tension(leash) - 50 N, direction: rising", "tension(leash) - 50.0", 1, False),
     ],
 )
 def test_when_events_happen(words, when, direction, opening):

@@ -65,7 +65,7 @@ impl Balance<'_> {
             self.place(t, q, u);
             let gap = self.worst_gap();
             // Gaps of contacts are told to the round-off of places: to lessen them further is work for nothing.
-            let shut = gap <= CLOSED && self.m.closures.is_empty();
+            let shut = gap <= 0.1 * CLOSED && self.m.closures.is_empty();
             if gap == 0.0 || shut || (gap >= 0.5 * last && gap <= OPEN) {
                 return Ok(moved);
             }
