@@ -83,10 +83,12 @@ class Mechanism:
         progress: Callable[[float], bool] | None = None,
         impacts: str = "stop",
         painleve: str = "stop",
+        after: Trajectory | None = None,
     ) -> Trajectory:
         """The motion from a state. ``progress(t)`` is called now and then; returning False interrupts.
 
-        ``impacts`` is newton, poisson, sequential or stop; ``painleve`` is stop or impact."""
+        ``impacts`` is newton, poisson, sequential or stop; ``painleve`` is stop or impact. ``after``: a motion at whose end this
+        one starts; what it has released, engaged and wound up stays so."""
 
 class Instant:
     """One instant, solved."""

@@ -37,17 +37,25 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from freebody import _core
+
 
 Progress = Callable[[float], bool]
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
 
 
 def simulate(
-    source: Source, start: State, settings: Settings, t_eval: Times | None = None, progress: Progress | None = None
+    source: Source,
+    start: State,
+    settings: Settings,
+    t_eval: Times | None = None,
+    progress: Progress | None = None,
+    after: _core.Trajectory | None = None,
 ) -> Run:
-    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
+    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps. ``after``: the
+    motion that ended in this state."""
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
-    trajectory = source.core.simulate(start.p, start.t, start.q, start.u, progress=progress, **options)
+    trajectory = source.core.simulate(start.p, start.t, start.q, start.u, progress=progress, after=after, **options)
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
@@ -292,8 +300,16 @@ class Run:
         return State(p, t, q, u)
 
     def continue_(self, until: float, progress: Progress | None = None) -> Run:
-        """The motion from the end of this run on. Works and the ledger start anew."""
-        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress)
+        """The motion from the end of this run on, with what is in place then. Works and the ledger start anew.
+
+        Raises ``ValueError`` for a run from a file on whose way parts were released or engaged: the file does not hold them.
+        """
+        from freebody import _core
+
+        after = self.motion if isinstance(self.motion, _core.Trajectory) else None
+        if after is None and any(change.kind in ("released", "engaged") for change in self.changes):
+            raise ValueError("a saved run does not know what its events released and engaged\n  simulate again, to the later end")
+        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress, after=after)
 
     def at(self, times: Times) -> Run:
         """The same run on other output times."""

@@ -167,7 +167,7 @@ impl Mechanism {
         array(py, flat, [n, n])
     }
 
-    #[pyo3(signature = (p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop"))]
+    #[pyo3(signature = (p, t, q, u, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop", after=None))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,
@@ -186,7 +186,9 @@ impl Mechanism {
         progress: Option<Py<PyAny>>,
         impacts: &str,
         painleve: &str,
+        after: Option<PyRef<'_, Trajectory>>,
     ) -> PyResult<Trajectory> {
+        let mode = after.map(|run| run.run.end_mode().clone());
         let words: Vec<&str> = Rule::ALL.iter().map(|r| r.0).collect();
         one_of("law of impacts", impacts, &words)?;
         let impacts = Rule::named(impacts).unwrap_or(Rule::Stop);
@@ -209,7 +211,7 @@ impl Mechanism {
         let mut trouble = None;
         let run = py.detach(|| {
             let m = of.mechanism();
-            let start = Start { p: &p, t, q: &q, u: &u };
+            let start = Start { p: &p, t, q: &q, u: &u, mode: mode.as_ref() };
             let mut last = std::time::Instant::now();
             simulate(&m, &start, until, &settings, &mut |now| {
                 if last.elapsed().as_millis() < 50 {

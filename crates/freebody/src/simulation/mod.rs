@@ -21,6 +21,7 @@ pub use trajectory::{Ledger, Trajectory};
 
 use crate::balance::{Balance, Route, Trouble};
 use crate::mechanism::Mechanism;
+use crate::mode::Mode;
 use crate::motion::{method, run, Method, Options};
 
 /// What may be chosen about a simulation.
@@ -63,6 +64,8 @@ pub struct Start<'a> {
     pub q: &'a [f64],
     /// Rates.
     pub u: &'a [f64],
+    /// What is in place and holds, where the motion goes on from another; None for that of the model's start.
+    pub mode: Option<&'a Mode>,
 }
 
 /// Carries a mechanism from a state to the time `until`, or to an event that ends the run.
@@ -82,7 +85,10 @@ pub fn simulate(
     let mut balance = Balance::new(m, start.p);
     balance.prefer(settings.route);
     balance.place(start.t, start.q, start.u);
-    balance.take_phases();
+    match start.mode {
+        Some(mode) => balance.mode = mode.clone(),
+        None => balance.take_phases(),
+    }
     let mut machine = Machine::new(balance, start.p);
     machine.rule = settings.impacts;
     machine.jams_strike = settings.jams_strike;
@@ -90,7 +96,7 @@ pub fn simulate(
     machine.freeze_arms(start.t, &y);
     machine.size_up(start.t, &y);
     crate::motion::System::project(&mut machine, start.t, &mut y)?;
-    machine.begin(start.t, until, &mut y)?;
+    machine.begin(start, until, &mut y)?;
     let opening = machine.energy(start.t, &y);
     let run = run(&mut machine, integrator, (start.t, &y), until, &settings.options, progress);
     Ok(Trajectory::new(machine, run, opening, settings.clone()))

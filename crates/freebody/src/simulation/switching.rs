@@ -1,7 +1,7 @@
 //! From one mode to the next: what strikes, holds, slides and lets go.
 
 use super::impacts::Rule;
-use super::Machine;
+use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
 use crate::mode::Hold;
 use crate::motion::System;
@@ -14,12 +14,13 @@ pub(super) const STILL: f64 = 1e-10;
 const ROUNDS: usize = 100;
 
 impl Machine<'_> {
-    /// Finds what only the start tells of limits, lets the events of the start happen and begins the first stretch.
+    /// Finds what only the start tells of limits, lets the events of the start happen and begins the first stretch; where
+    /// the motion goes on from another, both are done already.
     ///
     /// # Errors
     /// `penetration`; `backward`, for what switches cannot be undone; what [`Machine::settle`] finds.
-    pub fn begin(&mut self, t: f64, until: f64, y: &mut [f64]) -> Result<(), Trouble> {
-        let m = self.balance.m;
+    pub fn begin(&mut self, start: &Start, until: f64, y: &mut [f64]) -> Result<(), Trouble> {
+        let (m, t) = (self.balance.m, start.t);
         if m.changes() && until < t {
             return Err(Trouble::new(
                 "backward",
@@ -28,10 +29,12 @@ impl Machine<'_> {
         }
         if !(m.limits.is_empty() && m.rubs.is_empty()) {
             self.place(t, y);
-            self.balance.start_limits()?;
+            if start.mode.is_none() {
+                self.balance.start_limits()?;
+            }
             self.settle(t, y)?;
         }
-        for event in m.events.iter().filter(|event| event.opening) {
+        for event in m.events.iter().filter(|event| event.opening && start.mode.is_none()) {
             self.happen(event, t, y)?;
         }
         self.open();

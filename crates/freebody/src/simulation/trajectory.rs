@@ -6,6 +6,7 @@ use super::{Machine, Settings};
 use crate::balance::{Balance, Freedom, Instant, Observer, Route, Trouble};
 use crate::gauges::Law;
 use crate::mechanism::Mechanism;
+use crate::mode::Mode;
 use crate::motion::{Happening, Kind, Outcome, Run};
 
 /// A finished run with dense output.
@@ -78,6 +79,11 @@ impl Trajectory {
         let n = m.freedom();
         let y = &self.run.y;
         (self.run.t, y[..n].to_vec(), y[n..2 * n].to_vec(), self.stretches[self.stretches.len() - 1].p.clone())
+    }
+
+    /// What is in place and holds at the end: a motion that goes on from there starts with it.
+    pub fn end_mode(&self) -> &Mode {
+        &self.stretches[self.stretches.len() - 1].mode
     }
 
     fn stretch(&self, t: f64) -> &Stretch {

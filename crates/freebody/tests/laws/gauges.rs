@@ -182,7 +182,7 @@ fn rates_and_accelerations_are_those_of_the_motion() {
             impacts: freebody::simulation::Rule::Stop,
             jams_strike: false,
         };
-        let start = Start { p: &bench.p, t: 0.0, q: &bench.q, u: &u };
+        let start = Start { p: &bench.p, t: 0.0, q: &bench.q, u: &u, mode: None };
         let run = simulate(m, &start, 0.1, &settings, &mut |_| true).expect("starts");
         assert!(run.outcome.is_ok(), "seed {seed}: {}", run.outcome);
         // Central differences of step h and 2h, combined (Richardson): h⁴/30 of fifth derivatives.
