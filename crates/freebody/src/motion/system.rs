@@ -120,6 +120,14 @@ pub trait System {
         Ok(values[i])
     }
 
+    /// Refuses a state that no switching function lets the motion come to; called at the end of each step that passes no zero.
+    ///
+    /// # Errors
+    /// A named failure; the run ends with it, before that step.
+    fn check(&mut self, _t: f64, _y: &[f64]) -> Result<(), Trouble> {
+        Ok(())
+    }
+
     /// How switching function `i` is watched.
     fn switch(&self, _i: usize) -> Watch {
         Watch::event(0)

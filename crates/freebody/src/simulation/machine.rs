@@ -333,6 +333,14 @@ impl System for Machine<'_> {
         Ok(values[i])
     }
 
+    fn check(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        if self.balance.m.limits.is_empty() {
+            return Ok(());
+        }
+        self.place(t, y);
+        self.balance.check_gaps(t)
+    }
+
     fn switch(&self, i: usize) -> Watch {
         let m = self.balance.m;
         match m.events.get(i) {
