@@ -82,7 +82,8 @@ impl Balance<'_> {
             if gap < -GRAZE * self.length {
                 let group = &self.m.groups[limit.group];
                 let what = format!("the {} `{}` is violated by {:.6e} at t = {t:.12} s", group.word, group.name, -gap);
-                return Err(Trouble::new("penetration", what + "; choose a shorter longest step, `max_step`").about(group.path()));
+                return Err(Trouble::new("penetration", what + "; choose a shorter longest step, `max_step`")
+                    .about(group.path()));
             }
         }
         Ok(())

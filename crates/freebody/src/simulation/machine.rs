@@ -323,14 +323,9 @@ impl System for Machine<'_> {
         Ok(())
     }
 
-    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, Trouble> {
         let first = self.balance.m.events.len() + self.balance.m.kinks.len();
-        if let Some(value) = i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)) {
-            return Ok(value);
-        }
-        let mut values = vec![0.0; self.switches()];
-        self.switch_values(t, y, &mut values)?;
-        Ok(values[i])
+        Ok(i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)))
     }
 
     fn check(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
