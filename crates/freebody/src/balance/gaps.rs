@@ -9,6 +9,8 @@ use crate::numbers::Numbers;
 
 /// Depth, over the characteristic length, to which a limit may be violated at the start.
 const SHALLOW: f64 = 1e-8;
+/// Depth, over the characteristic length, to which a limit may be violated on the way.
+const GRAZE: f64 = 1e-9;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
 const CLEAR: f64 = 0.1;
 
@@ -60,6 +62,28 @@ impl Balance<'_> {
                 };
                 let what = what + " at the start; move the parts, or change its size";
                 return Err(Trouble::new("penetration", what).about(group.path()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a state in which a limit without a spring is violated: what should have closed it was missed.
+    ///
+    /// # Errors
+    /// `penetration`.
+    pub fn check_gaps(&self, t: f64) -> Result<(), Trouble> {
+        let apart = self.apart();
+        for (l, limit) in self.m.limits.iter().enumerate() {
+            let hold = self.mode.limits[l].hold;
+            if hold == Hold::Off || limit.soft.is_some() || (hold == Hold::Open && apart[limit.group].is_some()) {
+                continue;
+            }
+            let gap = self.open_gap(l);
+            if gap < -GRAZE * self.length {
+                let group = &self.m.groups[limit.group];
+                let what = format!("the {} `{}` is violated by {:.6e} at t = {t:.12} s", group.word, group.name, -gap);
+                return Err(Trouble::new("penetration", what + "; choose a shorter longest step, `max_step`")
+                    .about(group.path()));
             }
         }
         Ok(())

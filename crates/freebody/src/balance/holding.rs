@@ -15,16 +15,19 @@ impl Balance<'_> {
         self.forces_of(&self.solved.lambda)
     }
 
-    /// As [`Balance::limit_forces`], but where closed limits can load each other, as a block jammed between walls, the forces
-    /// of all that balance it by which every limit is farthest from letting go: it holds as long as any forces hold it. Of
-    /// the last solution by [`Route::Minimal`](super::Route::Minimal); margins of `most`, N, are enough.
-    pub fn safest_forces(&self, most: f64) -> Vec<[f64; 2]> {
+    /// Where closed limits can load each other, as a block jammed between walls, the least margin of all under the forces,
+    /// of those that balance it, by which it is greatest: they hold as long as any forces hold them. What each limit carries
+    /// is not determined then. Of the last solution by [`Route::Minimal`](super::Route::Minimal); `most`, N, is enough.
+    pub fn safest_margin(&self, most: f64) -> Option<f64> {
         let closed = |row: &Row| if let Source::Limit(l) = row.source { Some(l) } else { None };
         let limits: Vec<usize> = self.rows.iter().filter_map(closed).collect();
         if limits.is_empty() || self.rows.len() <= self.m.freedom() - self.dense.saddle.dof() {
-            return self.limit_forces();
+            return None;
         }
         let stress = self.dense.saddle.self_stress();
+        if stress.cols() == 0 {
+            return None;
+        }
         let margins = |lambda: &[f64]| {
             let forces = self.forces_of(lambda);
             let of = |&l: &usize| self.margins(l, forces[l]);
@@ -34,10 +37,7 @@ impl Balance<'_> {
         let by: Vec<Vec<f64>> = (0..stress.cols()).map(|j| margins(&column(j))).collect();
         let now = margins(&self.solved.lambda);
         let a = Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i]);
-        let (share, _) = keep_above(&a, &now, most);
-        let more = stress.mul_vec(&share);
-        let lambda: Vec<f64> = self.solved.lambda.iter().zip(more).map(|(l, d)| l + d).collect();
-        self.forces_of(&lambda)
+        Some(keep_above(&a, &now, most).1)
     }
 
     /// What must not fall below zero for a limit to go on as it does under a force along its gap and its slide, N.

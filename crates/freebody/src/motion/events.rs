@@ -3,6 +3,7 @@
 use super::dense::Segment;
 use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, SAMPLES};
 use super::system::{Role, System, Trouble};
+use std::collections::hash_map::{Entry, HashMap};
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -245,13 +246,14 @@ pub(super) struct Probe<'a> {
     system: &'a mut dyn System,
     segment: &'a Segment,
     y: Vec<f64>,
-    values: Vec<f64>,
+    /// All values at the times, by their bits, at which they were asked for: many functions are halved at the same.
+    known: HashMap<u64, Vec<f64>>,
 }
 
 impl<'a> Probe<'a> {
     pub fn new(system: &'a mut dyn System, segment: &'a Segment) -> Self {
-        let (y, values) = (vec![0.0; system.dim()], vec![0.0; system.switches()]);
-        Self { system, segment, y, values }
+        let y = vec![0.0; system.dim()];
+        Self { system, segment, y, known: HashMap::new() }
     }
 
     /// Time at `x` in [−1, 1].
@@ -271,14 +273,23 @@ impl<'a> Probe<'a> {
     }
 
     fn all(&mut self, t: f64) -> Result<&[f64], Trouble> {
-        self.segment.at(t, &mut self.y);
-        self.system.switch_values(t, &self.y, &mut self.values)?;
-        Ok(&self.values)
+        match self.known.entry(t.to_bits()) {
+            Entry::Occupied(values) => Ok(values.into_mut()),
+            Entry::Vacant(place) => {
+                let mut values = vec![0.0; self.system.switches()];
+                self.segment.at(t, &mut self.y);
+                self.system.switch_values(t, &self.y, &mut values)?;
+                Ok(place.insert(values))
+            }
+        }
     }
 
     fn one(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
         self.segment.at(t, &mut self.y);
-        self.system.switch_value(i, t, &self.y)
+        match self.system.switch_value(i, t, &self.y)? {
+            Some(value) => Ok(value),
+            None => Ok(self.all(t)?[i]),
+        }
     }
 
     fn root(&mut self, i: usize, a: Node, b: Node) -> Result<f64, Trouble> {

@@ -164,6 +164,7 @@ impl<'a> Runner<'a> {
         if marks.iter().any(|mark| mark.kind == Kind::Crossing) {
             self.go_to_event(segment, &marks)?;
         } else {
+            self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::Trouble)?;
             self.note_touches(&segment, &marks, segment.t1);
             self.push(segment);
             self.watcher.pass();

@@ -110,14 +110,20 @@ pub trait System {
         Ok(())
     }
 
-    /// The value of one switching function at (t, y), where that costs less than all.
+    /// The value of one switching function at (t, y), where that costs less than all; else none.
     ///
     /// # Errors
     /// As [`System::switch_values`].
-    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
-        let mut values = vec![0.0; self.switches()];
-        self.switch_values(t, y, &mut values)?;
-        Ok(values[i])
+    fn switch_value(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<Option<f64>, Trouble> {
+        Ok(None)
+    }
+
+    /// Refuses a state that no switching function lets the motion come to; called at the end of each step that passes no zero.
+    ///
+    /// # Errors
+    /// A named failure; the run ends with it, before that step.
+    fn check(&mut self, _t: f64, _y: &[f64]) -> Result<(), Trouble> {
+        Ok(())
     }
 
     /// How switching function `i` is watched.

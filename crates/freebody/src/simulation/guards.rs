@@ -20,7 +20,8 @@ impl Machine<'_> {
         if carries {
             self.balance.solve_by(Route::Minimal)?;
         }
-        let forces = if carries { self.balance.safest_forces(self.strength) } else { vec![] };
+        let shared = if carries { self.balance.safest_margin(self.strength) } else { None };
+        let forces = if carries && shared.is_none() { self.balance.limit_forces() } else { vec![] };
         let (out, rubs) = out.split_at_mut(GUARDS * m.limits.len());
         self.rub_values(rubs);
         let apart = self.balance.apart();
@@ -30,14 +31,19 @@ impl Machine<'_> {
                 Some(least) if self.balance.mode.limits[l].hold == Hold::Open => {
                     values.copy_from_slice(&[least / self.balance.length, 1.0, 1.0, 1.0]);
                 }
-                _ => self.guards_of(l, forces.get(l).copied().unwrap_or_default(), values),
+                _ => self.guards_of(l, forces.get(l).copied(), values),
             }
+        }
+        // One guard is of them all.
+        let first = self.balance.mode.limits.iter().position(|held| held.hold.carries());
+        if let Some((first, shared)) = first.zip(shared) {
+            out[GUARDS * first] = shared / self.strength;
         }
         Ok(())
     }
 
-    /// The guards of one limit under given forces along its gap and its slide, at the state placed.
-    fn guards_of(&self, l: usize, forces: [f64; 2], values: &mut [f64]) {
+    /// The guards of one limit under given forces along its gap and its slide, where there are such, at the state placed.
+    fn guards_of(&self, l: usize, forces: Option<[f64; 2]>, values: &mut [f64]) {
         let (limit, held) = (&self.balance.m.limits[l], self.balance.mode.limits[l]);
         values.fill(1.0);
         match held.hold {
@@ -47,7 +53,8 @@ impl Machine<'_> {
             Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
             Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
             Hold::Smooth | Hold::Stuck | Hold::Leaning(_) | Hold::Sliding(_) => {
-                for (value, margin) in values.iter_mut().zip(self.balance.margins(l, forces)) {
+                let margins = forces.map_or(vec![], |forces| self.balance.margins(l, forces));
+                for (value, margin) in values.iter_mut().zip(margins) {
                     *value = margin / self.strength;
                 }
                 if let Hold::Sliding(sense) = held.hold {
@@ -99,7 +106,7 @@ impl Machine<'_> {
         }
         self.place(t, y);
         let mut values = [0.0; GUARDS];
-        self.guards_of(l, [0.0; 2], &mut values);
+        self.guards_of(l, None, &mut values);
         Some(values[guard % GUARDS])
     }
 }

@@ -323,14 +323,17 @@ impl System for Machine<'_> {
         Ok(())
     }
 
-    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<f64, Trouble> {
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, Trouble> {
         let first = self.balance.m.events.len() + self.balance.m.kinks.len();
-        if let Some(value) = i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)) {
-            return Ok(value);
+        Ok(i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)))
+    }
+
+    fn check(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        if self.balance.m.limits.is_empty() {
+            return Ok(());
         }
-        let mut values = vec![0.0; self.switches()];
-        self.switch_values(t, y, &mut values)?;
-        Ok(values[i])
+        self.place(t, y);
+        self.balance.check_gaps(t)
     }
 
     fn switch(&self, i: usize) -> Watch {

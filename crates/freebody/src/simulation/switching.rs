@@ -151,7 +151,16 @@ impl Machine<'_> {
         let closed = self.balance.close(t, q, &rest[..n]);
         opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Open);
         closed?;
-        self.balance.align(t, q, &mut rest[..n])?;
+        // What begins to slide does so from rest, and not the other way by round-off.
+        let holds: Vec<Hold> = self.balance.mode.limits.iter().map(|held| held.hold).collect();
+        for (l, &hold) in holds.iter().enumerate() {
+            if matches!(hold, Hold::Sliding(sense) if sense * self.balance.slide_rate(l) < 0.0) {
+                self.balance.mode.limits[l].hold = Hold::Stuck;
+            }
+        }
+        let aligned = self.balance.align(t, q, &mut rest[..n]);
+        self.balance.mode.limits.iter_mut().zip(holds).for_each(|(held, hold)| held.hold = hold);
+        aligned?;
         self.place(t, y);
         self.balance.solve()?;
         if self.balance.is_locked() {
