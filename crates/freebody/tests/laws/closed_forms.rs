@@ -26,7 +26,8 @@ fn run(compiled: &Compiled, q: &[f64], u: &[f64], until: f64, method: &str, opti
         impacts: freebody::simulation::Rule::Stop,
         jams_strike: false,
     };
-    let run = simulate(&compiled.mechanism, &Start { p: &[], t: 0.0, q, u, mode: None }, until, &settings, &mut |_| true);
+    let run =
+        simulate(&compiled.mechanism, &Start { p: &[], t: 0.0, q, u, mode: None }, until, &settings, &mut |_| true);
     let run = run.expect("starts");
     assert!(run.outcome.is_ok(), "{method}: {}", run.outcome);
     run
