@@ -249,6 +249,7 @@ class FakeMechanism:
         progress=None,
         impacts="stop",
         painleve="stop",
+        after=None,
     ):
         return FakeTrajectory(self, p, t, np.asarray(q), np.asarray(u), until)
 
