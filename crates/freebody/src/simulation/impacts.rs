@@ -60,8 +60,7 @@ impl Machine<'_> {
         let struck: Vec<usize> = struck.map(|i| reached.limits[i]).collect();
         let m = self.balance.m;
         let string = |&l: &usize| m.groups[m.limits[l].group].word == "string";
-        self.begin_stretch(t, 0.0, -lost);
-        self.note(Change {
+        self.note_jump(Change {
             t,
             kind: if struck.iter().all(string) { "taut" } else { "impact" },
             of: self.names(&struck),

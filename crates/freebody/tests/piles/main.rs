@@ -59,7 +59,7 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
     let m = pile.mechanism();
     let [q, u] = pile.start();
     let settings = Settings {
-        method: std::env::var("METHOD").unwrap_or("dop853".into()),
+        method: "dop853".into(),
         options: Options { max_steps: 200_000, ..Options::default() },
         route: None,
         impacts: Rule::Law(Law::Newton),
@@ -70,18 +70,6 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
     let run = simulate(m, &start, until, &settings, &mut |_| clock.elapsed().as_secs_f64() < patience);
     let wall = clock.elapsed().as_secs_f64();
     let run = run.unwrap_or_else(|e| panic!("seed {seed}: {}", e.sentence));
-    if std::env::var("CHANGES").is_ok() {
-        for c in &run.changes {
-            println!(
-                "{:.12} {:10} {:.3e} {}{}",
-                c.t,
-                c.kind,
-                c.lost,
-                c.of.join(", "),
-                c.note.as_ref().map_or(String::new(), |n| format!(" | {n}"))
-            );
-        }
-    }
     judge(seed, &pile, &run, wall)
 }
 
@@ -125,7 +113,7 @@ fn nothing_goes_through_anything_and_no_energy_comes_from_nowhere() {
 
 /// All of them, for five seconds. PILES=from..to or a list of seeds chooses others.
 #[test]
-#[ignore = "minutes"]
+#[ignore = "takes minutes, and fails: three quarters of the piles complete, not 95 %"]
 fn a_hundred_piles_come_to_rest() {
     let wish = std::env::var("PILES").unwrap_or("0..100".into());
     let seeds: Vec<u64> = match wish.split_once("..") {

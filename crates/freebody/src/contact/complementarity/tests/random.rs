@@ -9,8 +9,7 @@ fn task(c: &Case) -> Task {
     Task::new(&c.g, &c.free, &c.grips, &vec![0.0; k], &(0..k).collect::<Vec<_>>())
 }
 
-/// Pivoting finds what enumeration finds, and never what it does not (seen on every third case, for time); every
-/// answer satisfies the conditions.
+/// Pivoting finds what enumeration finds, and never what it does not; every answer satisfies the conditions.
 #[test]
 fn pivoting_agrees_with_enumeration() {
     let mut r = Random(1);
@@ -19,16 +18,14 @@ fn pivoting_agrees_with_enumeration() {
         let k = 1 + r.below(3);
         let c = case(&mut r, k, any_grip);
         let task = task(&c);
-        if n % 3 == 0 {
-            let all = enumerate(&task, Vec::new(), 1e-12);
-            match pivot(&task, 1e-12) {
-                Outcome::Found(found) => {
-                    let same = |f: &Found| agree(&f.acceleration, &found[0].acceleration, 1e-9);
-                    assert!(all.iter().any(same), "case {n}: {:?}\n{found:?}\n{all:?}", c.problem());
-                }
-                Outcome::Nothing => assert!(all.is_empty(), "case {n}: {:?}\n{all:?}", c.problem()),
-                Outcome::Unknown => lost += usize::from(!all.is_empty()),
+        let all = enumerate(&task, Vec::new(), 1e-12);
+        match pivot(&task, 1e-12) {
+            Outcome::Found(found) => {
+                let same = |f: &Found| agree(&f.acceleration, &found[0].acceleration, 1e-9);
+                assert!(all.iter().any(same), "case {n}: {:?}\n{found:?}\n{all:?}", c.problem());
             }
+            Outcome::Nothing => assert!(all.is_empty(), "case {n}: {:?}\n{all:?}", c.problem()),
+            Outcome::Unknown => lost += usize::from(!all.is_empty()),
         }
         match verified(&c.problem(), 1e-9) {
             Verdict::Solved(_) => counts[0] += 1,
@@ -39,7 +36,7 @@ fn pivoting_agrees_with_enumeration() {
     }
     assert!(counts[0] > 50_000 && counts[1] > 1_000 && counts[2] > 1_000 && counts[3] == 0, "{counts:?}");
     // Where touches slide, Lemke's path may end on a ray though there is a solution.
-    assert!(lost < 2_000, "{lost}");
+    assert!(lost < 4_000, "{lost}");
 }
 
 /// Without touches that slide already there is always a motion, however many touches are redundant
