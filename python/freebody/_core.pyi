@@ -61,6 +61,9 @@ class Mechanism:
     def instant(self, p: Array, t: float, q: Array, u: Array, route: str = "minimal") -> Instant:
         """Accelerations and all reactions at a state by ``minimal``, ``newton_euler`` or ``constraints``."""
 
+    def free_bodies(self, p: Array, t: float, q: Array, u: Array) -> str:
+        """JSON {"bodies", "loads", "rows", "accelerations"}: all that acts on each body at a state; see ``freebody.free_body``."""
+
     def evaluate(self, texts: Sequence[str], p: Array, t: float, q: Array, u: Array) -> Array:
         """Values (k,) of observable expressions at a state; works count as 0."""
 

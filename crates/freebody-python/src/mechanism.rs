@@ -131,6 +131,19 @@ impl Mechanism {
         Ok(Instant::new(&m, solved, &freedom))
     }
 
+    /// Bodies and loads of the free-body diagrams at a state, in numbers, as JSON.
+    fn free_bodies(
+        &self,
+        p: PyReadonlyArray1<f64>,
+        t: f64,
+        q: PyReadonlyArray1<f64>,
+        u: PyReadonlyArray1<f64>,
+    ) -> PyResult<String> {
+        let m = self.0.mechanism();
+        let mut balance = self.placed(&m, &p, t, &q, &u)?;
+        Ok(freebody::free_bodies::free_bodies(&mut balance).map_err(errors::motion)?.to_string())
+    }
+
     fn evaluate<'py>(
         &self,
         py: Python<'py>,

@@ -12,6 +12,7 @@ pub mod describe;
 pub mod error;
 pub mod expr;
 pub mod forces;
+pub mod free_bodies;
 pub mod gauges;
 pub mod graph;
 pub mod joints;
