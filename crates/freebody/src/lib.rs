@@ -17,6 +17,7 @@ pub mod gauges;
 pub mod graph;
 pub mod joints;
 pub mod kinematics;
+pub mod letters;
 pub mod mechanism;
 pub mod mode;
 pub mod motion;
