@@ -3,6 +3,7 @@
 //! The core knows no files, no clock and no Python. `ARCHITECTURE.md` at the root of the
 //! repository is the map.
 
+pub mod algebra;
 pub mod assembly;
 pub mod balance;
 pub mod benchmark;
