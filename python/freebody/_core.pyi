@@ -64,6 +64,9 @@ class Mechanism:
     def free_bodies(self, p: Array, t: float, q: Array, u: Array) -> str:
         """JSON {"bodies", "loads", "rows", "accelerations"}: all that acts on each body at a state; see ``freebody.free_body``."""
 
+    def letters(self, p: Array, t: float, q: Array, u: Array, setting: str, questions: str) -> str:
+        """JSON {"answers", "loads", "letters"}: what is asked of a state, in letters; ``letters/question.rs`` lists the questions."""
+
     def evaluate(self, texts: Sequence[str], p: Array, t: float, q: Array, u: Array) -> Array:
         """Values (k,) of observable expressions at a state; works count as 0."""
 

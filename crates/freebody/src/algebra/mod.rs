@@ -15,6 +15,7 @@ mod atom;
 mod calculus;
 mod coefficient;
 mod functions;
+mod harmonics;
 mod power;
 mod pretty;
 mod ratio;

@@ -104,17 +104,11 @@ impl Letters<'_> {
     /// which vanishes where it is an equilibrium.
     pub(super) fn linearised(&self, at: &BTreeMap<String, f64>) -> Value {
         let n = self.m.freedom();
-        let there = |of: Symbol| {
-            let mut of = of;
-            for i in 0..n {
-                of = of.substitute(&self.letter(i, 1), Symbol::zero());
-                of = of.substitute(&self.letter(i, 2), Symbol::zero());
-                if let Some(&x) = at.get(&self.m.coordinate(i).name) {
-                    of = of.substitute(&self.letter(i, 0), Symbol::of(x));
-                }
-            }
-            of
-        };
+        let place = |i: usize| at.get(&self.m.coordinate(i).name).map(|&x| (self.letter(i, 0), Symbol::of(x)));
+        let still = |dots: u8| move |i: usize| (self.letter(i, dots), Symbol::zero());
+        let fixed: Vec<(Letter, Symbol)> =
+            (0..n).map(still(1)).chain((0..n).map(still(2))).chain((0..n).filter_map(place)).collect();
+        let there = |of: Symbol| of.substitute(&fixed);
         let residuals: Vec<Symbol> = (0..n)
             .map(|i| {
                 let (bodies, test): (Vec<usize>, Test) = self.of_coordinate(i);

@@ -6,6 +6,7 @@
 use super::question::{About, Along, Group};
 use super::vectors::{tell, tree, tree_by};
 use super::Letters;
+use crate::algebra::Tree;
 use crate::balance::Trouble;
 use crate::free_bodies::{Load, Part};
 use crate::plane::{vec2, Vec2};
@@ -36,7 +37,9 @@ impl Test {
 
     fn tell(self) -> Value {
         match self {
-            Test::Moment { about, scale } => json!({"kind": "moment", "about": tell(about * (Symbol::one() / scale)), "scale": tree(scale)}),
+            Test::Moment { about, scale } => {
+                json!({"kind": "moment", "about": tell(about * (Symbol::one() / scale)), "scale": tree(scale)})
+            }
             Test::Force(along) => json!({"kind": "force", "along": tell(along)}),
         }
     }
@@ -115,7 +118,10 @@ impl Letters<'_> {
         match (about, along) {
             (Some(about), None) => self.turned_about(about, bodies),
             (None, Some(along)) => Ok(Test::Force(self.along(along, bodies)?)),
-            _ => Err(Trouble::new("wrong_question", "an equation is told `about` a point or `along` a direction, one of them")),
+            _ => Err(Trouble::new(
+                "wrong_question",
+                "an equation is told `about` a point or `along` a direction, one of them",
+            )),
         }
     }
 
@@ -129,7 +135,8 @@ impl Letters<'_> {
             }
             let mut sum = Symbol::zero();
             for p in &inside {
-                let couple = if self.m.bodies[p.body].particle && bodies.len() == 1 { Symbol::zero() } else { p.couple };
+                let couple =
+                    if self.m.bodies[p.body].particle && bodies.len() == 1 { Symbol::zero() } else { p.couple };
                 sum += test.power(p.point, p.force, couple);
             }
             let internal = load.parts.len() > 1 && inside.len() == load.parts.len();
@@ -214,7 +221,7 @@ impl Letters<'_> {
         for letter in &unknowns {
             let Some(c) = of.coefficient_of(letter) else { continue };
             if !c.is_zero() {
-                coefficients.push(json!({"letter": letter, "tree": tree(c)}));
+                coefficients.push(json!({"letter": Tree::letter(&letter.name, letter.dots), "tree": tree(c)}));
             }
             rest = rest.without(std::slice::from_ref(letter));
         }

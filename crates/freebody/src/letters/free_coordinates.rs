@@ -1,9 +1,9 @@
 //! The most brute force: three coordinates a body, and every joint a constraint.
 
 use super::motion::acceleration;
-use super::vectors::{tree, tree_by};
+use super::vectors::tree_by;
 use super::{sizes, Letters};
-use crate::algebra::Letter;
+use crate::algebra::{Letter, Tree};
 use crate::balance::joint_rows;
 use crate::balance::{closing_rows, Row};
 use crate::free_bodies::{loads, Load, Size};
@@ -66,12 +66,8 @@ impl Letters<'_> {
         let mut unknowns: Vec<Letter> = free.coordinates.iter().map(|c| Letter::new(c, 2)).collect();
         let open = all.iter().filter(|l| matches!(l.size, Size::Unknown | Size::ByLaw));
         unknowns.extend(open.map(|l| Letter::new(&l.symbol, 0)));
-        let balances: Vec<Value> = self
-            .m
-            .listed_bodies()
-            .into_iter()
-            .flat_map(|i| self.balances(&free, i, &all, &sizes, &unknowns))
-            .collect();
+        let balances: Vec<Value> =
+            self.m.listed_bodies().into_iter().flat_map(|i| self.balances(&free, i, &all, &sizes, &unknowns)).collect();
         let mut rows: Vec<Row<Symbol>> = vec![];
         for (index, joint) in self.m.joints.iter().enumerate() {
             if joint.child.is_some() && joint.curve.is_none() && !joint.rows.is_empty() {
@@ -80,7 +76,7 @@ impl Letters<'_> {
         }
         rows.extend(closing_rows(at, Some(&free.bodies)));
         json!({
-            "coordinates": free.coordinates, "unknowns": unknowns, "balances": balances,
+            "coordinates": free.coordinates, "unknowns": unknowns.iter().map(|l| Tree::letter(&l.name, l.dots)).collect::<Vec<_>>(), "balances": balances,
             "rows": rows.iter().map(|row| self.row(row)).collect::<Vec<_>>(),
         })
     }

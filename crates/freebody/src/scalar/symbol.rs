@@ -82,6 +82,15 @@ impl Symbol {
         let zeros: Vec<(Letter, Symbol)> = letters.iter().map(|l| (l.clone(), Symbol::zero())).collect();
         self.substitute(&zeros)
     }
+    /// The angles whose sines and cosines are factors of its terms.
+    pub fn angles(self) -> Vec<Self> {
+        let angles = with(|arena| arena.angles(self.id));
+        angles.into_iter().map(Symbol::valued).collect()
+    }
+    /// The factors of the cosine and of the sine of an angle.
+    pub fn harmonic(self, angle: Symbol) -> [Self; 2] {
+        with(|arena| arena.harmonic(self.id, angle.id)).map(Symbol::valued)
+    }
     /// The letters in it, in the order in which they were made.
     pub fn letters(self) -> Vec<Letter> {
         with(|arena| arena.letters(self.id).into_iter().filter_map(|id| arena.letter(id).cloned()).collect())

@@ -61,7 +61,8 @@ impl Tree {
     pub(super) fn number(c: Coefficient) -> Tree {
         Tree::Num { num: spelled(c) }
     }
-    pub(super) fn letter(name: &str, dots: u8) -> Tree {
+    /// A letter.
+    pub fn letter(name: &str, dots: u8) -> Tree {
         Tree::Sym { sym: name.into(), dots }
     }
     pub(super) fn call(name: &str, args: Vec<Tree>) -> Tree {
