@@ -54,6 +54,12 @@ impl<'m> Letters<'m> {
         };
         let p: Vec<Symbol> = m.parameters.iter().zip(&at.n.p).map(|(p, &x)| named(&p.name, 0, x)).collect();
         let mut slots = m.bind(&p).slots;
+        for (slot, &now) in slots.iter_mut().zip(&at.n.slots) {
+            // What the balance has turned (the flank of a gear) is no longer what the model says.
+            if (slot.value() + now).abs() <= f64::EPSILON * now.abs() && now != 0.0 {
+                *slot = -*slot;
+            }
+        }
         let numbers = name_numbers(m, at.n, &named, &mut slots);
         let n = m.with_slots(&p, slots);
         let coordinate = |i: usize, dots: u8, x: f64| named(&m.coordinate(i).name, dots, x);
