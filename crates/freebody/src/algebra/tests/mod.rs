@@ -1,3 +1,5 @@
+mod writing;
+
 use super::{session, Letter, Symbol, Tree};
 use crate::scalar::{Jet, Scalar};
 use proptest::prelude::*;
@@ -38,17 +40,23 @@ impl Random {
             Random::Add(a, b) => of(a) + of(b),
             Random::Subtract(a, b) => of(a) - of(b),
             Random::Multiply(a, b) => of(a) * of(b),
-            Random::Divide(a, b) => of(a) / of(b),
-            Random::Whole(a, n) => of(a).powi(*n),
+            // Undefined at once, not infinite first.
+            Random::Divide(a, b) => of(a) / proper(of(b)),
+            Random::Whole(a, n) => proper(of(a)).powi(*n),
             Random::Root(a) => (S::one() + of(a).powi(2)).sqrt(),
             Random::Power(a, e) => (S::one() + of(a).powi(2)).powf(S::of(*e)),
             Random::Ln(a) => (S::of(2.0) + of(a).powi(2)).ln(),
             Random::Exp(a) => of(a).sin_cos().0.exp(),
             Random::Sin(a) => of(a).sin_cos().0,
             Random::Cos(a) => of(a).sin_cos().1,
-            Random::Direction(a, b) => of(a).atan2(of(b)),
+            // −0 is no number of its own.
+            Random::Direction(a, b) => (of(a) + S::zero()).atan2(of(b)),
         }
     }
+}
+
+fn proper<S: Scalar>(divisor: S) -> S {
+    S::select(divisor.value() == 0.0, S::of(f64::NAN), divisor)
 }
 
 fn expressions() -> impl Strategy<Value = Random> {
