@@ -47,7 +47,7 @@ impl Writer<'_> {
         let (mut with, mut without) = (Vec::new(), Vec::new());
         for &(monomial, c) in terms.iter() {
             let factors = self.arena.factors(monomial);
-            match factors.iter().any(|&f| f == (letter, Ratio::ONE)) {
+            match factors.contains(&(letter, Ratio::ONE)) {
                 true => {
                     let rest: Vec<Factor> = factors.iter().copied().filter(|f| f.0 != letter).collect();
                     with.push((self.arena.monomial(rest), c));
