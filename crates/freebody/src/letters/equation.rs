@@ -97,7 +97,10 @@ impl Letters<'_> {
             mass += self.n.mass[b];
             moment += self.centre(b) * self.n.mass[b];
         }
-        moment * (Symbol::one() / mass)
+        match mass.is_zero() {
+            true => self.centre(bodies[0]),
+            false => moment * (Symbol::one() / mass),
+        }
     }
 
     fn along(&self, along: &Along, bodies: &[usize]) -> Result<Vec2<Symbol>, Trouble> {

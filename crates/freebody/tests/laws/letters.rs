@@ -130,6 +130,7 @@ fn equations_told_at_one_state_hold_at_another() {
             numbers.entry((name.clone(), 0)).or_insert(letter["value"].as_f64().unwrap());
         }
         for (what, residual) in equations(&answers["answers"]) {
+            assert!(!residual.to_string().contains("null"), "seed {seed}, {what} is undefined: {}", bench.told());
             let (x, size) = value(residual, &numbers);
             assert!(x.abs() <= ROUND_OFF * size.max(1.0), "seed {seed}, {what}: {x} of {size}, {}", bench.told());
             told += 1;
