@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -36,13 +36,15 @@ class Part:
 class Load:
     """One load, or one component of a reaction, and what it does to each body that it touches, ground included.
 
-    ``kind`` is joint, motion, weight, force, contact, string, stop or friction; ``of`` are its first and second body. An
-    ``unknown`` load has a ``value`` (N or N·m; NaN where it is not ``determinate``) that multiplies its parts; the parts of a
-    known one are what acts.
+    ``symbol`` is what an expression of the model calls it (``pivot.Fx``); ``kind`` is joint, motion, coupling, weight, force,
+    contact, string, stop or friction; ``of`` are its first and second body. An ``unknown`` load has a ``value`` (N or N·m; NaN
+    where it is not ``determinate``) that multiplies its parts; the parts of a known one are what acts. One that ``follows``
+    has a value so many times that of another load, given by its place in the list.
     """
 
     name: str
     path: str
+    symbol: str
     kind: str
     component: str | None
     unknown: bool
@@ -50,11 +52,7 @@ class Load:
     determinate: bool
     of: tuple[str, ...]
     on: tuple[Part, ...]
-
-    @property
-    def label(self) -> str:
-        """Its name, and the component where it is one of several."""
-        return self.name if self.component is None else f"{self.name} ({self.component})"
+    follows: tuple[int, float] | None = None
 
     @property
     def touched(self) -> frozenset[str]:
@@ -72,7 +70,7 @@ class Load:
     def acting(self, group: Collection[str], about: Pair = (0.0, 0.0)) -> Array:
         """Resultant of what acts on a group: force x, y in N and moment in N·m (3,). Raises ``Indeterminate``."""
         if not self.determinate:
-            raise Indeterminate(f"{self.label} is not determined by the balances")
+            raise Indeterminate(f"{self.symbol} is not determined by the balances")
         return self.value * self.unit(group, about)
 
 
@@ -124,6 +122,8 @@ class FreeBodies:
     bodies: Mapping[str, Body]
     loads: tuple[Load, ...]
     rows: tuple[Row, ...] = ()
+    accelerations: Mapping[str, float] = field(default_factory=dict)
+    """Of the coordinates of the state, m/s² or rad/s²."""
 
     @classmethod
     def read(cls, text: str) -> FreeBodies:
@@ -131,7 +131,9 @@ class FreeBodies:
         told = json.loads(text)
         bodies = (_body(item) for item in told["bodies"])
         rows = (Row(item.get("name", ""), item["coefficients"], item["right"]) for item in told.get("rows", ()))
-        return cls({body.name: body for body in bodies}, tuple(map(_load, told["loads"])), tuple(rows))
+        return cls(
+            {body.name: body for body in bodies}, tuple(map(_load, told["loads"])), tuple(rows), told.get("accelerations", {})
+        )
 
     def on(self, *group: str) -> tuple[Load, ...]:
         """The loads on the diagram of a body, or of a group of bodies cut free together: those inside the group are left out."""
@@ -195,5 +197,6 @@ def _load(item: Mapping[str, Any]) -> Load:
     value = 1.0 if not item["unknown"] else float("nan") if item["value"] is None else float(item["value"])
     parts = (Part(on["body"], _pair(on["point"]), _pair(on["force"]), float(on["couple"])) for on in item["on"])
     known = not item["unknown"] or (item["determinate"] and not np.isnan(value))
-    named = {name: item[name] for name in ("name", "path", "kind", "component", "unknown")}
-    return Load(value=value, determinate=known, of=tuple(item["of"]), on=tuple(parts), **named)
+    named = {name: item[name] for name in ("name", "path", "symbol", "kind", "component", "unknown")}
+    follows = (item["follows"]["load"], float(item["follows"]["ratio"])) if item["follows"] else None
+    return Load(value=value, determinate=known, of=tuple(item["of"]), on=tuple(parts), follows=follows, **named)

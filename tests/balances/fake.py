@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 GRAVITY = 9.81
+WORDS = {"x": "Fx", "y": "Fy", "normal force": "Fn", "couple": "M", None: "force"}
 
 
 def left(v):
@@ -46,7 +47,7 @@ class Fake:
         self.known.append(self._told(name, kind, None, of, parts))
 
     def hinge(self, name, first, second, at):
-        for component, e in (("force along x", (1.0, 0.0)), ("force along y", (0.0, 1.0))):
+        for component, e in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
             self._pair(name, "joint", component, first, second, at, e, self._hinged(first, second, at, e))
 
     def slot(self, name, first, second, at, direction):
@@ -72,7 +73,9 @@ class Fake:
 
     def _told(self, name, kind, component, of, parts):
         on = [{"body": b, "point": list(map(float, p)), "force": list(map(float, f)), "couple": c} for b, p, f, c in parts]
-        return {"name": name, "path": f"{kind}s.{name}", "kind": kind, "component": component, "of": list(of), "on": on}
+        symbol = f"{name}.{WORDS[component]}"
+        told = {"name": name, "path": f"{kind}s.{name}", "symbol": symbol, "kind": kind, "component": component}
+        return {**told, "follows": None, "of": list(of), "on": on}
 
     def _place(self, name):
         return self.bodies[name]["G"] if name in self.bodies else np.zeros(2)
@@ -140,7 +143,8 @@ class Fake:
             {"name": x["name"], "coefficients": dict(zip(coordinates, map(float, w), strict=True)), "right": float(y)}
             for x, w, y in zip(self.unknown, W.T, bias, strict=True)
         ]
-        return json.dumps({"bodies": bodies, "loads": loads, "rows": rows})
+        found = dict(zip(coordinates, map(float, a), strict=True))
+        return json.dumps({"bodies": bodies, "loads": loads, "rows": rows, "accelerations": found})
 
 
 def chain(rng, n):
