@@ -128,12 +128,12 @@ class Fake:
         a, values = solved[: 3 * len(names)], solved[3 * len(names) :]
         coordinates = [f"{name}.{part}" for name in names for part in ("x", "y", "angle")]
         bodies = []
-        for i, (name, b) in enumerate(self.bodies.items()):
+        for i, (body, b) in enumerate(self.bodies.items()):
             own = slice(3 * i, 3 * i + 3)
-            by = {coordinates[3 * i + k]: [float(k == j) for j in range(3)] for k in range(3)}
+            by = {name: [float(k == 3 * i + j) for j in range(3)] for k, name in enumerate(coordinates)}
             place = {"at": list(b["G"]), "angle": float(b["angle"]), "G": list(b["G"])}
             motion = {"v": list(v[own][:2]), "omega": v[own][2], "a": list(a[own][:2]), "alpha": a[own][2]}
-            plain = {"name": name, "particle": False, "mass": b["mass"], "inertia": b["inertia"]}
+            plain = {"name": body, "particle": False, "mass": b["mass"], "inertia": b["inertia"]}
             bodies.append({**plain, **place, **motion, "by_accelerations": by, "drift": [0.0, 0.0, 0.0]})
         loads = [
             {**x, "unknown": True, "value": float(y), "determinate": True} for x, y in zip(self.unknown, values, strict=True)
