@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +27,8 @@ def nearby(source: Source, state: State) -> list[FreeBodies]:
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
     there: what drops out of a balance does not depend on where a drive has brought the mechanism."""
     first = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
+    in_order = {c["name"]: first.accelerations[c["name"]] for c in source.about["coordinates"]}
+    first = replace(first, accelerations=in_order)
     acting = [load.symbol for load in first.loads]
     found = [first]
     for other in _moved(source, state, _size(first)):

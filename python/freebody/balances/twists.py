@@ -109,20 +109,28 @@ def _joint_directions(problem: Problem) -> Twists:
         load = problem.load(unknown)
         if load is None or load.component in ("x", "y"):
             continue
-        forces = np.array([system.free.loads[unknown.load].on[-1].force for system in problem.systems])
-        size = np.linalg.norm(forces, axis=1, keepdims=True)
-        if size.min() == 0:
+        f = _directions(problem, unknown.load)
+        if f is None:
             continue
-        f = forces / size
         still = np.zeros(len(f))
-        own, right_angle = _direction_words(load)
+        own, right_angle = _direction_words(problem, load, f)
         found.append((Twist(right_angle, rank=1), np.column_stack([f[:, 1], -f[:, 0], still])))
         found.append((Twist(own, rank=1), np.column_stack([f, still])))
     return found
 
 
-def _direction_words(load: Load) -> tuple[str, str]:
+def _directions(problem: Problem, load: int) -> Array | None:
+    """Unit direction of the force of a load at every state (ns, 2); None if it has no force."""
+    forces = np.array([system.free.loads[load].on[-1].force for system in problem.systems])
+    size = np.linalg.norm(forces, axis=1, keepdims=True)
+    return forces / size if size.min() > 0 else None
+
+
+def _direction_words(problem: Problem, load: Load, f: Array) -> tuple[str, str]:
     """Words for the direction of a force and for the one at right angles to it."""
-    if load.component == "normal force" or (load.kind == "contact" and load.symbol.endswith(".N")):
+    if load.symbol.endswith(".tension"):
+        return load.name, f"the normal of {load.name}"
+    alike = [_directions(problem, i) for i, other in enumerate(problem.free.loads) if other.path == load.path and other.unknown]
+    if all(g is None or np.abs(f[:, 0] * g[:, 1] - f[:, 1] * g[:, 0]).max() < ONE_LINE for g in alike):
         return f"the normal of {load.name}", load.name
     return f"the line of {load.symbol}", f"the normal to {load.symbol}"
