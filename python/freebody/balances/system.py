@@ -53,11 +53,6 @@ class Problem:
     length: float
 
     @property
-    def generic(self) -> tuple[System, ...]:
-        """The states that tell what is zero by structure from what is so here only."""
-        return self.systems[1:] or self.systems
-
-    @property
     def free(self) -> FreeBodies:
         """Bodies and loads at the state asked for."""
         return self.systems[0].free
