@@ -4,6 +4,7 @@
 mod closed_forms;
 mod contacts;
 mod cords;
+mod free_bodies;
 mod gauges;
 mod joints;
 mod metamorphic;
