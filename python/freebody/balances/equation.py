@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,8 @@ class BalanceEquation:
     ``about`` names the point or direction, ``at`` is the place in m, or the unit direction, in the fixed axes; ``constructed``
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
-    touches the bodies, but is not in the equation, each with the reason.
+    touches the bodies, but is not in the equation, each with the reason. ``question`` asks the core for the equation in
+    letters (``_core.Mechanism.letters``); None where the point has no letters, being one of inertia.
     """
 
     kind: str
@@ -35,6 +37,7 @@ class BalanceEquation:
     coefficients: Mapping[str, float]
     right: float
     dropped: tuple[Dropped, ...]
+    question: Mapping[str, Any] | None
 
     @property
     def unknowns(self) -> tuple[str, ...]:
@@ -70,7 +73,17 @@ def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
         {problem.unknowns[i].name: float(candidate.coefficients[i] * factor) for i in stays},
         float(candidate.right * factor),
         dropped(problem, candidate, place),
+        _question(problem, candidate, turns),
     )
+
+
+def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, Any] | None:
+    place = candidate.twist.question
+    loads = [problem.unknowns[i].load for i in candidate.twist.pair or ()]
+    if loads and None not in loads:
+        forces = [i for i in loads if np.hypot(*problem.free.loads[i].on[-1].force) > 0]
+        place = {"about": {"meeting": loads}} if turns else {"along": {"across": forces[0]}}
+    return place and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **place}
 
 
 def solved(equations: Sequence[BalanceEquation]) -> dict[str, float]:

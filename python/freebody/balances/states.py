@@ -69,4 +69,4 @@ def _size(free: FreeBodies) -> float:
 
 
 def _places(free: FreeBodies) -> np.ndarray:
-    return np.array([part.point for load in free.loads for part in load.on])
+    return np.array([part.point for load in free.loads for part in load.on] + [body.G for body in free.bodies.values()])

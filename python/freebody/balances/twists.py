@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
 from freebody.balances.system import Problem
-from freebody.free_body import FreeBodies, Load
+from freebody.free_body import FreeBodies, Load, Pair
 from freebody.results import Array
 
 SAME_PLACE = 1e-9
@@ -29,11 +30,12 @@ NamedPoints = Mapping[str, tuple[str, float, float]]
 @dataclass(frozen=True)
 class Twist:
     """A rigid motion by what makes it: a named point or direction, or two unknowns, by their places, that do no work in it.
-    ``rank`` is 0 for the plainest."""
+    ``rank`` is 0 for the plainest; ``question`` is how the core is asked for the balance in letters (``about`` or ``along``)."""
 
     name: str = ""
     pair: tuple[int, int] | None = None
     rank: int = 0
+    question: Mapping[str, Any] | None = None
 
 
 Twists = list[tuple[Twist, Array]]
@@ -43,13 +45,13 @@ Twists = list[tuple[Twist, Array]]
 def named_twists(problem: Problem, points: NamedPoints) -> Twists:
     """Turns about joints, mass centres and named points; shifts along x, y and along or across what a joint holds."""
     found: Twists = []
-    for name, rank, places in _named_places(problem, points):
+    for twist, places in _named_places(problem, points):
         about = (np.array(places) - problem.origin) / problem.length
         motion = np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
         if not any(np.abs(other - motion).max() < SAME_PLACE for _, other in found):
-            found.append((Twist(name, rank=rank), motion))
+            found.append((twist, motion))
     for name, e in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, 1.0, 0.0))):
-        found.append((Twist(name, rank=1), np.tile(e, (len(problem.systems), 1))))
+        found.append((Twist(name, rank=1, question={"along": name}), np.tile(e, (len(problem.systems), 1))))
     return found + _joint_directions(problem)
 
 
@@ -57,9 +59,8 @@ def mass_centre(problem: Problem, group: Sequence[int]) -> tuple[Twist, Array]:
     """The turn about the mass centre of several bodies."""
     names = [problem.bodies[i] for i in group]
     about = (np.array([system.free.centre(*names) for system in problem.systems]) - problem.origin) / problem.length
-    return Twist(f"the mass centre of {' + '.join(names)}", rank=3), np.column_stack(
-        [about[:, 1], -about[:, 0], np.ones(len(about))]
-    )
+    twist = Twist(f"the mass centre of {' + '.join(names)}", rank=3, question={"about": "centre"})
+    return twist, np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
 
 
 def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
@@ -75,26 +76,33 @@ def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
     return found
 
 
-def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[str, int, list[tuple[float, float]]]]:
-    """Name, rank, and place at every state, of joints, named points and mass centres."""
+def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[Twist, list[Pair]]]:
+    """The turns about joints, mass centres and named points, with the place at every state."""
     joints: dict[str, int] = {}
     for i, load in enumerate(problem.free.loads):
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
-    places = [(name, 0, [_last_point(system.free, i) for system in problem.systems]) for name, i in joints.items()]
-    for name in problem.bodies:
-        places.append((f"{name}.G", 2, [system.free.bodies[name].G for system in problem.systems]))
+    found = [
+        (Twist(name, question={"about": {"load": i}}), [_last_point(s.free, i) for s in problem.systems])
+        for name, i in joints.items()
+    ]
+    for body in problem.bodies:
+        found.append((_about_point(f"{body}.G"), [system.free.bodies[body].G for system in problem.systems]))
     for name, (body, x, y) in points.items():
         if not name.endswith(".origin"):
-            places.append((name, 2, [_placed(system.free, body, x, y) for system in problem.systems]))
-    return places
+            found.append((_about_point(name), [_placed(system.free, body, x, y) for system in problem.systems]))
+    return found
 
 
-def _last_point(free: FreeBodies, load: int) -> tuple[float, float]:
+def _about_point(name: str) -> Twist:
+    return Twist(name, rank=2, question={"about": {"point": name}})
+
+
+def _last_point(free: FreeBodies, load: int) -> Pair:
     return free.loads[load].on[-1].point
 
 
-def _placed(free: FreeBodies, body: str, x: float, y: float) -> tuple[float, float]:
+def _placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
     if body not in free.bodies:
         return x, y
     b = free.bodies[body]
@@ -114,8 +122,9 @@ def _joint_directions(problem: Problem) -> Twists:
             continue
         still = np.zeros(len(f))
         own, right_angle = _direction_words(problem, load, f)
-        found.append((Twist(right_angle, rank=1), np.column_stack([f[:, 1], -f[:, 0], still])))
-        found.append((Twist(own, rank=1), np.column_stack([f, still])))
+        across = Twist(right_angle, rank=1, question={"along": {"across": unknown.load}})
+        found.append((across, np.column_stack([f[:, 1], -f[:, 0], still])))
+        found.append((Twist(own, rank=1, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
     return found
 
 
