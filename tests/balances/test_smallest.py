@@ -142,6 +142,28 @@ def test_the_torque_of_a_four_bar_takes_three_equations_in_it_and_one_pin():
     assert set(found.values) == {"T.force", "B.Fx", "B.Fy"}
 
 
+def pushed(rng):
+    """A four-bar that a given couple turns."""
+    made = planar.four_bar(rng, driven=False)
+    parts = [("crank", (0, 0), (0.0, 0.0), -3.0), ("ground", (0, 0), (0.0, 0.0), 3.0)]
+    made.load("motor", ("ground", "crank"), parts)
+    return made
+
+
+def test_a_torque_that_is_given_is_found_from_the_motion_that_it_makes():
+    found = smallest_set("motor", states(pushed))
+    assert titles(found) == titles(smallest_set("T", states(planar.four_bar)))
+    assert found.value == pytest.approx(-3.0, rel=1e-12)
+    assert found.known_motion
+
+
+def test_with_the_motion_known_a_reaction_takes_no_acceleration():
+    pendulum = states(lambda rng: planar.chain(rng, 2))
+    found = smallest_set("B.Fx", pendulum, known_motion=True)
+    assert titles(found) == {"LMB along x for rod2"}
+    assert found.check < 1e-9
+
+
 def test_the_torque_at_the_base_of_a_chain_takes_one():
     found = smallest_set("T1", states(lambda rng: planar.driven_chain(rng, 6)))
     assert titles(found) == {"AMB about A for rod1 + rod2 + rod3 + rod4 + rod5 + rod6"}
