@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -38,13 +37,13 @@ class Twist:
     question: Mapping[str, Any] | None = None
 
 
-Twists = list[tuple[Twist, Array]]
-"""Each with its motion at every state (ns, 3): velocity x, y of the origin of the problem and turn × length."""
+Twists = tuple[list[Twist], Array]
+"""With their motions at every state (nt, ns, 3): velocity x, y of the origin of the problem and turn × length."""
 
 
 def named_twists(problem: Problem, points: NamedPoints) -> Twists:
     """Turns about joints, mass centres and named points; shifts along x, y and along or across what a joint holds."""
-    found: Twists = []
+    found: list[tuple[Twist, Array]] = []
     for twist, places in _named_places(problem, points):
         about = (np.array(places) - problem.origin) / problem.length
         motion = np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
@@ -52,28 +51,28 @@ def named_twists(problem: Problem, points: NamedPoints) -> Twists:
             found.append((twist, motion))
     for name, e in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, 1.0, 0.0))):
         found.append((Twist(name, rank=1, question={"along": name}), np.tile(e, (len(problem.systems), 1))))
-    return found + _joint_directions(problem)
+    found += _joint_directions(problem)
+    return [twist for twist, _ in found], np.array([motion for _, motion in found])
 
 
-def mass_centre(problem: Problem, group: Sequence[int]) -> tuple[Twist, Array]:
-    """The turn about the mass centre of several bodies."""
+def mass_centre(problem: Problem, group: Sequence[int]) -> Twists:
+    """The turn about the mass centre of several bodies; of one it has a name anyway."""
     names = [problem.bodies[i] for i in group]
     about = (np.array([system.free.centre(*names) for system in problem.systems]) - problem.origin) / problem.length
     twist = Twist(f"the mass centre of {' + '.join(names)}", rank=3, question={"about": "centre"})
-    return twist, np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
+    return [twist], np.array([np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])])
 
 
 def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
     """For every two unknowns of a boundary the motion in which neither does work. ``columns`` (ns, nu, 3)."""
     sizes = np.linalg.norm(columns, axis=2, keepdims=True)
     units = columns / np.where(sizes > 0, sizes, 1.0)
-    found: Twists = []
-    for j, k in combinations(boundary, 2):
-        motion = np.cross(units[:, j], units[:, k])
-        size = np.linalg.norm(motion, axis=1, keepdims=True)
-        if size.min() > ONE_LINE:
-            found.append((Twist(pair=(int(j), int(k)), rank=5), motion / size))
-    return found
+    first, second = (np.asarray(boundary)[part] for part in np.triu_indices(len(boundary), 1))
+    motions = np.cross(units[:, first], units[:, second]).swapaxes(0, 1)
+    size = np.linalg.norm(motions, axis=2, keepdims=True)
+    meet = size.min(axis=(1, 2)) > ONE_LINE
+    pairs = zip(first[meet].tolist(), second[meet].tolist(), strict=True)
+    return [Twist(pair=pair, rank=5) for pair in pairs], motions[meet] / size[meet]
 
 
 def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[Twist, list[Pair]]]:
@@ -110,9 +109,9 @@ def _placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
     return b.at[0] + c * x - s * y, b.at[1] + s * x + c * y
 
 
-def _joint_directions(problem: Problem) -> Twists:
+def _joint_directions(problem: Problem) -> list[tuple[Twist, Array]]:
     """Along and across the force of every unknown that has one direction of its own."""
-    found: Twists = []
+    found: list[tuple[Twist, Array]] = []
     for unknown in problem.unknowns:
         load = problem.load(unknown)
         if load is None or load.component in ("x", "y"):
