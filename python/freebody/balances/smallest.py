@@ -53,6 +53,11 @@ class SmallestSet:
     structural: bool
     known_motion: bool = False
 
+    def __str__(self) -> str:
+        from freebody.balances.show import show
+
+        return show(self)
+
     @property
     def value(self) -> float:
         """What was wanted, N, N·m, m/s² or rad/s²."""

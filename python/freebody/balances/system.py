@@ -72,6 +72,10 @@ class Problem:
             return self._determined(named[0])
         if wanted in self.free.accelerations or wanted.removeprefix("accel(").removesuffix(")") in self.free.accelerations:
             raise KeyError(f"the acceleration of {wanted} follows from motions and loops without any balance")
+        for load in self.free.loads:
+            if load.follows and load.symbol == wanted:
+                leader = self.free.loads[load.follows[0]].symbol
+                raise KeyError(f"{wanted} is {load.follows[1]:g} times {leader}, by the law of friction; ask for that")
         raise KeyError(f"nothing unknown is called {wanted!r}; there are {', '.join(u.name for u in self.unknowns)}")
 
     def _determined(self, i: int) -> int:
@@ -86,14 +90,20 @@ def problem(states: Sequence[FreeBodies], prefer: str | None = None, known_motio
     ``prefer``: a coordinate whose acceleration is kept as an unknown if loops leave a choice; ``known_motion``: the
     accelerations are given, as they are."""
     first = states[0]
-    alike = [state for state in states if [load.symbol for load in state.loads] == [load.symbol for load in first.loads]]
+    same = [state for state in states if alike(state, first)]
     origin, length = _extent(first)
-    unprescribed = [] if known_motion else _free_coordinates(alike, prefer)
+    unprescribed = [] if known_motion else _free_coordinates(same, prefer)
     accelerations = [Unknown(f"accel({name})", coordinate=name) for name in unprescribed]
     loads = [Unknown(load.symbol, load=i) for i, load in enumerate(first.loads) if load.unknown and not load.follows]
     unknowns = (*loads, *accelerations)
-    systems = tuple(_system(state, unknowns, origin, length, known_motion) for state in alike)
+    systems = tuple(_system(state, unknowns, origin, length, known_motion) for state in same)
     return Problem(tuple(first.bodies), unknowns, systems, origin, length)
+
+
+def alike(one: FreeBodies, other: FreeBodies) -> bool:
+    """Whether the same things act, and hold, in both."""
+    (first, second) = ([(load.symbol, load.unknown, load.follows is None) for load in free.loads] for free in (one, other))
+    return first == second and [row.name for row in one.rows] == [row.name for row in other.rows]
 
 
 def released(free: FreeBodies, name: str) -> FreeBodies:
