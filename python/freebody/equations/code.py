@@ -12,12 +12,13 @@ from dataclasses import dataclass
 
 from freebody.equations.emit import LANGUAGES, Language, Writer
 from freebody.equations.letters import Letters
+from freebody.equations.names import ascii_name
 from freebody.equations.tree import PI, Entries, Sym, Tree, symbols
 
 _RESERVED = frozenset(
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
     "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while "
-    "np q u p t a r out".split()
+    "np _array q u p t a r out sin cos tan exp log atan2 fabs sign sqrt pow".split()
 ) | frozenset(keyword.kwlist)
 _HELP = {
     "q": "coordinates", "u": "rates of the coordinates", "p": "parameters", "t": "time in s",
@@ -116,9 +117,9 @@ def _function(
 
 
 def _identifier(letter: Sym, taken: set[str]) -> str:
-    made = re.sub(r"\W", "_", letter.name, flags=re.ASCII) + ("", "_dot", "_ddot")[letter.dots]
+    made = re.sub(r"\W", "_", ascii_name(letter.name), flags=re.ASCII) + ("", "_dot", "_ddot")[letter.dots]
     made = f"_{made}" if made[0].isdigit() else made
     # s1, s2 … are the names of shared subexpressions.
-    while made in taken or made in _RESERVED or re.fullmatch(r"s\d+", made) or made in ("sin", "cos", "tan", "exp", "pow", "sqrt"):
+    while made in taken or made in _RESERVED or re.fullmatch(r"s\d+", made):
         made += "_"
     return made

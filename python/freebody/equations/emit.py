@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -54,7 +55,8 @@ class NumPy(Language):
         return "\n".join([*lines, "    return _array([", *entries, f"    ], {shape!r})"])
 
     def file(self, header, functions):
-        top = ['"""Generated from the equations of a freebody model, in SI units and radians.', "", *header, '"""']
+        safe = [line.replace("\\", "\\\\").replace('"', "'") for line in header]
+        top = ['"""Generated from the equations of a freebody model, in SI units and radians.', "", *safe, '"""']
         top += ["", "import numpy as np", "", "", "def _array(entries, shape):"]
         top += ["    return np.stack(np.broadcast_arrays(*entries)).reshape(shape + np.broadcast(*entries).shape)"]
         return "\n\n\n".join(["\n".join(top), *functions]) + "\n"
@@ -196,6 +198,4 @@ def _literal(value: Fraction | float) -> tuple[str, int]:
 
 
 def _mentions(code: str, word: str) -> bool:
-    import re
-
     return re.search(rf"\b{word}\b", code) is not None

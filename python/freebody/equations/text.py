@@ -12,7 +12,7 @@ from freebody.equations import layout
 from freebody.equations.letters import Letters
 from freebody.equations.names import ascii_name, superscript, unicode_name
 from freebody.equations.printer import Printer
-from freebody.equations.tree import Add, Fn, Sym, Tree
+from freebody.equations.tree import Add, Fn, Num, Sym, Tree
 
 WIDTH = 100
 _VULGAR = {
@@ -128,7 +128,7 @@ class TextPrinter(Printer):
 
     def root(self, tree: Tree) -> str:
         inner = self.expression(tree)
-        return f"√{inner}" if isinstance(tree, Sym) else f"√({inner})"
+        return f"√{inner}" if isinstance(tree, Sym | Num) else f"√({inner})"
 
     def function(self, tree: Fn, exponent: Fraction) -> str:
         inner = self.arguments(tree)
