@@ -17,7 +17,7 @@ from freebody.equations.tree import MINUS_ONE, Fn, Num, Tree, evaluate, symbols,
 PATIENCE = 5.0
 """Seconds after which no further form of an answer is tried."""
 _MULTIPLE_ANGLE = 6  # printed signs that a person would rather read than sin 2θ
-_LARGE = 100  # operations above which SymPy's search for trigonometric identities takes too long
+_LARGE = 60  # operations above which SymPy's search for trigonometric identities takes too long
 _SAMPLES = 4
 _AGREEMENT = 1e-8  # relative difference of two forms that are equal
 
@@ -27,11 +27,11 @@ def shortest(expression: Any, letters: Letters | None = None, patience: float = 
 
     Each is held against the expression itself at random values, and dropped where they differ."""
     until = time.monotonic() + patience
-    best = from_sympy(expression)
+    best = given = from_sympy(expression)
     cost = length(best, letters)
-    for form in _forms(expression):
+    for form in _forms(expression, letters):
         tree = from_sympy(form)
-        if (found := length(tree, letters)) < cost and equal(tree, from_sympy(expression)):
+        if (found := length(tree, letters)) < cost and equal(tree, given):
             best, cost = tree, found
         if time.monotonic() > until:
             break
@@ -39,10 +39,10 @@ def shortest(expression: Any, letters: Letters | None = None, patience: float = 
 
 
 def length(tree: Tree, letters: Letters | None = None) -> tuple[int, int]:
-    """How long an expression reads: its printed signs without spaces, multiples of angles being dear, and its brackets."""
+    """How long an expression reads: its printed signs, multiples of angles being dear, then its brackets."""
     shown = text(tree, letters or Letters())
     multiples = sum(_has_multiple(node) for node in walk(tree))
-    return len(re.sub(r"[\s\u0307\u0308]", "", shown)) + _MULTIPLE_ANGLE * multiples, shown.count("(")
+    return len(re.sub(r"[\s()\u0307\u0308]", "", shown)) + _MULTIPLE_ANGLE * multiples, shown.count("(")
 
 
 def _has_multiple(node: Tree) -> bool:
@@ -76,22 +76,18 @@ def _value(tree: Tree, values: dict) -> float:
             return float("nan")
 
 
-def _forms(expression: Any) -> Iterator[Any]:
+def _forms(expression: Any, letters: Letters | None) -> Iterator[Any]:
     import sympy
 
     together = sympy.factor(sympy.cancel(sympy.together(expression)))
     yield together
-    above, below = sympy.fraction(together)
-    reduced = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in (above, below)]
-    for a, b in itertools.product(*reduced):
-        if b != 0:
-            yield a / b
+    ways = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in sympy.fraction(together)]
+    above, below = (min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), letters), default=0) for forms in ways)
+    if below != 0:
+        yield above / below
     if expression.count_ops() < _LARGE:
-        for form in (together, *(part[-1] for part in reduced)):
-            yield sympy.trigsimp(form)
-        for a, b in itertools.product(*([*part, sympy.trigsimp(part[0])] for part in reduced)):
-            if b != 0:
-                yield sympy.factor_terms(a) / sympy.factor_terms(b)
+        yield sympy.trigsimp(together)
+        yield sympy.factor_terms(sympy.trigsimp(ways[0][0])) / sympy.factor_terms(sympy.trigsimp(ways[1][0]))
         yield sympy.factor(sympy.trigsimp(sympy.expand_trig(together)))
 
 
