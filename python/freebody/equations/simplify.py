@@ -82,7 +82,9 @@ def _forms(expression: Any, letters: Letters | None) -> Iterator[Any]:
     together = sympy.factor(sympy.cancel(sympy.together(expression)))
     yield together
     ways = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in sympy.fraction(together)]
-    above, below = (min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), letters), default=0) for forms in ways)
+    above, below = (
+        min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), letters), default=0) for forms in ways
+    )
     if below != 0:
         yield above / below
     if expression.count_ops() < _LARGE:

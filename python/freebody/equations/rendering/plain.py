@@ -7,7 +7,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from freebody.equations.document import (
-    Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Table, Vector, Words, Written, is_tree, pieces,
+    Block,
+    Bullets,
+    Document,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Side,
+    Table,
+    Vector,
+    Words,
+    Written,
+    is_tree,
+    pieces,
 )  # fmt: skip
 from freebody.equations.letters import Letters
 from freebody.equations.text import columns, equation_text, folded, text
@@ -65,7 +79,9 @@ class _Writer:
                 return self.filled(["[Figure: ", *pieces(block.caption or block.name), "]"])
 
     def words(self, words: Words) -> str:
-        return "".join(piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words))
+        return "".join(
+            piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words)
+        )
 
     def filled(self, words: Words, lead: str = "") -> str:
         return textwrap.fill(
@@ -90,7 +106,9 @@ class _Writer:
 
     def matrices(self, block: MatrixEquation) -> str:
         shown = [[text(entry, self.letters, ascii=self.ascii) for entry in row] for row in block.matrix]
-        unknowns, right = ([[text(entry, self.letters, ascii=self.ascii)] for entry in side] for side in (block.unknowns, block.right))
+        unknowns, right = (
+            [[text(entry, self.letters, ascii=self.ascii)] for entry in side] for side in (block.unknowns, block.right)
+        )
         parts = [self.bracketed(part) for part in (shown, unknowns, right)]
         middle = (len(shown) - 1) // 2
         lines = [f"{a} {x} {'=' if row == middle else ' '} {b}" for row, (a, x, b) in enumerate(zip(*parts, strict=True))]
