@@ -43,7 +43,7 @@ WRITTEN = [
     (over(number(1), power(L, "1/2")), "1/√l", "1/sqrt(l)", r"\frac{1}{\sqrt{l}}"),
     (power(over(G, L), "1/2"), "√(g/l)", "sqrt(g/l)", r"\sqrt{\frac{g}{l}}"),
     (mul(K, minus(X, sym("l0"))), "k (x − l₀)", "k (x - l0)", r"k (x - l_0)"),
-    (add(mul(number(-1), K, X), mul(M, sym("x", 2))), "m ẍ − k x".replace("ẍ", "x\u0308"), "m x'' - k x", r"m \ddot x - k x"),
+    (add(mul(number(-1), K, X), mul(M, sym("x", 2))), "m x\u0308 − k x", "m x'' - k x", r"m \ddot x - k x"),
     (mul(sym("m_rod"), sym("arm.angle", 2)), "m_rod arm.angle′′", "m_rod arm.angle''",
      r"m_{\text{rod}} \, \ddot{\mathrm{angle}}_{\mathrm{arm}}"),
     (mul(sym("pivot.x"), L), "l pivot.x", "l pivot.x", r"l \, \mathrm{pivot}_x"),
@@ -68,9 +68,7 @@ def test_an_equation_of_a_double_pendulum():
         mul(add(M2, mul(number("1/4"), M1)), A1, square(L)),
     )
     right = product(-1, M2, L, sin(TH1), G)
-    assert equation_text(left, right, LETTERS) == "(m₁/4 + m₂) l² θ̈₁ + ½ m₂ l² cos(θ₁ − θ₂) θ̈₂ = −m₂ g l sin θ₁".replace(
-        "m₂ g l", "m₂ g l"
-    )
+    assert equation_text(left, right, LETTERS) == "(m₁/4 + m₂) l² θ̈₁ + ½ m₂ l² cos(θ₁ − θ₂) θ̈₂ = −m₂ g l sin θ₁"
     assert equation_latex(left, right, LETTERS).endswith(r"= -m_2 g l \sin\theta_1")
 
 
@@ -96,7 +94,7 @@ def test_printed_text_read_back_has_the_same_value():
 
     draw = random.Random(3)
     how = (*standard_transformations, convert_xor, implicit_multiplication)
-    for _ in range(150):
+    for _ in range(60):
         tree = anything(draw)
         at = values(draw)
         written = {s: f"{s.name.replace('.', '_')}{'_d' * s.dots}".replace("lambda", "lambda_") for s in at}
@@ -112,7 +110,7 @@ def test_latex_is_accepted_by_a_parser_of_formulas():
 
     parser = MathTextParser("path")
     draw = random.Random(5)
-    for tree in [anything(draw) for _ in range(60)] + [row[0] for row in WRITTEN]:
+    for tree in [anything(draw) for _ in range(25)] + [row[0] for row in WRITTEN]:
         printed = latex(tree, LETTERS)
         assert printed.count("{") == printed.count("}") and printed.count(r"\left") == printed.count(r"\right")
         parser.parse(f"${printed.replace('tfrac', 'frac')}$")
