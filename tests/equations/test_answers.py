@@ -9,9 +9,21 @@ import pytest
 from material import LETTERS, cos, half, product, sin, square, sym, values
 
 from freebody.equations import (
-    Fn, Num, Singular, TooLarge, characteristic, coefficients, eigenvalues, evaluate, limit, solve, solve_equations, stability,
-    substitute, text,
-)  # fmt: skip
+    Fn,
+    Num,
+    Singular,
+    TooLarge,
+    characteristic,
+    coefficients,
+    eigenvalues,
+    evaluate,
+    limit,
+    solve,
+    solve_equations,
+    stability,
+    substitute,
+    text,
+)
 from freebody.equations.tree import MINUS_ONE, ONE, ZERO, add, minus, mul, negative, number, over, power
 
 M1, M2, BIG, M, L, G, K, C, MU = map(sym, ("m1", "m2", "M", "m", "l", "g", "k", "c", "mu"))
@@ -53,7 +65,7 @@ def test_two_blocks_one_on_an_incline():
     expected = over(mul(G, minus(M2, mul(M1, add(sin(ALPHA), mul(MU, cos(ALPHA)))))), add(M1, M2))
     same(found[a], expected)
     same(found[tension], over(mul(M1, M2, G, add(ONE, sin(ALPHA), mul(MU, cos(ALPHA)))), add(M1, M2)))
-    assert written([found[tension]]) == ["(sin α + μ cos α + 1) m₁ m₂ g/(m₁ + m₂)"] or len(written([found[tension]])[0]) < 45
+    assert written([found[tension]]) == ["m₁ m₂ g (1 + sin α + μ cos α)/(m₁ + m₂)"]
 
 
 def test_block_on_a_movable_wedge():
@@ -117,9 +129,7 @@ def test_eigenvalues_of_an_oscillator():
     """ÿ = −(k/m) y has ±i √(k/m); with a damper (−c ± √(c² − 4 m k))/(2 m)."""
     free = [[ZERO, ONE], [negative(over(K, M)), ZERO]]
     found = eigenvalues(free, LETTERS, positive=["k", "m"])
-    assert [written([value.real, value.imaginary]) for value in found] == [["0", "−√(k/m)"], ["0", "√(k/m)"]] or {
-        text(value.imaginary) for value in found
-    } == {"√(k/m)", "−√(k/m)"}
+    assert [written([value.real, value.imaginary]) for value in found] == [["0", "−√(k/m)"], ["0", "√(k/m)"]]
     damped = [[ZERO, ONE], [negative(over(K, M)), negative(over(C, M))]]
     at = {K: 1.0, M: 2.0, C: 5.0}
     roots = sorted(float(evaluate(value.real, at)) for value in eigenvalues(damped, LETTERS, positive=["k", "m", "c"]))
@@ -130,10 +140,10 @@ def test_eigenvalues_of_two_equal_pendulums_with_a_spring():
     """ω² = g/l, and g/l + 2 k/m."""
     own = over(G, L)
     pull = over(K, M)
-    found = eigenvalues([[add(own, pull), negative(pull)], [negative(pull), add(own, pull)]], LETTERS, positive=["g", "l", "k", "m"])
-    at = values(random.Random(9))
-    got = sorted(float(evaluate(value.real, at)) for value in found)
-    assert got == pytest.approx(sorted([at[G] / at[L], at[G] / at[L] + 2 * at[K] / at[M]]))
+    found = eigenvalues(
+        [[add(own, pull), negative(pull)], [negative(pull), add(own, pull)]], LETTERS, positive=["g", "l", "k", "m"]
+    )
+    assert sorted(written(value.real for value in found)) == ["2 k/m + g/l", "g/l"]
     with pytest.raises(TooLarge, match="at most 4 rows"):
         eigenvalues([[ONE] * 5] * 5)
 

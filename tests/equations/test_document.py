@@ -12,8 +12,20 @@ import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
 
 from freebody.equations import (
-    Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Table, Vector, Written, latex, letters_table, read,
-)  # fmt: skip
+    Bullets,
+    Document,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Table,
+    Vector,
+    Written,
+    latex,
+    letters_table,
+    read,
+)
 from freebody.equations.text import columns
 from freebody.equations.tree import MINUS_ONE, ZERO, add, mul
 

@@ -118,7 +118,6 @@ class LatexPrinter(Printer):
 
     def raised(self, base: str, exponent: Fraction) -> str:
         shown = str(exponent)
-        base = f"{{{base}}}" if re.match(r"\\d*ot", base) and "_" not in base else base
         return f"{base}^{shown}" if len(shown) == 1 else f"{base}^{{{shown}}}"
 
     def root(self, tree: Tree) -> str:

@@ -24,7 +24,7 @@ from freebody.equations.document import (
     Written,
     is_tree,
     pieces,
-)  # fmt: skip
+)
 from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
 from freebody.equations.names import GREEK, escaped, latex_name

@@ -22,7 +22,7 @@ from freebody.equations.document import (
     Written,
     is_tree,
     pieces,
-)  # fmt: skip
+)
 from freebody.equations.letters import Letters
 from freebody.equations.text import columns, equation_text, folded, text
 from freebody.equations.tree import Add, Mul, Tree, is_zero
