@@ -53,6 +53,8 @@ WRITTEN = [
     (mul(sym("mu_s"), sym("Omega")), "μ_s Ω", "mu_s Omega", r"\mu_s \Omega"),
     (Fn("abs", (sym("x", 1),)), "|x\u0307|", "abs(x')", r"\left|\dot x\right|"),
     (Fn("atan2", (X, L)), "atan2(x, l)", "atan2(x, l)", r"\operatorname{atan2}(x, l)"),
+    (Fn("abs", (Fn("abs", (X,)),)), "abs(|x|)", "abs(abs(x))", r"\left|\left|x\right|\right|"),
+    (mul(sym("x", 1), power(Num(0.5), 2), power(number(3), 3)), "0.5²·3³ x\u0307", "0.5^2*3^3 x'", r"0.5^2 \cdot 3^3 \dot x"),
     (Num(0.35), "0.35", "0.35", "0.35"),
     (mul(Num(-2.5e-7), M), "−2.5×10⁻⁷ m", "-2.5e-07 m", r"-2.5 \cdot 10^{-7} m"),
     (Num(float("inf")), "∞", "inf", r"\infty"),

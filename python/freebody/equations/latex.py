@@ -98,7 +98,7 @@ class LatexPrinter(Printer):
         made = factors[0]
         for left, right in itertools.pairwise(factors):
             word = any(re.match(r"\\(mathrm|d*ot\{)", side) for side in (left, right))
-            made += (r" \, " if word else " ") + right
+            made += (r" \cdot " if right[0].isdecimal() else r" \, " if word else " ") + right
         return made
 
     def bracket(self, inner: str) -> str:
