@@ -160,7 +160,7 @@ class Line:
     def raised(self, token: Token) -> Node:
         """The exponent that small figures are."""
         text = token.text
-        if text.lstrip("-").isdigit():
+        if text.lstrip("-").isdecimal():
             number = Number(float(text.lstrip("-")), text.lstrip("-"), span=token.span)
             return Negative(number, span=token.span) if text.startswith("-") else number
         return Letter(text, span=token.span)

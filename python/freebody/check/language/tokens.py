@@ -159,7 +159,7 @@ class _Reader:
     def fraction(self, text: str, start: int) -> None:
         """A sign like ½ as a quotient in brackets."""
         for piece in text:
-            self.put("number" if piece.isdigit() else piece, piece, start)
+            self.put("number" if piece.isdecimal() else piece, piece, start)
 
     # --- names ---------------------------------------------------------------------------------
 
@@ -332,10 +332,8 @@ class _Reader:
 
     def order(self, at: int) -> tuple[int, int]:
         """The order of a derivative written here (1 where nothing is), and the glyph behind it."""
-        if at < len(self.row) and self.row[at].kind is Kind.RAISED:
-            return int(self.row[at].text), at + 1
-        if self.spelling(at, at + 1) == "^" and at + 1 < len(self.row):
-            braced = self.row[at + 1].text == "{"
-            digit = at + 1 + braced
-            return int(self.row[digit].text), digit + 1 + braced
-        return 1, at
+        written = "".join("^" * (g.kind is Kind.RAISED) + g.text for g in self.row[at : at + 4])
+        if not (found := re.match(r"\^(\d)|\^\{(\d)\}", written)):
+            return 1, at
+        raised = self.row[at].kind is Kind.RAISED
+        return int(found[1] or found[2]), at + found.end() - raised
