@@ -16,7 +16,7 @@ ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "s
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
 _SUFFIXES = ("dddot", "ddot", "dot", "")
 _WORDS = {"with", "where", "and"}
-_OPERATORS = {"+", "-", "*", "/", "^", "·", "×", "=", "<=", ">=", "<", ">"}
+_OPERANDS = {"letter", "number", "raised", ")", "]"}
 _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
 # r_G1/O, ΣM/O, H_123/A: a label after a stroke that is part of a name, where no declared name decides
 _RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
@@ -193,7 +193,7 @@ class _Reader:
 
     def crosses(self, end: int) -> bool:
         """Whether an x between blanks is the sign of a cross product: only where no letter x is known."""
-        if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind in _OPERATORS | {"(", "[", "line"}:
+        if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind not in _OPERANDS:
             return False
         after = self.row[end : end + 1]
         return self.blank and bool(after) and after[0].kind is Kind.SPACE
@@ -238,7 +238,7 @@ class _Reader:
         at, left = start, name
         while left:
             glyph = self.row[at] if at < len(self.row) else Glyph(Kind.LINE, "\n", (0, 0))
-            text = "" if glyph.kind is Kind.SPACE and "'" in name else glyph.text
+            text = "" if glyph.kind is Kind.SPACE and ("'" in name or "(" in name) else glyph.text
             if not left.startswith(text) or not (text or at > start):
                 return None
             at, left = at + 1, left.removeprefix(text)
