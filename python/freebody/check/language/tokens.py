@@ -15,6 +15,7 @@ from .glyphs import Glyph, Kind, glyphs
 ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
 _SUFFIXES = ("dddot", "ddot", "dot", "")
+_ONLY_LETTERS, _WRITE_OUT = "only letters are differentiated here, by t", "write the derivative out, like `m*vdot`"
 _WORDS = {"with", "where", "and"}
 _OPERANDS = {"letter", "number", "raised", ")", "]"}
 _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
@@ -301,15 +302,18 @@ class _Reader:
     def derivative(self) -> _Piece | None:
         """dθ/dt and d²θ/dt², from a d on."""
         row, at = self.row, self.at
-        if row[at].text != "d" or row[at].dots or self.names.find("d"):
+        if row[at].text != "d" or row[at].dots:
             return None
         order, at = self.order(at + 1)
         while at < len(row) and row[at].kind is Kind.SPACE:
             at += 1
         stroke = next((i for i in range(at, len(row)) if row[i].kind not in _IN_NAMES), len(row))
-        if stroke == at or self.spelling(stroke, stroke + 3) != "/dt":
+        if self.spelling(stroke, stroke + 3) != "/dt":
             return None
         again, end = self.order(stroke + 3)
+        if stroke == at:
+            span = (row[self.at].span[0], row[end - 1].span[1])
+            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
         if again != order or (end < len(row) and row[end].kind in _IN_NAMES):
             return None
         spelling = self.spelling(at, stroke)
@@ -320,8 +324,11 @@ class _Reader:
         """The same written as a LaTeX fraction, from there on."""
         inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
         text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside)
+        if text.startswith("{d}{dt}"):
+            span = (self.row[self.at].span[0], self.row[inside[6]].span[1])
+            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
         found = _FRACTION.match(text)
-        if not found or self.names.find("d"):
+        if not found:
             return None
         ends = {0: inside[0]}
         for i in inside:
