@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
     from freebody.run import Progress, Run, Source, Times
@@ -46,6 +47,14 @@ class Moving:
         state, _ = self.start(initial, t, **changes)
         with self.told():
             return Instant(self.compile(), state, route, self.source().about)
+
+    def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
+        """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
+        from freebody.free_body import FreeBodies
+
+        state, _ = self.start(initial, t, **changes)
+        with self.told():
+            return FreeBodies.read(self.compile().free_bodies(state.p, state.t, state.q, state.u))
 
     def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
         """A moment of motion from the state of ``solve``: at its start the events there have happened (``changes``, ``instant``);
