@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -66,8 +65,10 @@ class Diagram:
         return " ".join(described(cut.group, [mark.action for mark in cut.forces]) for cut in self.cuts)
 
     def save(self, path: str | Path) -> Path:
-        """Write a file: .svg, .png or .pdf."""
+        """Write a file: .svg, .png or .pdf. Raises ``ValueError`` for any other."""
         path = Path(path)
+        if path.suffix.lower() not in (".svg", ".png", ".pdf"):
+            raise ValueError(f"a diagram is .svg, .png or .pdf, not {path.suffix or 'without a suffix'!r}")
         if path.suffix.lower() == ".svg":
             path.write_text(self.svg(), encoding="utf-8")
         else:
@@ -83,8 +84,9 @@ class Diagram:
         with quiet(), matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": self.name}):
             self.figure.savefig(buffer, format="svg", metadata={"Date": None})
         told = f"<title>{escape(self.name)}</title>\n <desc>{escape(self.description)}</desc>\n"
-        return re.sub(r"(<svg[^>]*)>", rf'\g<1> role="img">\n {told}'.replace("\\", r"\\").replace(r"\\g", r"\g"),
-                      buffer.getvalue(), count=1)  # fmt: skip
+        head, opening, rest = buffer.getvalue().partition("<svg")
+        attributes, end, body = rest.partition(">")
+        return f'{head}{opening}{attributes} role="img"{end}\n {told}{body}'
 
     def _repr_svg_(self) -> str:
         return self.svg()
@@ -105,21 +107,39 @@ def diagram(
     return Diagram(f"free-body diagrams of {source.name}", cuts)
 
 
+def groups(of: str | Sequence[str] | None, free: FreeBodies) -> list[tuple[str, ...]] | None:
+    """The groups that a person names: ``crank``, ``crank+coupler``, ``all``, or several of these. Raises ``ValueError``."""
+    if of is None:
+        return None
+    asked = [of] if isinstance(of, str) else list(of)
+    return [_group(text, free) for text in asked]
+
+
+def _group(text: str, free: FreeBodies) -> tuple[str, ...]:
+    if text in free.bodies:
+        return (text,)
+    named = list(free.bodies) if text.strip() == "all" else [name.strip() for name in text.split("+")]
+    for name in named:
+        if name not in free.bodies:
+            raise ValueError(f"no body is called {name!r}; there are {', '.join(free.bodies)}")
+    return tuple(dict.fromkeys(named))
+
+
 def _cut(
     source: Source, state: State, free: FreeBodies, group: tuple[str, ...], letters: Letters, scaled: bool, effective: bool
 ) -> Cut:
     drawn = scenery(source, state, free, group, scaled)
     if scaled:
-        forces, notes = acting.to_scale(free, group, letters)
+        forces, notes = acting.to_scale(free, group, letters, drawn.sketch)
     else:
         forces, notes = list(acting.symbolic(free, group, letters, drawn.sketch)), []
     sides = [forces, list(acting.effective(free, group, letters, scaled))] if effective else [forces]
     per_newton = _per_newton(sides) if scaled else None
     named = group if len(group) > 1 else ()
     panels = [panel(drawn, forces, named, per_newton, axes=True)]
-    if effective:
+    if effective and sides[1]:
         panels.append(panel(drawn.bare(), sides[1], (), per_newton, axes=False))
-    return Cut(group, Row(" + ".join(group), panels, per_newton, notes))
+    return Cut(group, Row(" + ".join(group), panels, per_newton, notes, vanishes=effective and not sides[1]))
 
 
 def _per_newton(sides: Sequence[Sequence[Action]]) -> float | None:

@@ -10,7 +10,7 @@ import numpy as np
 from freebody.free_body import FreeBodies, Load, Part
 from freebody.results import Array
 from freebody.views.diagram.names import Letters
-from freebody.views.measures import digits
+from freebody.views.measures import digits, place_of
 from freebody.views.scene import Sketch
 
 _ROUND_OFF = 1e-9
@@ -50,14 +50,24 @@ def symbolic(free: FreeBodies, group: Collection[str], letters: Letters, sketch:
 
 def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Action]:
     force, couple = _sense(load, part, sketch)
-    size = np.hypot(*force)
-    if size > 0 and couple:
-        part, couple = _on_its_line(load, part, force, couple, sketch)
-    plain = Action(load.name, load.kind, label, part.body, np.array(part.point), force, couple, (load,))
+    size, at = np.hypot(*force), attached(load, part, sketch)
+    plain = Action(load.name, load.kind, label, part.body, at, force, couple, (load,))
     if size > 0:
         yield replace(plain, force=force / size, couple=0.0)
     if couple:
         yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
+
+
+def attached(load: Load, part: Part, sketch: Sketch) -> Array:
+    """Where a diagram shows a part: of a link at its own end, of a torque at the joint of its two bodies, else where it acts."""
+    joint = next((j for j in sketch.spec["joints"] if j["name"] == load.name and j["type"] == "link"), None)
+    if joint is not None:
+        return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
+    if load.kind in ("force", "motion") and not any(part.force):
+        between = {j["name"] for j in sketch.about["joints"] if {j["first"], j["second"]} == set(load.of)}
+        places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
+        return next((place for place in places if place is not None), np.array(part.point))
+    return np.array(part.point)
 
 
 def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
@@ -77,42 +87,29 @@ def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
     return force, couple
 
 
-def _on_its_line(load: Load, part: Part, force: Array, couple: float, sketch: Sketch) -> tuple[Part, float]:
-    """A force with a couple is the same force on another line; it is moved there where that meets the body."""
-    shift = np.array([-force[1], force[0]]) * couple / (force @ force)
-    place = np.array(part.point) + shift
-    index = sketch.names.index(part.body)
-    seen = [sketch.place(name) for name, (body, _) in sketch.at.items() if body == part.body]
-    seen += [sketch.poses[0, index, :2]]
-    low, high = np.min(seen, axis=0) - 2 * sketch.size, np.max(seen, axis=0) + 2 * sketch.size
-    if (place < low).any() or (place > high).any():
-        return part, couple
-    return replace(part, point=(float(place[0]), float(place[1])), couple=0.0), 0.0
-
-
-def to_scale(free: FreeBodies, group: Collection[str], letters: Letters) -> tuple[list[Action], list[str]]:
-    """What acts on a group at the instant, the components of a reaction together, and what cannot be drawn, in words."""
-    found: dict[tuple[str, str, str, tuple[float, float]], Action] = {}
-    missing = []
-    for load in free.on(*group):
-        if not load.determinate:
-            missing.append(f"{load.label} is not determined")
-            continue
-        for part in (part for part in load.on if part.body in group):
-            for force, couple in ((load.value * np.array(part.force), 0.0), (np.zeros(2), load.value * part.couple)):
-                if force.any() or couple:
-                    key = (load.path, "force" if force.any() else "couple", part.body, part.point)
-                    new = Action(load.name, load.kind, letters.of(load), part.body, np.array(part.point), force, couple, (load,))
-                    found[key] = _together(found[key], new) if key in found else new
+def to_scale(free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> tuple[list[Action], list[str]]:
+    """What acts on a group at the instant, the components of a pin's force together, and what cannot be drawn, in words."""
+    found: dict[tuple[str, bool, str], Action] = {}
+    missing = [f"{load.symbol} is not determined" for load in free.on(*group) if not load.determinate]
+    for load in (load for load in free.on(*group) if load.determinate):
+        for i, part in enumerate(load.on):
+            force, couple = load.value * np.array(part.force), load.value * part.couple
+            if part.body not in group or not (force.any() or couple):
+                continue
+            new = Action(
+                load.name, load.kind, letters.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
+            )
+            for one in (replace(new, couple=0.0), replace(new, force=np.zeros(2))):
+                key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
+                if one.force.any() or one.couple:
+                    found[key] = _together(found[key], one) if key in found else one
     largest = max((float(np.hypot(*action.force)) for action in found.values()), default=0.0)
     kept = [a for a in found.values() if a.turns or np.hypot(*a.force) > _ROUND_OFF * largest]
     return [_with_value(action) for action in kept], missing
 
 
 def _together(first: Action, second: Action) -> Action:
-    label = first.label.rpartition("_{")[0] or first.label
-    return replace(first, force=first.force + second.force, couple=first.couple + second.couple,
-                   label=label, loads=first.loads + second.loads)  # fmt: skip
+    return replace(first, force=first.force + second.force, couple=first.couple + second.couple, loads=first.loads + second.loads)
 
 
 def _with_value(action: Action) -> Action:
@@ -129,7 +126,10 @@ def effective(free: FreeBodies, group: Collection[str], letters: Letters, scaled
         if scaled:
             force, couple = body.mass * np.array(body.a), body.inertia * body.alpha
             vector = replace(plain, label=rf"{mass}\,{letters.acceleration(name)}", force=force)
-            terms = [vector, replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name)}", couple=couple)]
+            terms = [
+                vector,
+                replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name, len(group) == 1)}", couple=couple),
+            ]
             yield from (_with_value(term) for term in terms if term.force.any() or term.couple)
             continue
         if body.mass and len(group) == 1:
@@ -139,7 +139,7 @@ def effective(free: FreeBodies, group: Collection[str], letters: Letters, scaled
             way = np.array(body.a) if np.any(body.a) else np.array([1.0, 1.0])
             yield replace(plain, label=rf"{mass}\,{letters.acceleration(name)}", force=way / np.hypot(*way))
         if body.inertia and not body.particle:
-            yield replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name)}", couple=1.0)
+            yield replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name, len(group) == 1)}", couple=1.0)
 
 
 def _figure(value: float) -> str:

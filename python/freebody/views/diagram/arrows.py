@@ -86,10 +86,18 @@ def _cost(arrow: Arrow, scenery: Scenery, ink: Array, marks: Sequence[Mark]) -> 
     near = _near(shaft[2:-2], other, 4.0)
     heads = [mark.line[-1] for mark in marks] + [mark.at for mark in marks if isinstance(mark, Arrow)]
     crowded = sum(float(np.hypot(*(arrow.head - head)) < _HEAD_ROOM) for head in heads if not np.allclose(head, arrow.at))
-    crowded += sum(float(np.hypot(*(mark.line[-1] - arrow.head)) < 1.0) for mark in marks)
+    converging = sum(float(np.hypot(*(mark.line[-1] - arrow.head)) < 1.0) for mark in marks)
     drawn = _near(shaft[3:], ink, 2.5)
     reverse = 3.0 * np.array_equal(arrow.head, arrow.at)
-    return 1.5 * inside + 6.0 * near + 40.0 * crowded + 1.0 * drawn + 0.25 * float(np.hypot(*(arrow.head - arrow.tail))) + reverse
+    return (
+        1.5 * inside
+        + 12.0 * near
+        + 40.0 * crowded
+        + 8.0 * converging
+        + 1.0 * drawn
+        + 0.25 * float(np.hypot(*(arrow.head - arrow.tail)))
+        + reverse
+    )
 
 
 def _near(places: Array, ink: Array, distance: float) -> int:
@@ -110,7 +118,7 @@ def _within(places: Array, outline: Array) -> Array:
 def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
     """A couple may stand anywhere on its body; its own point comes first, then the mass centre."""
     own, centre = scenery.place(action.at), scenery.centres[action.body]
-    places = [own] if action.kind == "joint" else [own, centre, (own + centre) / 2]
+    places = [own] if action.kind == "joint" else [own + part * (centre - own) for part in (0.0, 1.0, 0.5, 0.75, 1.4)]
     turn, ink, others = np.sign(action.couple), scenery.ink(), dense([mark.line for mark in marks])
     best: tuple[float, Bow] | None = None
     for rank, place in enumerate(places):
@@ -118,7 +126,9 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
             for gap in _GAPS:
                 start = gap + turn * _OPEN / 2
                 line = shapes.arc(place, radius, start, start + turn * (2 * np.pi - _OPEN))
-                covered = 5.0 * _near(line[::2], others, 3.5) + 1.0 * _near(line[::2], ink, 2.5) + 12.0 * _near(line[-2:], others, 7.0)
+                covered = (
+                    5.0 * _near(line[::2], others, 3.5) + 1.0 * _near(line[::2], ink, 2.5) + 12.0 * _near(line[-2:], others, 7.0)
+                )
                 cost = covered + 5.0 * rank + 0.6 * radius
                 if best is None or cost < best[0]:
                     best = cost, Bow(action, place, line)

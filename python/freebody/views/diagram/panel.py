@@ -79,13 +79,15 @@ def _corners(labels: Sequence[Placed]) -> list[Array]:
 
 
 def _corner(rough: Panel, ink: Array) -> Array:
-    """Where the axes are in nobody's way: a free corner, else the lower left one, outside."""
+    """Where the axes are in nobody's way: the free place nearest to the lower left corner, or outside of it."""
     low, high = rough.box()
     boxes = _corners(rough.labels)
-    room = np.array([_CORNER, _CORNER])
-    for at in (low, np.array([high[0] - room[0], low[1]]), np.array([low[0], high[1] - room[1]]), high - room):
-        start, end = at - 2, at + room + 2
-        written = any((low_ < end).all() and (high_ > start).all() for low_, high_ in boxes)
+    spots = [
+        np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
+    ]
+    for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
+        start, end = at - 4, at + _CORNER
+        written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
         if not written and not ((ink > start) & (ink < end)).all(axis=1).any():
             return at
-    return np.array([low[0] - room[0] * 0.6, low[1] - room[1] * 0.6])
+    return np.array([low[0], low[1] - _CORNER])

@@ -26,12 +26,14 @@ _PIN = 2.6  # pt
 
 @dataclass(frozen=True)
 class Row:
-    """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks."""
+    """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks; ``vanishes``: the panel
+    stands for nothing, a body without mass."""
 
     title: str
     panels: Sequence[Panel]
     per_newton: float | None
     notes: Sequence[str]
+    vanishes: bool = False
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,9 @@ def _laid(row: Row) -> _Set:
             x += widths[i]
         else:
             y -= high[1] - low[1] + _LINE
+    if row.vanishes:
+        signs.append(np.array([x + _BETWEEN / 2, y - top + _middle(row.panels[0])]))
+        x += _BETWEEN
     depth = -y + (top - bottom if beside else -_LINE)
     width = x if beside else max(w + (_BETWEEN if i else 0.0) for i, w in enumerate(widths))
     return _Set(shifts, signs, np.array([max(width, 90.0), depth + _foot(row)]))
@@ -90,8 +95,8 @@ def _laid(row: Row) -> _Set:
 
 def _middle(panel: Panel) -> float:
     """Height of the middle of what is drawn of the bodies."""
-    ink = panel.scenery.ink()
-    return float((ink[:, 1].min() + ink[:, 1].max()) / 2)
+    heights = np.concatenate([stroke.points[:, 1] for stroke in panel.scenery.strokes] or [np.zeros(1)])
+    return float((heights.min() + heights.max()) / 2)
 
 
 def _foot(row: Row) -> float:
@@ -101,7 +106,7 @@ def _foot(row: Row) -> float:
 def _row(ax: Axes, row: Row, laid: _Set, corner: Array) -> None:
     ax.text(*corner, row.title.replace("$", r"\$"), ha="left", va="top", fontsize=10.5, fontweight="bold", color=INK)
     for sign in laid.signs:
-        ax.text(*(corner + sign), "=", ha="center", va="center", fontsize=16, color=INK)
+        ax.text(*(corner + sign), "= 0" if row.vanishes else "=", ha="center", va="center", fontsize=16, color=INK)
     for panel, shift in zip(row.panels, laid.shifts, strict=True):
         _panel(ax, panel, corner + shift)
     foot = corner - (0.0, laid.size[1] - _foot(row) + 4.0)
@@ -121,7 +126,7 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
         ax.plot(*(line + shift).T, color=INK, lw=1.1, zorder=2.4)
     for dimension in scenery.dimensions:
         ax.plot(*(dimension.guide + shift).T, color=MEASURE, lw=0.7, ls=(0, (4, 3)) if dimension.angle else "-", zorder=3)
-        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, 7.0)
+        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, float(np.clip(0.8 * _length(dimension.arrow), 4.0, 7.0)))
     for pin in scenery.pins:
         ax.plot(*(pin + shift), "o", ms=2 * _PIN, mfc=PAPER, mec=INK, mew=1.0, zorder=4)
     for tag in scenery.points:
@@ -149,6 +154,10 @@ def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> Non
     if len(line) > 2:
         ax.plot(*line[:-1].T, color=colour, lw=width, zorder=5, solid_capstyle="butt")
     ax.annotate("", line[-1], line[-2], arrowprops=look, zorder=5)
+
+
+def _length(line: Array) -> float:
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
 def _axes(ax: Axes, corner: Array) -> None:

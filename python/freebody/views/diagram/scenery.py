@@ -10,19 +10,22 @@ import numpy as np
 
 from freebody.free_body import FreeBodies
 from freebody.instant import State
-from freebody.results import Array, symbol
+from freebody.results import Array
 from freebody.run import Source
+from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
 from freebody.views.measures import measures
 from freebody.views.scene import Scene, Sketch, drawn, sketch_of_state
 from freebody.views.style import colour
 
 SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
-_ROOM = 150.0, 130.0  # pt, what a single body may take
+_ROOM = 130.0, 115.0  # pt, what a single body may take
 _WIDER = 290.0, 210.0  # pt, what a group may take
 _LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
+_FAR = 60.0  # pt, longest arrow of a coordinate on a small body
+_STUB = 26.0  # pt, what is shown of a longer one
 _SOLID = ("body", "block", "band", "mass")
-_CUT = ("pin", "weld", "dash")
+_CUT = ("pin", "weld")
 _PINNED = ("hinge", "link", "slot", "curved_slot", "polar")
 
 
@@ -109,7 +112,9 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     inner = [scale * line for line in _inner(scene, free, group)]
     pins = scale * _pins(source, free, group)
     points = _points(sketch, group, centres, scale)
-    return Scenery(strokes, inner, pins, centres, points, _dimensions(sketch, group, scale, scaled), scale, sketch)
+    across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
+    dimensions = _dimensions(sketch, group, scale, scaled, max(across, _FAR))
+    return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
 def _strokes(scene: Scene, group: Collection[str]) -> list[tuple[Array, str, str, bool]]:
@@ -143,7 +148,7 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
         last, place = name.rpartition(".")[2], scale * sketch.place(name)
         seen = any(np.hypot(*(tag.at - place)) < 1.0 for tag in tags)
         if body in group and last not in UNTOLD and not seen:
-            tags.append(Tag(symbol(last), place))
+            tags.append(Tag(letter(last), place))
     particles = {body["name"] for body in sketch.spec["bodies"] if body["particle"]}
     if len(group) == 1 and not particles & set(group):
         [place] = centres.values()
@@ -152,12 +157,17 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
     return tags
 
 
-def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bool) -> list[Dimension]:
-    """The coordinates that say where the group's bodies are."""
+def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bool, far: float) -> list[Dimension]:
+    """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
     found = []
     for measure in measures(sketch, radius=5.0):
-        if measure.second in group:
-            value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
-            text = symbol(measure.coordinate) + value
-            found.append(Dimension(text, scale * measure.arrow, scale * measure.guide, measure.angle))
+        if measure.second not in group:
+            continue
+        value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
+        arrow, guide = scale * measure.arrow, scale * measure.guide
+        length = float(np.hypot(*(arrow[-1] - arrow[0])))
+        if not measure.angle and length > far:
+            arrow = arrow[-1] + np.array([[_STUB / length], [0.0]]) * (arrow[0] - arrow[-1])
+            guide = arrow[:1].repeat(2, axis=0)
+        found.append(Dimension(letter(measure.coordinate) + value, arrow, guide, measure.angle))
     return found
