@@ -14,19 +14,23 @@ import numpy as np
 
 from freebody.free_body import FreeBodies
 from freebody.instant import State
+from freebody.results import Array
 from freebody.run import Source
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.arrows import LONGEST, Mark
-from freebody.views.diagram.describe import described
+from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark
+from freebody.views.diagram.describe import described, spoken
 from freebody.views.diagram.names import Letters
 from freebody.views.diagram.panel import panel
 from freebody.views.diagram.paper import Row, sheet
-from freebody.views.diagram.scenery import scenery
+from freebody.views.diagram.scenery import Scenery, scenery
 from freebody.views.style import quiet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+_NAMED = 3  # bodies of which the title of a group has the names even where they are all
+_STEP = 1e-3  # m, rad and their rates: enough for a spring at rest to pull
 
 
 @dataclass(frozen=True)
@@ -101,10 +105,60 @@ def diagram(
     effective: bool = True,
 ) -> Diagram:
     """Free-body diagrams of groups of bodies (by default every body by itself) at a state."""
-    letters = Letters(source, free)
+    near = free if scaled else _further(source, state, free)
+    desk = _Desk(source, state, free, near, Letters(source, free), scaled, effective)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    cuts = tuple(_cut(source, state, free, group, letters, scaled, effective) for group in chosen)
-    return Diagram(f"free-body diagrams of {source.name}", cuts)
+    return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
+
+
+@dataclass(frozen=True)
+class _Desk:
+    """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
+
+    source: Source
+    state: State
+    free: FreeBodies
+    near: FreeBodies
+    letters: Letters
+    scaled: bool
+    effective: bool
+
+    def cut(self, group: tuple[str, ...]) -> Cut:
+        """The diagram of a group."""
+        drawn = scenery(self.source, self.state, self.free, group, self.scaled)
+        forces, terms, notes = self._sides(group, drawn)
+        longest = max((action.size for action in forces + terms if not action.turns), default=0.0)
+        per_newton = LONGEST / longest if self.scaled and longest > 0 else None
+        if per_newton is not None:
+            short = [spoken(a.label) for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
+            notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
+        panels = [panel(drawn, forces, group if len(group) > 1 else (), per_newton, axes=True)]
+        if terms:
+            panels.append(panel(drawn.bare(), terms, (), per_newton, axes=False))
+        title = "all bodies" if len(group) == len(self.free.bodies) > _NAMED else " + ".join(group)
+        return Cut(group, Row(title, panels, per_newton, notes, vanishes=self.effective and not terms))
+
+    def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
+        """What acts, m a and I α, and remarks."""
+        if self.scaled:
+            return acting.to_scale(self.free, group, self.letters, drawn.sketch, self.effective)
+        forces = list(acting.symbolic(self.free, self.near, group, self.letters, drawn.sketch))
+        return forces, list(acting.effective(self.free, group, self.letters)) if self.effective else [], []
+
+
+def _further(source: Source, state: State, free: FreeBodies) -> FreeBodies:
+    """The free bodies a little further on in all coordinates and rates; those of now where that has no answer."""
+    from freebody._core import MotionError
+
+    try:
+        return FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q + _uneven(state.q), state.u + _uneven(state.u)))
+    except MotionError:
+        return free
+
+
+def _uneven(row: Array) -> Array:
+    """Small steps, all different, so that differences of coordinates change as well."""
+    return _STEP * (1.0 + np.arange(len(row)) % 7 / 3.0)
 
 
 def groups(of: str | Sequence[str] | None, free: FreeBodies) -> list[tuple[str, ...]] | None:
@@ -123,25 +177,3 @@ def _group(text: str, free: FreeBodies) -> tuple[str, ...]:
         if name not in free.bodies:
             raise ValueError(f"no body is called {name!r}; there are {', '.join(free.bodies)}")
     return tuple(dict.fromkeys(named))
-
-
-def _cut(
-    source: Source, state: State, free: FreeBodies, group: tuple[str, ...], letters: Letters, scaled: bool, effective: bool
-) -> Cut:
-    drawn = scenery(source, state, free, group, scaled)
-    if scaled:
-        forces, notes = acting.to_scale(free, group, letters, drawn.sketch)
-    else:
-        forces, notes = list(acting.symbolic(free, group, letters, drawn.sketch)), []
-    sides = [forces, list(acting.effective(free, group, letters, scaled))] if effective else [forces]
-    per_newton = _per_newton(sides) if scaled else None
-    named = group if len(group) > 1 else ()
-    panels = [panel(drawn, forces, named, per_newton, axes=True)]
-    if effective and sides[1]:
-        panels.append(panel(drawn.bare(), sides[1], (), per_newton, axes=False))
-    return Cut(group, Row(" + ".join(group), panels, per_newton, notes, vanishes=effective and not sides[1]))
-
-
-def _per_newton(sides: Sequence[Sequence[Action]]) -> float | None:
-    largest = max((float(np.hypot(*action.force)) for side in sides for action in side), default=0.0)
-    return LONGEST / largest if largest > 0 else None

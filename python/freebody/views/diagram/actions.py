@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,9 @@ from freebody.views.scene import Sketch
 
 _ROUND_OFF = 1e-9
 """Relative to the largest force of a diagram, below which an arrow would show only round-off."""
+
+_ACROSS = 50.0
+"""Sizes of symbols in a mechanism: how far a force may be from where its moment is taken."""
 
 
 @dataclass(frozen=True)
@@ -39,10 +42,19 @@ class Action:
         """Whether it is a couple."""
         return not self.force.any()
 
+    @property
+    def size(self) -> float:
+        """In N or N·m, to scale."""
+        return abs(self.couple) if self.turns else float(np.hypot(*self.force))
 
-def symbolic(free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> Iterator[Action]:
-    """Every load on a group in the positive sense of its letter."""
+
+def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> Iterator[Action]:
+    """Every load on a group in the positive sense of its letter. ``near``: the same a little further on in all coordinates,
+    where what is 0 now has a direction."""
+    beyond = {load.path: load for load in near.on(*group)}
     for load in free.on(*group):
+        if not load.unknown and not any(any(part.force) or part.couple for part in load.on):
+            load = beyond.get(load.path, load)
         for part in load.on:
             if part.body in group:
                 yield from _positive(load, part, letters.of(load), sketch)
@@ -87,15 +99,35 @@ def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
     return force, couple
 
 
-def to_scale(free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> tuple[list[Action], list[str]]:
-    """What acts on a group at the instant, the components of a pin's force together, and what cannot be drawn, in words."""
+def to_scale(
+    free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch, effective: bool
+) -> tuple[list[Action], list[Action], list[str]]:
+    """What acts on a group at the instant, the components of a pin's force together; m a and I α where asked for; and what
+    cannot be drawn, in words."""
+    loads = free.on(*group)
+    forces = list(_acting(loads, group, letters, sketch))
+    terms = list(_terms(free, group, letters)) if effective else []
+    largest = max((action.size for action in forces + terms if not action.turns), default=0.0)
+    turning = max([action.size for action in forces + terms if action.turns] + [largest * _ACROSS * sketch.size])
+    least = _ROUND_OFF * largest, _ROUND_OFF * turning
+
+    def seen(actions: list[Action]) -> list[Action]:
+        return [action for action in actions if action.size > least[action.turns]]
+
+    shown = {load.symbol for action in seen(forces) for load in action.loads}
+    unknown = [load.symbol for load in loads if not load.determinate]
+    none = [load.symbol for load in loads if load.determinate and load.symbol not in shown]
+    notes = [f"not determined: {', '.join(unknown)}"] * bool(unknown) + [f"{', '.join(none)} = 0"] * bool(none)
+    return [_with_value(a) for a in seen(forces)], [_with_value(a) for a in seen(terms)], notes
+
+
+def _acting(loads: Collection[Load], group: Collection[str], letters: Letters, sketch: Sketch) -> Iterable[Action]:
     found: dict[tuple[str, bool, str], Action] = {}
-    missing = [f"{load.symbol} is not determined" for load in free.on(*group) if not load.determinate]
-    for load in (load for load in free.on(*group) if load.determinate):
+    for load in (load for load in loads if load.determinate):
         for i, part in enumerate(load.on):
-            force, couple = load.value * np.array(part.force), load.value * part.couple
-            if part.body not in group or not (force.any() or couple):
+            if part.body not in group:
                 continue
+            force, couple = load.value * np.array(part.force), load.value * part.couple
             new = Action(
                 load.name, load.kind, letters.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
             )
@@ -103,9 +135,7 @@ def to_scale(free: FreeBodies, group: Collection[str], letters: Letters, sketch:
                 key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
                 if one.force.any() or one.couple:
                     found[key] = _together(found[key], one) if key in found else one
-    largest = max((float(np.hypot(*action.force)) for action in found.values()), default=0.0)
-    kept = [a for a in found.values() if a.turns or np.hypot(*a.force) > _ROUND_OFF * largest]
-    return [_with_value(action) for action in kept], missing
+    return found.values()
 
 
 def _together(first: Action, second: Action) -> Action:
@@ -113,33 +143,35 @@ def _together(first: Action, second: Action) -> Action:
 
 
 def _with_value(action: Action) -> Action:
-    size, unit = (abs(action.couple), r"N\,m") if action.turns else (float(np.hypot(*action.force)), "N")
-    return replace(action, label=rf"{action.label} = {_figure(size)}\ \mathrm{{{unit}}}")
+    unit = r"N\,m" if action.turns else "N"
+    return replace(action, label=rf"{action.label} = {_figure(action.size)}\ \mathrm{{{unit}}}")
 
 
-def effective(free: FreeBodies, group: Collection[str], letters: Letters, scaled: bool) -> Iterator[Action]:
-    """The other side of the balance: m a at every mass centre, I α."""
+def effective(free: FreeBodies, group: Collection[str], letters: Letters) -> Iterator[Action]:
+    """The other side of the balance, symbolic: m a at every mass centre, by components for a body by itself; I α."""
+    for term in _terms(free, group, letters, moving=False):
+        if term.turns:
+            yield replace(term, couple=1.0)
+        elif len(group) > 1:
+            yield replace(term, force=term.force / np.hypot(*term.force))
+        else:
+            for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+                yield replace(term, label=rf"{letters.mass(term.body)}\,a_{part}", force=np.array(way))
+
+
+def _terms(free: FreeBodies, group: Collection[str], letters: Letters, moving: bool = True) -> Iterator[Action]:
+    """m a and I α of every body, those that are 0 at the instant left out or, unless ``moving``, in any direction."""
+    alone = len(group) == 1
     for name in group:
         body = free.bodies[name]
-        at, mass = np.array(body.G), letters.mass(name)
-        plain = Action(name, "effective", "", name, at, np.zeros(2))
-        if scaled:
-            force, couple = body.mass * np.array(body.a), body.inertia * body.alpha
-            vector = replace(plain, label=rf"{mass}\,{letters.acceleration(name)}", force=force)
-            terms = [
-                vector,
-                replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name, len(group) == 1)}", couple=couple),
-            ]
-            yield from (_with_value(term) for term in terms if term.force.any() or term.couple)
-            continue
-        if body.mass and len(group) == 1:
-            for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-                yield replace(plain, label=rf"{mass}\,{letters.acceleration(name, part)}", force=np.array(way))
-        elif body.mass:
-            way = np.array(body.a) if np.any(body.a) else np.array([1.0, 1.0])
-            yield replace(plain, label=rf"{mass}\,{letters.acceleration(name)}", force=way / np.hypot(*way))
-        if body.inertia and not body.particle:
-            yield replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name, len(group) == 1)}", couple=1.0)
+        plain = Action(name, "effective", "", name, np.array(body.G), np.zeros(2))
+        a = np.array(body.a) if moving or np.any(body.a) else np.array([1.0, 1.0])
+        if body.mass and a.any():
+            yield replace(plain, label=rf"{letters.mass(name)}\,{letters.acceleration(name, alone)}", force=body.mass * a)
+        alpha = body.alpha if moving else 1.0
+        if body.inertia and not body.particle and alpha:
+            label = rf"{letters.inertia(name)}\,{letters.angular(name, alone)}"
+            yield replace(plain, label=label, couple=body.inertia * alpha)
 
 
 def _figure(value: float) -> str:

@@ -69,9 +69,9 @@ class Letters:
         """The letter of a body's inertia about its mass centre."""
         return self._said(body, "inertia", "I")
 
-    def acceleration(self, body: str, part: str = "") -> str:
-        """``a_x``, ``a_y`` of the mass centre on the diagram of a body by itself, the vector of one among several."""
-        return f"a_{part}" if part else _joined(r"\mathbf{a}", "" if len(self._heavy) == 1 else _subscript(body))
+    def acceleration(self, body: str, alone: bool) -> str:
+        """The acceleration of a body's mass centre, by itself or among several."""
+        return r"\mathbf{a}" if alone or len(self._heavy) == 1 else _joined(r"\mathbf{a}", _subscript(body))
 
     def angular(self, body: str, alone: bool) -> str:
         """The angular acceleration of a body, by itself or among several."""
@@ -86,9 +86,11 @@ class Letters:
 
 
 def letter(name: str) -> str:
-    """``m2`` → ``m_{2}``, ``m_rod`` → ``m_{\\mathrm{rod}}``."""
+    """``m2`` → ``m_{2}``, ``mA`` → ``m_{A}``, ``m_rod`` → ``m_{\\mathrm{rod}}``."""
     if "[" in name and "." not in name:
         return _joined(*_owner(name))
+    if len(name) == 2 and name.isalpha() and name[0].isupper() != name[1].isupper():
+        return _joined(name[0], name[1])
     head, _, tail = name.partition("_")
     return _joined(symbol(head), roman(tail.replace("_", " "))) if tail and not tail.isdigit() else symbol(name)
 

@@ -48,7 +48,7 @@ def panel(scenery: Scenery, actions: Sequence[Action], names: Sequence[str], per
     marks = arranged(actions, scenery, per_newton)
     strokes, arrows = scenery.ink(), dense(lines(marks), 1.5)
     dots = np.array([tag.at for tag in scenery.points]).reshape(-1, 2)
-    ink = Ink.of((strokes, 2.0), (arrows, 6.0), (dots, 8.0), (scenery.pins, 8.0))
+    ink = Ink.of((strokes, 2.0), (arrows, 15.0), (dots, 8.0), (scenery.pins, 8.0))
     labels = placed([*_letters(marks), *_others(scenery, names)], ink)
     rough = Panel(scenery, marks, labels, None)
     return Panel(scenery, marks, labels, _corner(rough, np.vstack([strokes, arrows])) if axes else None)
@@ -88,6 +88,9 @@ def _corner(rough: Panel, ink: Array) -> Array:
     for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
         start, end = at - 4, at + _CORNER
         written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
-        if not written and not ((ink > start) & (ink < end)).all(axis=1).any():
+        covered = ((ink > start) & (ink < end)).all(axis=1).any() or rough.scenery.within(
+            np.array([start, end, (start + end) / 2])
+        )
+        if not written and not covered:
             return at
     return np.array([low[0], low[1] - _CORNER])

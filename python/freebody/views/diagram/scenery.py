@@ -12,6 +12,7 @@ from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.results import Array
 from freebody.run import Source
+from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
 from freebody.views.measures import measures
@@ -20,7 +21,8 @@ from freebody.views.style import colour
 
 SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
 _ROOM = 130.0, 115.0  # pt, what a single body may take
-_WIDER = 290.0, 210.0  # pt, what a group may take
+_WIDER = 260.0, 160.0  # pt, what two or three may take
+_WIDEST = 380.0, 260.0  # pt, what more may take
 _LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
 _FAR = 60.0  # pt, longest arrow of a coordinate on a small body
 _STUB = 26.0  # pt, what is shown of a longer one
@@ -49,11 +51,11 @@ class Tag:
 
 @dataclass(frozen=True)
 class Dimension:
-    """A coordinate on paper: its arrow (k, 2) and a guide (2, 2)."""
+    """A coordinate on paper: its arrow (k, 2) and guides (2, 2)."""
 
     text: str
     arrow: Array
-    guide: Array
+    guides: list[Array]
     angle: bool
 
 
@@ -83,10 +85,21 @@ class Scenery:
         """Outlines of what is solid."""
         return [stroke.points for stroke in self.strokes if stroke.style in _SOLID]
 
+    def slides(self, action: Action) -> bool:
+        """Whether it is the force of a slider, which has no point of its own."""
+        kinds = {joint["name"]: joint["type"] for joint in self.sketch.about["joints"]}
+        return action.kind == "joint" and kinds[action.name] == "slider"
+
+    def within(self, places: Array) -> bool:
+        """Whether any of some places (k, 2) is on a body."""
+        from matplotlib.path import Path
+
+        return any(Path(outline).contains_points(places).any() for outline in self.solids)
+
     def ink(self) -> Array:
         """Places (k, 2) all along what is drawn, a few pt apart."""
         lines = [np.vstack([s.points, s.points[:1]]) if s.closed else s.points for s in self.strokes]
-        lines += self.inner + [d.arrow for d in self.dimensions] + [d.guide for d in self.dimensions]
+        lines += self.inner + [d.arrow for d in self.dimensions] + [guide for d in self.dimensions for guide in d.guides]
         return dense(lines)
 
 
@@ -98,7 +111,7 @@ def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
 
 def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool) -> Scenery:
     """The bodies of a group as large as the paper allows."""
-    room = _ROOM if len(group) == 1 else _WIDER
+    room = _ROOM if len(group) == 1 else _WIDER if len(group) < 4 else _WIDEST
     sketch = sketch_of_state(source, state)
     scene, whole = drawn(sketch), sketch.size
     for _ in range(2):  # the thickness of slender parts depends on the scale, and the extent on it
@@ -110,7 +123,7 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     strokes = [Drawn(style, scale * points, tint, closed) for points, style, tint, closed in _strokes(scene, group)]
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
     inner = [scale * line for line in _inner(scene, free, group)]
-    pins = scale * _pins(source, free, group)
+    pins = scale * _pins(sketch, free, group)
     points = _points(sketch, group, centres, scale)
     across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
     dimensions = _dimensions(sketch, group, scale, scaled, max(across, _FAR))
@@ -134,11 +147,12 @@ def _inner(scene: Scene, free: FreeBodies, group: Collection[str]) -> list[Array
     return lines + [cord.path[0] for cord in scene.cords if cord.name in inside and cord.shown[0]]
 
 
-def _pins(source: Source, free: FreeBodies, group: Collection[str]) -> Array:
+def _pins(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> Array:
     """Where the group's bodies are pinned, to each other or to others, (k, 2) in m."""
-    kinds = {joint["name"]: joint["type"] for joint in source.about["joints"]}
-    parts = [p for load in free.loads if kinds.get(load.name) in _PINNED for p in load.on if p.body in group]
-    return np.array([part.point for part in parts]).reshape(-1, 2)
+    kinds = {joint["name"]: joint["type"] for joint in sketch.about["joints"]}
+    cut = [(load, part) for load in free.loads if kinds.get(load.name) in _PINNED for part in load.on]
+    places = [attached(load, part, sketch) for load, part in cut if part.body in group]
+    return np.unique(np.round(np.reshape(places, (-1, 2)), 12), axis=0)
 
 
 def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], scale: float) -> list[Tag]:
@@ -164,10 +178,15 @@ def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bo
         if measure.second not in group:
             continue
         value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
-        arrow, guide = scale * measure.arrow, scale * measure.guide
+        arrow, guides = scale * measure.arrow, [scale * measure.guide]
         length = float(np.hypot(*(arrow[-1] - arrow[0])))
-        if not measure.angle and length > far:
-            arrow = arrow[-1] + np.array([[_STUB / length], [0.0]]) * (arrow[0] - arrow[-1])
-            guide = arrow[:1].repeat(2, axis=0)
-        found.append(Dimension(letter(measure.coordinate) + value, arrow, guide, measure.angle))
+        aside = scale * measure.place - guides[0][0]
+        if measure.angle and measure.first not in group and np.hypot(*aside) > 1.0:
+            # The vertex is not on these bodies: the same angle at what they are held by.
+            end = arrow[-1] - guides[0][0]
+            guides = [guides[0] + aside, scale * measure.place + np.outer([0.0, 1.25], end)]
+            arrow = arrow + aside
+        elif not measure.angle and length > far:
+            arrow, guides = arrow[-1] + np.array([[_STUB / length], [0.0]]) * (arrow[0] - arrow[-1]), []
+        found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle))
     return found
