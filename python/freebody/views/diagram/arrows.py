@@ -71,7 +71,7 @@ def _arrow(action: Action, scenery: Scenery, marks: Sequence[Mark], per_newton: 
     at, size = scenery.place(action.at), float(np.hypot(*action.force))
     way = action.force / size
     lengths = [LENGTH * more for more in _LONGER] if per_newton is None else [max(per_newton * size, SHORTEST)]
-    asides = _ASIDES if scenery.slides(action) else (0.0,)
+    asides = _ASIDES if per_newton is None and scenery.slides(action) else (0.0,)
     starts = [at + aside * np.array([-way[1], way[0]]) for aside in asides]
     choices = [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
     if action.kind not in ("weight", "effective"):

@@ -88,7 +88,8 @@ class Letters:
 def letter(name: str) -> str:
     """``m2`` → ``m_{2}``, ``mA`` → ``m_{A}``, ``m_rod`` → ``m_{\\mathrm{rod}}``."""
     if "[" in name and "." not in name:
-        return _joined(*_owner(name))
+        stem, index = _split(name)
+        return _joined(symbol(stem), index)
     if len(name) == 2 and name.isalpha() and name[0].isupper() != name[1].isupper():
         return _joined(name[0], name[1])
     head, _, tail = name.partition("_")

@@ -95,8 +95,8 @@ def _laid(row: Row) -> _Set:
         else:
             y -= high[1] - low[1] + _LINE
     if row.vanishes:
-        signs.append(np.array([x + _BETWEEN / 2, y - top + _middle(row.panels[0])]))
-        x += _BETWEEN
+        signs.append(np.array([x + _BETWEEN, y - top + _middle(row.panels[0])]))
+        x += 2 * _BETWEEN
     depth = -y + (top - bottom if beside else -_LINE)
     width = x if beside else max(w + (_BETWEEN if i else 0.0) for i, w in enumerate(widths))
     written = [extent(row.title, _TITLE, True)[0], *(extent(note, _NOTE)[0] for note in row.lines)]
@@ -155,7 +155,7 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
 
 def _write(ax: Axes, text: str, at: Array, size: float, colour: str, bold: bool = False) -> None:
     weight = "bold" if bold else "normal"
-    ax.text(*at, text, fontsize=size, color=colour, fontweight=weight, ha="center", va="center", zorder=6, gid="label")
+    ax.text(*at, text, fontsize=size, color=colour, fontweight=weight, ha="center", va="center", zorder=6, label="label")
 
 
 def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> None:
