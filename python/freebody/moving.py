@@ -140,7 +140,8 @@ class Moving:
         """Free-body diagrams: symbolic, with letters in their positive sense, or ``to_scale``, with what acts.
 
         ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
-        by itself. Drawn is the start with ``changes`` (as in ``solve``), or a time ``at`` of the motion (s, or ``"200 ms"``).
+        by itself. Drawn is the start with ``changes`` (as in ``solve``), or a time ``at`` of the motion (s, or ``"200 ms"``;
+        0 is after the events at the start).
         ``effective`` draws m a and I α beside. Raises ``ValueError`` for a body that is none and for a time that the motion
         does not reach.
         """
@@ -152,14 +153,16 @@ class Moving:
         return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective)
 
     def _instant_at(self: Builder, at: float | str) -> Instant:
-        """The motion at a time."""
+        """The motion at a time, after what happens then; at its start after the events there."""
         from freebody.model.start import evaluate
 
         t = evaluate(at, {})
-        run = self.simulate(t)
+        run = self.simulate(t) if t > 0 else self.opening()
+        if run is None:
+            return self.solve()
         if run.outcome.t < t:
             raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
-        return run.instant(t)
+        return run.instant(max(t, 0.0))
 
     def source(self: Builder, notes: Sequence[str] = ()) -> Source:
         """The compiled mechanism with all that views want to know of it."""
