@@ -12,7 +12,8 @@ from freebody.results import roman, symbol
 from freebody.run import Source
 
 _COMPONENTS = {"Fx": "x", "Fy": "y"}
-_STEMS = {"Fn": "N", "Fs": "F", "M": "M", "N": "N", "T": "F", "tension": "T", "F": "F"}
+_WORDS = {"normal force": "N", "friction force": "F", "tooth force": "F", "couple": "M"}
+_STEMS = {"F": "N", "N": "N", "T": "F", "tension": "T"}  # F1, F2: rollers
 _ALONE = ("joint", "contact", "string", "friction")
 _TURNING = ("torque", "torsion_spring")
 _PLAIN = re.compile(r"[^\W\d]\w*")
@@ -52,12 +53,12 @@ class Letters:
 
     def _stem(self, load: Load) -> tuple[str, str]:
         """A letter for what kind of load it is, and its number among several of one name."""
+        if load.component in _WORDS:
+            return _WORDS[load.component], ""
         found = re.fullmatch(r"(.*?)(\d*)", load.symbol.rpartition(".")[2])
         assert found
         if found[1] in _STEMS:
-            return ("N" if "roller" in (load.component or "") else _STEMS[found[1]]), found[2] if "tooth" not in str(
-                load.component
-            ) else ""
+            return _STEMS[found[1]], found[2]
         turns = any(part.couple for part in load.on) and not any(any(part.force) for part in load.on)
         return ("M" if turns or self._forces.get(load.name, {}).get("type") in _TURNING else "F"), ""
 
@@ -81,7 +82,7 @@ class Letters:
         told: Any = self._bodies.get(body)
         value = told.get(what) if isinstance(told, dict) else None
         if isinstance(value, str) and _PLAIN.fullmatch(value):
-            return letter(value)
+            return _joined(stem, value[1]) if len(value) == 2 and value[0] == stem else letter(value)
         return stem if len(self._heavy) == 1 else _joined(stem, _subscript(body))
 
 

@@ -12,6 +12,7 @@ from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.results import Array
 from freebody.run import Source
+from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
@@ -26,6 +27,8 @@ _WIDEST = 380.0, 260.0  # pt, what more may take
 _LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
 _FAR = 60.0  # pt, longest arrow of a coordinate on a small body
 _STUB = 26.0  # pt, what is shown of a longer one
+_BESIDE = 8.0  # pt from its body at which a force hangs in the air
+_LOOSE = ("rail", "slot", "hatch")
 _SOLID = ("body", "block", "band", "mass")
 _CUT = ("pin", "weld")
 _PINNED = ("hinge", "link", "slot", "curved_slot", "polar")
@@ -33,12 +36,13 @@ _PINNED = ("hinge", "link", "slot", "curved_slot", "polar")
 
 @dataclass(frozen=True)
 class Drawn:
-    """A stroke on paper: style of ``Stroke``, points (k, 2), colour of its body."""
+    """A stroke on paper: style of ``Stroke``, points (k, 2), colour and name of its body."""
 
     style: str
     points: Array
     tint: str
     closed: bool
+    body: str
 
 
 @dataclass(frozen=True)
@@ -92,15 +96,29 @@ class Scenery:
 
     def within(self, places: Array) -> bool:
         """Whether any of some places (k, 2) is on a body."""
-        from matplotlib.path import Path
-
-        return any(Path(outline).contains_points(places).any() for outline in self.solids)
+        return any(_contains(outline, places) for outline in self.solids)
 
     def ink(self) -> Array:
         """Places (k, 2) all along what is drawn, a few pt apart."""
-        lines = [np.vstack([s.points, s.points[:1]]) if s.closed else s.points for s in self.strokes]
-        lines += self.inner + [d.arrow for d in self.dimensions] + [guide for d in self.dimensions for guide in d.guides]
+        lines = (
+            [closed(stroke) for stroke in self.strokes]
+            + self.inner
+            + [d.arrow for d in self.dimensions]
+            + [guide for d in self.dimensions for guide in d.guides]
+        )
         return dense(lines)
+
+
+def closed(stroke: Drawn) -> Array:
+    """The line (k, 2) of a stroke."""
+    return np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
+
+
+def _contains(outline: Array, places: Array) -> bool:
+    """Whether any of some places (k, 2) is within an outline."""
+    from matplotlib.path import Path
+
+    return bool(Path(outline).contains_points(places).any())
 
 
 def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
@@ -115,12 +133,13 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     sketch = sketch_of_state(source, state)
     scene, whole = drawn(sketch), sketch.size
     for _ in range(2):  # the thickness of slender parts depends on the scale, and the extent on it
-        extent = np.ptp(np.vstack([points for points, *_ in _strokes(scene, group)] or [np.zeros((1, 2))]), axis=0)
+        extent = np.ptp(np.vstack([stroke.points for stroke in _strokes(scene, group, 1.0)] or [np.zeros((1, 2))]), axis=0)
         scale = float(min([size / along for size, along in zip(room, extent, strict=True) if along > 0] + [_LARGEST / whole]))
         sketch = sketch_of_state(source, state)
         sketch.size = SYMBOL / scale
         scene = drawn(sketch)
-    strokes = [Drawn(style, scale * points, tint, closed) for points, style, tint, closed in _strokes(scene, group)]
+    strokes = _strokes(scene, group, scale)
+    strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
     inner = [scale * line for line in _inner(scene, free, group)]
     pins = scale * _pins(sketch, free, group)
@@ -130,14 +149,31 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
-def _strokes(scene: Scene, group: Collection[str]) -> list[tuple[Array, str, str, bool]]:
-    """Place, style, colour and whether closed, of all strokes of the group's bodies but the symbols of joints."""
+def _strokes(scene: Scene, group: Collection[str], scale: float) -> list[Drawn]:
+    """All strokes of the group's bodies but the symbols of joints."""
     return [
-        (scene.place(i, stroke.points), stroke.style, colour(i - 1), stroke.closed)
+        Drawn(stroke.style, scale * scene.place(i, stroke.points), colour(i - 1), stroke.closed, figure.name)
         for i, figure in enumerate(scene.figures)
         for stroke in figure.strokes
         if figure.name in group and stroke.style not in _CUT
     ]
+
+
+def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collection[str], scale: float) -> list[Drawn]:
+    """An arm of its body to every force that would hang in the air."""
+    arms = []
+    cuts = [(load, part) for load in free.loads for part in load.on if part.body in group and any(part.force)]
+    for load, part in cuts:
+        own = [stroke for stroke in strokes if stroke.body == part.body and stroke.style not in _LOOSE]
+        solid = [stroke for stroke in own if stroke.style in _SOLID]
+        at, seen = scale * attached(load, part, sketch), dense([closed(stroke) for stroke in own])
+        if not solid or any(_contains(stroke.points, at[None]) for stroke in solid):
+            continue
+        gaps = np.hypot(*(seen - at).T)
+        if gaps.min() > _BESIDE:
+            outline = shapes.rounded_hull(np.array([seen[gaps.argmin()], at]), 0.6 * SYMBOL)
+            arms.append(Drawn("body", outline, solid[0].tint, True, part.body))
+    return arms
 
 
 def _inner(scene: Scene, free: FreeBodies, group: Collection[str]) -> list[Array]:
