@@ -7,6 +7,7 @@ use freebody::assembly::{assemble, Wish};
 use freebody::balance::{Balance, Observer, Route, Trouble};
 use freebody::compile::Compiled;
 use freebody::gauges::Law;
+use freebody::letters::{answer, Question, Setting};
 use freebody::simulation::{simulate, Rule, Settings, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -131,6 +132,35 @@ impl Mechanism {
         Ok(Instant::new(&m, solved, &freedom))
     }
 
+    /// Bodies and loads of the free-body diagrams at a state, in numbers, as JSON.
+    fn free_bodies(
+        &self,
+        p: PyReadonlyArray1<f64>,
+        t: f64,
+        q: PyReadonlyArray1<f64>,
+        u: PyReadonlyArray1<f64>,
+    ) -> PyResult<String> {
+        let m = self.0.mechanism();
+        let mut balance = self.placed(&m, &p, t, &q, &u)?;
+        Ok(freebody::free_bodies::free_bodies(&mut balance).map_err(errors::motion)?.to_string())
+    }
+
+    /// Answers in letters to questions about a state: `setting` and `questions` as JSON, the answers as JSON.
+    fn letters(
+        &self,
+        p: PyReadonlyArray1<f64>,
+        t: f64,
+        q: PyReadonlyArray1<f64>,
+        u: PyReadonlyArray1<f64>,
+        setting: &str,
+        questions: &str,
+    ) -> PyResult<String> {
+        let m = self.0.mechanism();
+        let mut balance = self.placed(&m, &p, t, &q, &u)?;
+        let (setting, questions) = self::questions(setting, questions)?;
+        Ok(answer(&mut balance, &setting, &questions).map_err(errors::motion)?.to_string())
+    }
+
     fn evaluate<'py>(
         &self,
         py: Python<'py>,
@@ -238,6 +268,12 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
         None => Ok(true),
         Some(call) => Ok(call.call1(py, (now,))?.extract::<bool>(py).unwrap_or(true)),
     }
+}
+
+/// A setting and questions in letters, from JSON.
+pub fn questions(setting: &str, questions: &str) -> PyResult<(Setting, Vec<Question>)> {
+    let wrong = |e: serde_json::Error| errors::motion(Trouble::new("wrong_question", e.to_string()));
+    Ok((serde_json::from_str(setting).map_err(wrong)?, serde_json::from_str(questions).map_err(wrong)?))
 }
 
 /// The route of a word.

@@ -128,12 +128,12 @@ class Fake:
         a, values = solved[: 3 * len(names)], solved[3 * len(names) :]
         coordinates = [f"{name}.{part}" for name in names for part in ("x", "y", "angle")]
         bodies = []
-        for i, (name, b) in enumerate(self.bodies.items()):
+        for i, (body, b) in enumerate(self.bodies.items()):
             own = slice(3 * i, 3 * i + 3)
-            by = {coordinates[3 * i + k]: [float(k == j) for j in range(3)] for k in range(3)}
+            by = {name: [float(k == 3 * i + j) for j in range(3)] for k, name in enumerate(coordinates)}
             place = {"at": list(b["G"]), "angle": float(b["angle"]), "G": list(b["G"])}
             motion = {"v": list(v[own][:2]), "omega": v[own][2], "a": list(a[own][:2]), "alpha": a[own][2]}
-            plain = {"name": name, "particle": False, "mass": b["mass"], "inertia": b["inertia"]}
+            plain = {"name": body, "particle": False, "mass": b["mass"], "inertia": b["inertia"]}
             bodies.append({**plain, **place, **motion, "by_accelerations": by, "drift": [0.0, 0.0, 0.0]})
         loads = [
             {**x, "unknown": True, "value": float(y), "determinate": True} for x, y in zip(self.unknown, values, strict=True)
@@ -213,4 +213,45 @@ def slider_crank(rng, driven=True):
     fake.slider("slide", "ground", "block", B, (1.0, 0.0))
     if driven:
         fake.motor("T", "ground", "crank", rng.normal())
+    return fake
+
+
+def branched(rng, driven=True):
+    """A rod on a pin, two more hung from its far end and one from its middle."""
+    fake = Fake(rng)
+    far = turned(rng.normal(), [1.0, 0.0])
+    fake.rod("beam", (0, 0), far, 2.0)
+    fake.hinge("O", "ground", "beam", (0, 0))
+    for name, at in (("left", far), ("right", far), ("middle", 0.4 * far)):
+        fake.rod(name, at, at + turned(rng.normal() - 1.5, [0.8, 0.0]), 1.0)
+        fake.hinge(f"pin of {name}", "beam", name, at)
+    if driven:
+        fake.motor("T", "ground", "beam", rng.normal())
+        fake.motor("S", "beam", "left", rng.normal())
+    return fake
+
+
+def watt(rng, driven=True):
+    """A four-bar and a dyad from its coupler to ground."""
+    fake = four_bar(rng, driven)
+    coupler = fake.bodies["coupler"]
+    D = coupler["G"] + turned(coupler["angle"], [0.1, 0.4])
+    F = np.array([2.5, 0.2])
+    E = np.array([2.2, 1.6]) + rng.normal(scale=0.1, size=2)
+    fake.rod("arm", D, E, 1.0)
+    fake.rod("lever", F, E, 1.2)
+    fake.hinge("D", "coupler", "arm", D)
+    fake.hinge("E", "arm", "lever", E)
+    fake.hinge("F", "ground", "lever", F)
+    return fake
+
+
+def car_on_slope(rng):
+    """A block that slides on a slope and carries a rod on a pin."""
+    fake, s = Fake(rng), rng.normal()
+    at = turned(0.4, [s, 0.3])
+    fake.body("block", at, 0.4, 2.0, 0.2)
+    fake.slider("slope", "ground", "block", turned(0.4, [s, 0.0]), turned(0.4, [1.0, 0.0]))
+    fake.rod("rod", at, at + turned(rng.normal(), [1.0, 0.0]), 1.0)
+    fake.hinge("pin", "block", "rod", at)
     return fake
