@@ -122,3 +122,24 @@ def test_labels_of_one_place_make_room_for_each_other():
 @pytest.mark.parametrize(("value", "bar"), [(7.3, 5), (1.0, 1), (0.3, 0.2), (99, 50), (1e-3, 1e-3)])
 def test_a_scale_bar_is_of_a_round_number(value, bar):
     assert round_below(value) == pytest.approx(bar)
+
+
+def test_a_time_of_the_motion(gun):
+    [then] = gun.diagram("collar", at="0.5 s", to_scale=True).cuts
+    run = gun.simulate("0.5 s")
+    [normal] = then.forces
+    size = np.hypot(*(normal.head - normal.tail)) / then.row.per_newton
+    assert size == pytest.approx(abs(run.evaluate("track.Fn", 0.5)), rel=1e-9)
+
+
+def test_what_was_released_acts_no_more():
+    m = Mechanism("two carts, released at the start", gravity=0)
+    bodies = [m.particle(name, mass=1) for name in ("a", "b")]
+    m.free(m.ground.O, bodies[0].centre, coordinates=["xa", "ya"])
+    m.free(m.ground.O, bodies[1].centre, coordinates=["xb", "yb"])
+    m.link(bodies[0].centre, bodies[1].centre, name="bar", length=1)
+    m.event("cut", at="start", then={"release": "bar"})
+    m.initial(xb=1)
+    before, after = m.diagram("a").cuts[0], m.diagram("a", at=0).cuts[0]
+    assert [mark.action.name for mark in before.forces] == ["bar"]
+    assert after.forces == []
