@@ -1,0 +1,123 @@
+"""The two linear systems of generated code, read from the core: the equations of the coordinates, and the balances of all bodies."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from freebody.equations.letters import Letter, Letters
+from freebody.equations.tree import ZERO, Sym, Tree, negative, read
+from freebody.free_body import FreeBodies
+from freebody.instant import State
+from freebody.source import Source
+
+_COMPONENTS = {"x": "force along x", "y": "force along y"}
+_NUMBERS = {"m": "mass", "I": "inertia about the mass centre"}
+Matrix = tuple[tuple[Tree, ...], ...]
+Row = tuple[Tree, ...]
+
+
+@dataclass(frozen=True)
+class Linear:
+    """An expression that vanishes: Σ ``factors[x]`` x + ``rest`` over what is unknown."""
+
+    factors: Mapping[Sym, Tree]
+    rest: Tree
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Linear:
+        """From an answer of the core."""
+        return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
+
+
+@dataclass(frozen=True)
+class Systems:
+    """The equations of a mechanism as they are written into code; each vanishes.
+
+    ``moving`` one for every coordinate: the balance of what it carries; ``rows`` what loops and motions ask of the accelerations;
+    ``balances`` force along x and y, and moment about the mass centre, body by body. ``values`` are those of the parameters."""
+
+    name: str
+    letters: Letters
+    values: Mapping[str, float]
+    moving: tuple[Linear, ...]
+    rows: tuple[Linear, ...]
+    balances: tuple[Linear, ...]
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names, in the order of the state."""
+        return tuple(self.letters.of_kind("coordinate"))
+
+    @property
+    def loads(self) -> tuple[str, ...]:
+        """Names of what is unknown besides the accelerations: all reactions, and what motions take."""
+        return tuple(self.letters.of_kind("unknown"))
+
+    @property
+    def multipliers(self) -> tuple[str, ...]:
+        """The loads that are in the equations of the coordinates: those of what closes loops, and of motions."""
+        return tuple(name for name in self.loads if any(Sym(name) in equation.factors for equation in self.moving))
+
+    def functions(self) -> dict[str, Row | Matrix]:
+        """Trees of the generated functions: M q̈ = f + C λ with J q̈ + h = 0, and A x = b for x = (q̈, loads)."""
+        accelerations = [Sym(name, 2) for name in self.coordinates]
+        loads, multipliers = ([Sym(name) for name in names] for names in (self.loads, self.multipliers))
+        found: dict[str, Row | Matrix] = {
+            "mass_matrix": _matrix(self.moving, accelerations),
+            "right_hand_side": tuple(negative(equation.rest) for equation in self.moving),
+        }
+        if self.rows:
+            found["multiplier_matrix"] = tuple(tuple(map(negative, row)) for row in _matrix(self.moving, multipliers))
+            found["constraint_jacobian"] = _matrix(self.rows, accelerations)
+            found["constraint_bias"] = tuple(row.rest for row in self.rows)
+        every = (*self.balances, *self.rows)
+        found["balance_matrix"] = _matrix(every, [*accelerations, *loads])
+        found["balance_right_hand_side"] = tuple(negative(equation.rest) for equation in every)
+        return found
+
+
+def systems(source: Source, state: State) -> Systems:
+    """The equations of a mechanism near a state. Raises ``_core.MotionError``."""
+    free = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
+    coordinates = source.about["coordinates"]
+    cut = [{"ask": "equation", "bodies": [body.name], **how} for body in free.bodies.values() for how in _ways(body.particle)]
+    asked = [{"ask": "rows"}, *({"ask": "coordinate", "name": c["name"]} for c in coordinates), *cut]
+    told = json.loads(source.core.letters(state.p, state.t, state.q, state.u, "{}", json.dumps(asked)))
+    rows, *equations = told["answers"]
+    found = [Linear.read(equation["linear"]) for equation in equations]
+    letters = _letters(source, free, told["letters"])
+    values = {name: told["letters"][name]["value"] for name in letters.of_kind("parameter", "constant")}
+    moving, balances = tuple(found[: len(coordinates)]), tuple(found[len(coordinates) :])
+    return Systems(source.name, letters, values, moving, tuple(Linear.read(row["linear"]) for row in rows), balances)
+
+
+def _ways(particle: bool) -> list[dict[str, str]]:
+    return [{"along": "x"}, {"along": "y"}] + ([] if particle else [{"about": "centre"}])
+
+
+def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
+    return tuple(tuple(equation.factors.get(letter, ZERO) for letter in unknowns) for equation in equations)
+
+
+def _letters(source: Source, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
+    """All letters in the order of the model: coordinates, parameters, numbers without a name, unknown loads, time."""
+    found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in source.about["coordinates"]]
+    given = {item["name"]: item["value"] for item in json.loads(source.spec)["parameters"]}
+    for name in (p["name"] for p in source.about["parameters"]):
+        formula = f"{given[name]} in the model, here a number of its own" if isinstance(given.get(name), str) else ""
+        found.append(Letter(name, "parameter", table[name]["unit"], formula))
+    unnamed = (name for name, entry in table.items() if entry["kind"] == "number")
+    found += [Letter(name, "constant", table[name]["unit"], _number(name)) for name in unnamed]
+    for load in (load for load in free.loads if load.unknown and not load.follows):
+        component = load.component and _COMPONENTS.get(load.component, load.component)
+        doc = f"what {load.name} takes" if component is None else f"{component} of {load.name} on {load.of[-1]}, from {load.of[0]}"
+        found.append(Letter(load.symbol, "unknown", "", doc))
+    return Letters({letter.name: letter for letter in (*found, Letter("t", "time", "s"))})
+
+
+def _number(name: str) -> str:
+    stem, _, body = name.partition("_")
+    return f"{_NUMBERS[stem]} of {body}" if body else "gravity"
