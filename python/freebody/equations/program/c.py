@@ -130,5 +130,6 @@ def _names(systems: Systems) -> str:
 
 
 def _array(what: str, entries: list[tuple[str, str]]) -> str:
-    lines = [f"    {entry}, /* {comment} */\n" if comment else f"    {entry},\n" for entry, comment in entries]
+    safe = [(entry, comment.replace("*/", "* /")) for entry, comment in entries]
+    lines = [f"    {entry}, /* {comment} */\n" if comment else f"    {entry},\n" for entry, comment in safe]
     return f"{what}[] = {{\n{''.join(lines)}}};"

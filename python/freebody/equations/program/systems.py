@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.tree import ZERO, Sym, Tree, negative, read
-from freebody.free_body import FreeBodies
+from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.source import Source
 
@@ -104,18 +105,26 @@ def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
 
 def _letters(source: Source, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
     """All letters in the order of the model: coordinates, parameters, numbers without a name, unknown loads, time."""
-    found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in source.about["coordinates"]]
+    about = source.about
+    found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in about["coordinates"]]
     given = {item["name"]: item["value"] for item in json.loads(source.spec)["parameters"]}
-    for name in (p["name"] for p in source.about["parameters"]):
-        formula = f"{given[name]} in the model, here a number of its own" if isinstance(given.get(name), str) else ""
-        found.append(Letter(name, "parameter", table[name]["unit"], formula))
+    found += [Letter(name, "parameter", table[name]["unit"], _formula(value, given)) for name, value in given.items()]
     unnamed = (name for name, entry in table.items() if entry["kind"] == "number")
     found += [Letter(name, "constant", table[name]["unit"], _number(name)) for name in unnamed]
-    for load in (load for load in free.loads if load.unknown and not load.follows):
-        component = load.component and _COMPONENTS.get(load.component, load.component)
-        doc = f"what {load.name} takes" if component is None else f"{component} of {load.name} on {load.of[-1]}, from {load.of[0]}"
-        found.append(Letter(load.symbol, "unknown", "", doc))
+    found += [Letter(load.symbol, "unknown", "", _said(load)) for load in free.loads if load.unknown and not load.follows]
     return Letters({letter.name: letter for letter in (*found, Letter("t", "time", "s"))})
+
+
+def _formula(value: str | float, names: Collection[str]) -> str:
+    """What a parameter depends on in the model: in generated code every parameter is free."""
+    depends = isinstance(value, str) and set(re.findall(r"[^\W\d][\w.]*", value)) & set(names)
+    return f"{value} in the model, here a number of its own" if depends else ""
+
+
+def _said(load: Load) -> str:
+    if load.component is None:
+        return f"what {load.name} takes"
+    return f"{_COMPONENTS.get(load.component, load.component)} of {load.name} on {load.of[-1]}, from {load.of[0]}"
 
 
 def _number(name: str) -> str:
