@@ -6,7 +6,7 @@ import ctypes
 import json
 import shutil
 import subprocess
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -52,7 +52,7 @@ def in_c(mechanism: fb.Mechanism, python: SimpleNamespace, folder: Path) -> Simp
     source.write_text(mechanism.code(language="c"), encoding="utf-8")
     subprocess.run([COMPILER, *FLAGS, str(source), "-o", str(library), "-lm"], check=True, capture_output=True)
     loaded = ctypes.CDLL(str(library))
-    n, l, m = (len(getattr(python, word, ())) for word in ("COORDINATES", "LOADS", "MULTIPLIERS"))  # noqa: E741
+    n, l, m = (len(getattr(python, word, ())) for word in ("COORDINATES", "LOADS", "MULTIPLIERS"))
     sizes = {"n": n, "l": l, "m": m, "a": n + l}
     found = {
         name: _called(getattr(loaded, name), tuple(sizes[s] for s in shape))
@@ -97,13 +97,12 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
     names = [c["name"] for c in source.about["coordinates"]]
     nominal = dict(zip((each["name"] for each in source.about["parameters"]), start.p, strict=True))
     unnamed = in_python(path).DEFAULTS[len(start.p) :]
-    free = core.instant(start.p, start.t, start.q, start.u)
-    closed, freedom = bool(json.loads(core.free_bodies(start.p, start.t, start.q, start.u))["rows"]), _freedom(free)
+    loose = _loose(source, FreeBodies.read(core.free_bodies(start.p, start.t, start.q, start.u)))
     found = tries = 0
     while found < count:
         tries += 1
         assert tries < 40 * count, f"{path}: {found} states in {tries - 1} tries"
-        spread = 0.1 if closed else 0.3
+        spread = 0.3 if loose is None else 0.1
         changed = {
             n: nominal[n] * rng.uniform(1 - spread, 1 + spread) for n, value in given.items() if not isinstance(value, str)
         }
@@ -111,8 +110,9 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
         q, u = start.q + rng.uniform(-0.5, 0.5, len(names)), rng.uniform(-3, 3, len(names))
         try:
             p = core.bind(changed)
-            if closed:
-                q, u = _assembled(core, p, t, names, q, u, freedom)
+            if loose is not None:
+                rates = {name: rate for name, rate in zip(names, u, strict=True) if name in loose}
+                q, u, _ = core.assemble(p, t, guess=dict(zip(names, q, strict=True)), rates=rates)
             free = FreeBodies.read(core.free_bodies(p, t, q, u))
             yield State(q=q, u=u, t=t, p=p, all=np.concatenate([p, unnamed]), now=core.instant(p, t, q, u), free=free)
             found += 1
@@ -120,13 +120,14 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
             continue
 
 
-def _assembled(core: Any, p: Any, t: float, names: list[str], q: Any, u: Any, freedom: int) -> tuple[Any, Any]:
-    """A state on the closed loops near q, with rates as far as they are free."""
-    guess, rates = dict(zip(names, q, strict=True)), dict(zip(names[:freedom], u[:freedom], strict=True))
-    q, u, _ = core.assemble(p, t, guess=guess, rates=rates)
-    return q, u
-
-
-def _freedom(instant: Any) -> int:
-    told: Mapping[str, Any] = json.loads(instant.rank)
-    return int(told["freedom"])
+def _loose(source: Any, free: FreeBodies) -> list[str] | None:
+    """Coordinates whose rates can be chosen freely, where loops or motions hold others; None where all can."""
+    if not free.rows:
+        return None
+    names, held = (
+        [c["name"] for c in source.about["coordinates"]],
+        [m for m in source.about["motions"] if m["level"] != "acceleration"],
+    )
+    matrix = np.array([[row.coefficients.get(name, 0.0) for name in names] for row in free.rows])
+    rank = np.linalg.matrix_rank(matrix) - (len(source.about["motions"]) - len(held))
+    return [name for name in names if name not in {m["of"] for m in held}][: len(names) - rank]

@@ -1,4 +1,4 @@
-"""The two linear systems of generated code, read from the core: the equations of the coordinates, and the balances of all bodies."""
+"""The two linear systems of generated code, read from the core: Lagrange's equations, and the balances of all bodies."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from freebody.equations.letters import Letter, Letters
-from freebody.equations.tree import ZERO, Sym, Tree, negative, read
+from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.source import Source
 
 _COMPONENTS = {"x": "force along x", "y": "force along y"}
 _NUMBERS = {"m": "mass", "I": "inertia about the mass centre"}
+_NOT_ZERO = 1e-6
 Matrix = tuple[tuple[Tree, ...], ...]
 Row = tuple[Tree, ...]
 
@@ -32,12 +35,25 @@ class Linear:
         """From an answer of the core."""
         return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
 
+    @classmethod
+    def collected(cls, tree: Tree, unknowns: Collection[Sym]) -> Linear:
+        """Of a sum that has one term for every unknown."""
+        factors: dict[Sym, Tree] = {}
+        rest = []
+        for term in tree.terms if isinstance(tree, Add) else (tree,):
+            parts = term.factors if isinstance(term, Mul) else (term,)
+            if found := [part for part in parts if part in unknowns]:
+                factors[found[0]] = mul(*(part for part in parts if part != found[0]))
+            else:
+                rest.append(term)
+        return cls(factors, add(*rest))
+
 
 @dataclass(frozen=True)
 class Systems:
     """The equations of a mechanism as they are written into code; each vanishes.
 
-    ``moving`` one for every coordinate: the balance of what it carries; ``rows`` what loops and motions ask of the accelerations;
+    ``moving`` those of Lagrange, one for every coordinate; ``rows`` what loops and motions ask of the accelerations;
     ``balances`` force along x and y, and moment about the mass centre, body by body. ``values`` are those of the parameters."""
 
     name: str
@@ -82,17 +98,24 @@ class Systems:
 
 def systems(source: Source, state: State) -> Systems:
     """The equations of a mechanism near a state. Raises ``_core.MotionError``."""
-    free = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
-    coordinates = source.about["coordinates"]
+    # The core leaves out what a parameter makes 0, like a weight without g; in code the parameter is free.
+    p = np.where(state.p == 0.0, _NOT_ZERO, state.p)
+    free = FreeBodies.read(source.core.free_bodies(p, state.t, state.q, state.u))
     cut = [{"ask": "equation", "bodies": [body.name], **how} for body in free.bodies.values() for how in _ways(body.particle)]
-    asked = [{"ask": "rows"}, *({"ask": "coordinate", "name": c["name"]} for c in coordinates), *cut]
-    told = json.loads(source.core.letters(state.p, state.t, state.q, state.u, "{}", json.dumps(asked)))
-    rows, *equations = told["answers"]
-    found = [Linear.read(equation["linear"]) for equation in equations]
+    asked = json.dumps([{"ask": "rows"}, {"ask": "lagrange"}, *cut])
+    told = json.loads(source.core.letters(p, state.t, state.q, state.u, "{}", asked))
+    rows, lagrange, *balances = told["answers"]
     letters = _letters(source, free, told["letters"])
+    unknowns = {*(Sym(name, 2) for name in letters.of_kind("coordinate")), *map(Sym, letters.of_kind("unknown"))}
     values = {name: told["letters"][name]["value"] for name in letters.of_kind("parameter", "constant")}
-    moving, balances = tuple(found[: len(coordinates)]), tuple(found[len(coordinates) :])
-    return Systems(source.name, letters, values, moving, tuple(Linear.read(row["linear"]) for row in rows), balances)
+    return Systems(
+        source.name,
+        letters,
+        values | dict(zip((each["name"] for each in source.about["parameters"]), state.p.tolist(), strict=True)),
+        tuple(Linear.collected(read(each["residual"]), unknowns) for each in lagrange["equations"]),
+        tuple(Linear.read(row["linear"]) for row in rows),
+        tuple(Linear.read(each["linear"]) for each in balances),
+    )
 
 
 def _ways(particle: bool) -> list[dict[str, str]]:
