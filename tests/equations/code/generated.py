@@ -122,12 +122,10 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
 
 def _loose(source: Any, free: FreeBodies) -> list[str] | None:
     """Coordinates whose rates can be chosen freely, where loops or motions hold others; None where all can."""
+    motions = json.loads(source.spec)["motions"]
     if not free.rows:
         return None
-    names, held = (
-        [c["name"] for c in source.about["coordinates"]],
-        [m for m in source.about["motions"] if m["level"] != "acceleration"],
-    )
+    names, held = [c["name"] for c in source.about["coordinates"]], [m["of"] for m in motions if m["level"] != "acceleration"]
     matrix = np.array([[row.coefficients.get(name, 0.0) for name in names] for row in free.rows])
-    rank = np.linalg.matrix_rank(matrix) - (len(source.about["motions"]) - len(held))
-    return [name for name in names if name not in {m["of"] for m in held}][: len(names) - rank]
+    rank = np.linalg.matrix_rank(matrix) - (len(motions) - len(held))
+    return [name for name in names if name not in held][: len(names) - rank]
