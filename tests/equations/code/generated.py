@@ -103,8 +103,11 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
         tries += 1
         assert tries < 40 * count, f"{path}: {found} states in {tries - 1} tries"
         spread = 0.3 if loose is None else 0.1
+        zeros = 0.1 * (found % 2)  # what is 0 in the model is so at every other state
         changed = {
-            n: nominal[n] * rng.uniform(1 - spread, 1 + spread) for n, value in given.items() if not isinstance(value, str)
+            n: (nominal[n] or zeros) * rng.uniform(1 - spread, 1 + spread)
+            for n, value in given.items()
+            if not isinstance(value, str)
         }
         t = start.t + rng.uniform(0, 0.5)
         q, u = start.q + rng.uniform(-0.5, 0.5, len(names)), rng.uniform(-3, 3, len(names))
