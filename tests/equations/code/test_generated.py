@@ -139,10 +139,12 @@ def test_numbers_that_the_model_leaves_without_a_name_are_parameters():
     text = (ROOT / "examples/four_bar.yaml").read_text(encoding="utf-8")
     python = in_python("examples/four_bar.yaml")
     assert {"g", "m_crank", "m_coupler", "m_rocker"} <= set(python.PARAMETERS)
-    other = fb.Mechanism.loads(f"{text}\ngravity: 3.7")
+    heavier = text.replace("length: b, mass: 1 kg", "length: b, mass: 1.3 kg")
+    assert heavier != text
+    other = fb.Mechanism.loads(f"{heavier}\ngravity: 3.7")
     state, _ = other.start()
     there = other.compile().instant(state.p, state.t, state.q, state.u).accelerations
-    p = np.array(list((python.PARAMETERS | {"g": 3.7}).values()))
+    p = np.array(list((python.PARAMETERS | {"g": 3.7, "m_coupler": 1.3}).values()))
     assert agree(python.accelerations(state.q, state.u, p, state.t), there)
 
 
