@@ -26,5 +26,9 @@ def program(source: Source, state: State, language: str = "python") -> str:
         raise ValueError(f"language {language!r} is unknown; there are {', '.join(LANGUAGES)}")
     check(source, FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u)))
     found = systems(source, state)
+    if not found.is_square:
+        raise CannotGenerate(
+            "loops and motions ask more of the accelerations than their loads can give; release a joint or a motion"
+        )
     functions = generate(found.functions(), found.letters, {"python": "numpy"}.get(language, language))
     return f"{functions}\n\n{_SOLVERS[language](found)}" if language == "python" else f"{functions}\n{_SOLVERS[language](found)}"

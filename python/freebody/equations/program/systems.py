@@ -78,6 +78,12 @@ class Systems:
         """The loads that are in the equations of the coordinates: those of what closes loops, and of motions."""
         return tuple(name for name in self.loads if any(Sym(name) in equation.factors for equation in self.moving))
 
+    @property
+    def is_square(self) -> bool:
+        """Whether there are as many equations as unknowns."""
+        closed = len(self.multipliers) == len(self.rows)
+        return closed and len(self.balances) + len(self.rows) == len(self.coordinates) + len(self.loads)
+
     def functions(self) -> dict[str, Row | Matrix]:
         """Trees of the generated functions: M q̈ = f + C λ with J q̈ + h = 0, and A x = b for x = (q̈, loads)."""
         accelerations = [Sym(name, 2) for name in self.coordinates]
