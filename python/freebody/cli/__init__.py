@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from freebody.cli.code import code
 from freebody.cli.mistakes import Guarded, Mistake
 
 if TYPE_CHECKING:
@@ -193,6 +194,9 @@ def systems(
         show.show_summary(results)
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(BAD_END)
+
+
+app.command()(code)
 
 
 @app.command()
