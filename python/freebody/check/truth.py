@@ -27,6 +27,8 @@ _TRIES = 40  # for one sample; a four-bar with random bars closes in about one o
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 _FACTOR = (0.3, 3.0)
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
+_RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
+_STEPS = 2000  # of a run, which is short
 _STEP = 1e-6  # of central differences of gaps, relative to the size of the model
 
 
@@ -180,7 +182,7 @@ class Truth:
         return Sample(state, self._run(state, 1e-6 / self.rate))
 
     def _run(self, state: State, until: float) -> Any:
-        return self.core.simulate(state.p, state.t, state.q, state.u, state.t + until, rtol=1e-11)
+        return self.core.simulate(state.p, state.t, state.q, state.u, state.t + until, rtol=_RTOL, max_steps=_STEPS)
 
     @cached_property
     def length(self) -> float:
@@ -227,7 +229,7 @@ class Truth:
             try:
                 values = self._parameters(rng, family)
                 made = self._on_a_run(rng, values, family) if self.restricted else self._anywhere(rng, values, family)
-            except (_core.MotionError, Complaint, ZeroDivisionError):
+            except (_core.MotionError, _core.ModelError, Complaint, ZeroDivisionError):
                 continue
             if made is not None:
                 return made
