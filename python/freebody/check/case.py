@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from .language.evaluate import Array
 from .language.nodes import Equation, Program, inlined
 from .residual import Residual, residual, unreached
 from .truth import ALL, SAMPLES, Family, NoMotion, Samples, Truth
+from .vocabulary import Vocabulary
 
-Meaning = Callable[[Samples], Mapping[str, Array]]
-"""The value of every letter on true states, by ``Letter.key``."""
+
+
+class Meaning(Protocol):
+    """What the letters of a statement are."""
+
+    @property
+    def vocabulary(self) -> Vocabulary:
+        """The letters that a true equation may be written in."""
+
+    def values(self, samples: Samples) -> Mapping[str, Array]:
+        """The value of every letter on true states, by ``Letter.key``."""
 
 
 @dataclass
@@ -37,7 +48,7 @@ class Case:
         """The letters on true states of a family. Raises ``NoMotion``."""
         key = (family or self.hypothesis, fresh, count)
         if key not in self.known:
-            self.known[key] = self.meaning(self.samples(family, fresh, count))
+            self.known[key] = self.meaning.values(self.samples(family, fresh, count))
         return self.known[key]
 
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:

@@ -7,12 +7,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from .edits import Edit, depth
 from .language.evaluate import Array, evaluate
-from .language.nodes import Equation, Letter, Negative, Node, Number, Power, Product, Quotient, Sum, Unit, letters, replace
+from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Product, Quotient, Sum, letters, replace, walk
 from .language.nodes import terms as terms_of
 from .needed import Need, needs
 from .vocabulary import Powers, Vocabulary, dimension
@@ -52,7 +53,7 @@ class Fits:
         """Single edits found by solving for each part; ``terms``: missing and other terms, too."""
         with np.errstate(all="ignore"):
             for need in needs(equation, self.values):
-                yield from self._numbers(equation, need)
+                yield from self._leaves(equation, need)
                 if need.addend:
                     yield from self._factors(equation, need)
                     if terms:
@@ -60,11 +61,22 @@ class Fits:
                 if terms and (isinstance(need.node, Sum) or need.node in (equation.left, equation.right)):
                     yield from self._missing(equation, need)
 
-    def _numbers(self, equation: Equation, need: Need) -> Iterator[Edit]:
-        """A number that should be another."""
+    def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        """A number that should be another, a letter or a function that should be a letter of another kind."""
         if isinstance(need.node, Number) and (found := _constant(need.needed)) is not None:
             if (number := recognised(found)) is not None:
                 yield Edit("factor", need.node, number, replace(equation, need.node, number))
+        if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
+            for letter in self._letters:
+                if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
+                    new = Letter(letter.name, letter.dots, span=need.node.span)
+                    yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+
+    @cached_property
+    def _letters(self) -> list[Letter]:
+        known = self.vocabulary
+        moving = [Letter(q.name, dots) for q in known.coordinates for dots in range(3)]
+        return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
 
     def _factors(self, equation: Equation, need: Need) -> Iterator[Edit]:
         factor = need.factor
@@ -75,7 +87,8 @@ class Fits:
             number = recognised(found)
             if number is not None and found not in (0, 1, -1):
                 new = multiplied(need.node, number)
-                yield Edit("factor", need.node, new, replace(equation, need.node, new))
+                own = 0.05 if any(isinstance(n, Number) for n in walk(need.node)) else 0.0
+                yield Edit("factor", need.node, new, replace(equation, need.node, new), own)
             return
         for size, new in self._monomials(need.node, factor, equation):
             yield Edit("missing factor", need.node, new, replace(equation, need.node, new), 0.2 * (size - 1))
@@ -195,6 +208,13 @@ def multiplied(node: Node, number: Node) -> Node:
         return node
     if number == Number(-1.0):
         return Negative(node)
+    if isinstance(node, Negative):
+        return Negative(multiplied(node.of, number), span=node.span)
+    if (own := _own_number(node)) is not None:
+        first, *rest = own
+        together = recognised(first.value * float(evaluate(number, {})[0]))
+        if together is not None:
+            return multiplied(rest[0] if len(rest) == 1 else Product(tuple(rest), span=node.span), together)
     if isinstance(number, Quotient) and isinstance(number.top, Number) and number.top.value < 0:
         return Negative(multiplied(node, Quotient(Number(-number.top.value, number.top.text.lstrip("-")), number.bottom)))
     if isinstance(number, Number) and number.value < 0:
@@ -202,6 +222,11 @@ def multiplied(node: Node, number: Node) -> Node:
     if isinstance(number, Quotient) and number.top == Number(1.0):
         return Quotient(node, number.bottom, span=node.span)
     return Product((number, *(node.factors if isinstance(node, Product) else (node,))), span=node.span)
+
+
+def _own_number(node: Node) -> tuple[Any, ...] | None:
+    """The factors of a product that begins with a number."""
+    return node.factors if isinstance(node, Product) and isinstance(node.factors[0], Number) else None
 
 
 def powered(node: Node, number: Node, chosen: Sequence[tuple[Letter, int]]) -> Node:
@@ -222,4 +247,3 @@ def powered(node: Node, number: Node, chosen: Sequence[tuple[Letter, int]]) -> N
     return multiplied(top, number)
 
 
-__all__ = ["Fits", "Power", "Unit", "multiplied", "powered", "recognised"]

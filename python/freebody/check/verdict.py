@@ -206,9 +206,9 @@ def _text(case: Case, equation: Equation) -> str:
 
 
 def _spelled(case: Case, node: Any) -> str:
-    from .spelling import spelled
+    from .language.spelling import spell
 
-    return spelled(node)
+    return spell(node)
 
 
 def _plain(value: Any) -> str:
@@ -217,4 +217,3 @@ def _plain(value: Any) -> str:
     return f"{value:.6g}"
 
 
-__all__ = ["Evidence", "Kind", "StatementError", "Verdict", "judged", "judged_one"]
