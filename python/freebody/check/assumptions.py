@@ -17,6 +17,7 @@ from .truth import Family, NoMotion
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
+_STATES = 24
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
 
 
@@ -27,7 +28,7 @@ def assumption(case: Case, equation: Equation) -> tuple[str, Family] | None:
     """
     for words, family in _assumptions(case):
         try:
-            if case.holds(equation, family, HOLDS):
+            if _holds(case, equation, family):
                 return words, family
         except (StatementError, _core.ModelError):
             continue
@@ -38,6 +39,15 @@ def assumption(case: Case, equation: Equation) -> tuple[str, Family] | None:
         except (NoMotion, StatementError, _core.ModelError):
             continue
     return None
+
+
+def _holds(case: Case, equation: Equation, family: Family) -> bool:
+    """Whether an equation holds in a family of which there are motions, every term of it taking part."""
+    try:
+        values = case.values(family, count=_STATES)
+    except NoMotion:
+        return False
+    return residual(equation, values).worst < HOLDS and not unreached(equation, values)
 
 
 def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
@@ -72,7 +82,7 @@ def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:
 
 def _tends(case: Case, equation: Equation, families: tuple[Family, ...]) -> bool:
     """Whether the residual vanishes in a limit in which every term still takes part."""
-    near, far = (case.values(family) for family in families)
+    near, far = (case.values(family, count=_STATES) for family in families)
     sizes = [float(np.median(np.abs(residual(equation, values).ratio).max(axis=1))) for values in (near, far)]
     if not sizes[0] < _SLOPE or not sizes[1] < max(_SLOPE * sizes[0], HOLDS):
         return False

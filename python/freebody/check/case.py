@@ -8,7 +8,7 @@ from typing import Protocol
 
 from .language.evaluate import Array
 from .language.nodes import Equation, Program, inlined
-from .residual import Residual, residual, unreached
+from .residual import Residual, residual
 from .truth import ALL, SAMPLES, Family, NoMotion, Samples, Truth
 from .vocabulary import Vocabulary
 
@@ -54,11 +54,3 @@ class Case:
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""
         return residual(equation, self.values(family, fresh))
-
-    def holds(self, equation: Equation, family: Family, limit: float, everywhere: bool = True) -> bool:
-        """Whether an equation holds in a family of which there are motions, every term of it taking part."""
-        try:
-            values = self.values(family)
-        except NoMotion:
-            return False
-        return residual(equation, values).worst < limit and not (everywhere and unreached(equation, values))

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
 
 SAMPLES = 64
 _TRIES = 40  # for one sample; a four-bar with random bars closes in about one of three
+_PATIENCE = 6  # samples, of which one at least must be found
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
+_FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
@@ -217,12 +219,21 @@ class Truth:
         """True states of a family; ``fresh`` other than 0 gives others than before. Raises ``NoMotion``."""
         key = (family, 1000 * fresh + count)
         if key not in self._families:
-            rng = np.random.default_rng([self.seed, fresh])
-            found = [sample for _ in range(count) if (sample := self._sample(rng, family)) is not None]
-            if len(found) < min(8, count):
-                raise NoMotion(f"{len(found)} true states were found in {count * _TRIES} attempts, too few to judge by")
-            self._families[key] = Samples(self.core, found, self.parameter_names)
+            self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh), self.parameter_names)
+        if not self._families[key].samples:
+            raise NoMotion("no motion of this model was found that is not singular, on a limit or of another mode than its start")
         return self._families[key]
+
+    def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[Sample]:
+        """``count`` samples; none where the first ones already fail."""
+        rng = np.random.default_rng([self.seed, fresh])
+        found: list[Sample] = []
+        for i in range(count):
+            if i == _PATIENCE and not found:
+                return []
+            if (sample := self._sample(rng, family)) is not None:
+                found.append(sample)
+        return found if len(found) >= min(_PATIENCE, count) else []
 
     def _sample(self, rng: np.random.Generator, family: Family) -> Sample | None:
         for _ in range(_TRIES):
@@ -270,7 +281,8 @@ class Truth:
         solved = self.core.instant(p, t, q, u)
         if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
             return None
-        good = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all()
+        sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
+        good = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(u) < _FAST * sizes)
         return Sample(State(p, t, q, u)) if good else None
 
     @cached_property

@@ -94,6 +94,10 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         found = case.residual(equation)
     except NoMotion as error:
         return Verdict(Kind.UNDECIDABLE, text, str(error))
+    except StatementError as error:
+        if any(n.key not in case.values() for n in letters(equation)):
+            raise error.within(case.program.text) from None
+        return Verdict(Kind.DIMENSIONS, text, error.what, mends=tuple(mends(case, equation)))
     if np.isnan(found.worst):
         return Verdict(Kind.UNDECIDABLE, text, _valueless(case, equation))
     if equation.relation != "=":
