@@ -33,7 +33,7 @@ from .spelling import spell
 Known = Dimension | None
 """A dimension; None fits any: 0, a figure with a decimal point, what is made of figures alone."""
 
-Shape = Known | tuple[tuple[Known, ...], ...]
+Shape = Known | list[list[Known]]
 """Of a number or vector one dimension, of a matrix one for each entry."""
 
 _DIRECTIONS = {"i", "j", "k"}
@@ -60,31 +60,30 @@ class DimensionError(StatementError):
         return error
 
 
-def check_dimensions(program: Program, units_of_letters: Mapping[str, str]) -> None:
+def check_dimensions(program: Program, units_of_letters: Mapping[str, str | Dimension]) -> None:
     """Raises ``DimensionError`` at the first two terms that do not go together.
 
-    ``units_of_letters``: SI unit of each letter by its name, ``""`` for plain numbers and directions. A rate has that of its
+    ``units_of_letters``: dimension or unit of each letter by its name, ``""`` for plain numbers and directions. A rate has that of its
     letter by second; a letter that is not listed fits anything.
     """
-    known = dict(units_of_letters)
     names: dict[Letter, Shape] = {}
     try:
         for line in program.lines:
             if isinstance(line, Assignment):
-                names[line.name] = _Reader(known, names).of(line.expression)
+                names[line.name] = _Reader(units_of_letters, names).of(line.expression)
         for line in program.equations:
-            _Reader(known, names).equation(line)
+            _Reader(units_of_letters, names).equation(line)
     except StatementError as error:
         raise error.within(program.text) from None
 
 
-def dimensions(node: Node, units_of_letters: Mapping[str, str]) -> Shape:
+def dimensions(node: Node, units_of_letters: Mapping[str, str | Dimension]) -> Shape:
     """The dimension of an expression, None where any fits; of a matrix, by entries. Raises ``DimensionError``."""
     return _Reader(units_of_letters, {}).of(node)
 
 
 class _Reader:
-    def __init__(self, units_of_letters: Mapping[str, str], names: Mapping[Letter, Shape]) -> None:
+    def __init__(self, units_of_letters: Mapping[str, str | Dimension], names: Mapping[Letter, Shape]) -> None:
         self.units, self.names = units_of_letters, names
 
     def equation(self, equation: Equation) -> None:
@@ -121,9 +120,9 @@ class _Reader:
             case Call(function=function, arguments=arguments):
                 return self.call(function, arguments)
             case Column(items=items):
-                return tuple((_scalar(self.of(item)),) for item in items)
+                return [[_scalar(self.of(item))] for item in items]
             case Matrix(rows=rows):
-                return tuple(tuple(_scalar(self.of(item)) for item in row) for row in rows)
+                return [[_scalar(self.of(item)) for item in row] for row in rows]
         raise TypeError(f"{type(node).__name__} has no dimension")
 
     def letter(self, letter: Letter) -> Shape:
@@ -131,20 +130,22 @@ class _Reader:
             return self.names[letter]
         for name, dots in ((letter.key, 0), (letter.name, letter.dots)):
             if name in self.units:
-                return unit(self.units[name]).dimension.times(Dimension(time=1), -dots)
+                given = self.units[name]
+                dimension = unit(given).dimension if isinstance(given, str) else given
+                return dimension.times(Dimension(time=1), -dots)
         return None
 
     def agreed(self, found: Sequence[tuple[Node, Shape]]) -> Shape:
         """The common shape of terms."""
-        matrices = [(node, shape) for node, shape in found if isinstance(shape, tuple)]
+        matrices = [(node, shape) for node, shape in found if isinstance(shape, list)]
         if not matrices:
             return self.common([(node, shape) for node, shape in found if isinstance(shape, Dimension)])
         first = matrices[0][1]
         same = [(node, shape) for node, shape in matrices if [len(r) for r in shape] == [len(r) for r in first]]
-        return tuple(
-            tuple(self.common([(node, d) for node, s in same if (d := s[r][c]) is not None]) for c in range(len(row)))
+        return [
+            [self.common([(node, d) for node, s in same if (d := s[r][c]) is not None]) for c in range(len(row))]
             for r, row in enumerate(first)
-        )
+        ]
 
     def common(self, found: Sequence[tuple[Node, Dimension]]) -> Known:
         """The one dimension of all; the fewest that differ are to blame, of equally many the last."""
@@ -162,15 +163,15 @@ class _Reader:
         out: Shape = NUMBER_ONLY
         for factor in factors:
             shape = self.of(factor)
-            if isinstance(out, tuple) and isinstance(shape, tuple) and len(out[0]) == len(shape):
+            if isinstance(out, list) and isinstance(shape, list) and len(out[0]) == len(shape):
                 out = self.matrix_product(out, shape, factor)
-            elif isinstance(shape, tuple):
+            elif isinstance(shape, list):
                 out = _times(shape, _scalar(out))
             else:
                 out = _times(out, shape)
         return out
 
-    def matrix_product(self, a: tuple[tuple[Known, ...], ...], b: tuple[tuple[Known, ...], ...], at: Node) -> Shape:
+    def matrix_product(self, a: list[list[Known]], b: list[list[Known]], at: Node) -> Shape:
         """Row times column: its products have one dimension."""
         out = []
         for row in a:
@@ -182,8 +183,8 @@ class _Reader:
                     words = " and ".join(dict.fromkeys(p.words() for p in known))
                     raise StatementError(f"a row of the matrix times this column adds {words}", at.span)
                 entries.append(known[0] if known else None)
-            out.append(tuple(entries))
-        return tuple(out)
+            out.append(entries)
+        return out
 
     def power(self, base: Node, exponent: Node) -> Shape:
         power = _whole(exponent)
@@ -208,13 +209,13 @@ class _Reader:
 
 
 def _scalar(shape: Shape) -> Known:
-    return None if isinstance(shape, tuple) else shape
+    return shape if isinstance(shape, Dimension) else None
 
 
 def _times(a: Shape, b: Shape, power: int = 1) -> Shape:
     """A product with a power of a dimension, entry by entry."""
-    if isinstance(a, tuple):
-        return tuple(tuple(_scalar(_times(x, b, power)) for x in row) for row in a)
+    if isinstance(a, list):
+        return [[_scalar(_times(x, b, power)) for x in row] for row in a]
     return a.times(b, power) if isinstance(a, Dimension) and isinstance(b, Dimension) else None
 
 

@@ -20,6 +20,7 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 
 from ...model import units
+from ...model.errors import Complaint
 from .alphabet import folded
 from .errors import Span, StatementError
 from .evaluate import ARGUMENTS
@@ -50,7 +51,7 @@ _ADDS = ("+", "-")
 _SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
 _BEGINS = ("number", "letter", "function", "(", "[", "{", "frac", "matrix[", "|")
 _CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
-_UNIT = re.compile(r"\s*([^\W\d_]+|°)((?:\s*[·*/]?\s*(?:[^\W\d_]+|°)|\^-?\d|[²³])*)")
+_UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"\s*[·*/]?\s*(?:[^\W\d_]+|°)(?:\^-?\d|[²³])?")
 
 
@@ -421,17 +422,23 @@ class _Parser:
         if not (isinstance(before, Number) or after_bracket) or not (self.names.known or self.now.text == "°"):
             return None
         start = self.row[self.at - 1].span[1]
+        if upright := _UPRIGHT.match(self.text, start):
+            return self.unit_of(upright[1].replace("\\cdot", "·"), start, upright.end())
         for end in reversed(self.unit_ends(start)):
             written = self.text[start:end].strip()
-            try:
-                size = float(units.unit(written).size)
-            except units.Complaint:
-                continue
-            if all(self.names.find(folded(w)) for w in re.findall(r"[^\W\d_²³]+|°", written)):
-                continue
-            self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
-            return Unit(size, written, span=(end - len(written), end))
+            known = all(self.names.find(folded(w)) for w in re.findall(r"[^\W\d_²³]+|°", written))
+            if not known and (found := self.unit_of(written, start, end)):
+                return found
         return None
+
+    def unit_of(self, written: str, start: int, end: int) -> Unit | None:
+        """The unit that a text is, read up to ``end``; None where it is none."""
+        try:
+            size = float(units.unit(written).size)
+        except Complaint:
+            return None
+        self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
+        return Unit(size, written.strip(), span=(start, end))
 
     def unit_ends(self, start: int) -> list[int]:
         """Where a unit that starts here can end: only where tokens do."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Sequence
+import unicodedata
+from collections.abc import Callable, Sequence
 
 from .alphabet import SIGNS
 from .nodes import (
@@ -117,7 +119,7 @@ def _row(items: Sequence[Node]) -> str:
     return ", ".join(_plain(item, _SUM) for item in items)
 
 
-def _signed(terms: Sequence[Node], spelled) -> str:
+def _signed(terms: Sequence[Node], spelled: Callable[[Node], str]) -> str:
     """Terms with their signs between them."""
     out = ""
     for term in terms:
@@ -139,7 +141,7 @@ def _letter(letter: Letter) -> str:
     """``thetaddot``; a name with signs in it has its dots on top: Ḣ/E."""
     if re.fullmatch(r"\w+'*", letter.name):
         return letter.key
-    return letter.name[0] + _MARKS[letter.dots] + letter.name[1:]
+    return unicodedata.normalize("NFC", letter.name[0] + _MARKS[letter.dots] + letter.name[1:])
 
 
 # --- LaTeX ---------------------------------------------------------------------------------------
@@ -197,7 +199,7 @@ def _tex_arguments(arguments: Sequence[Node]) -> str:
 def _tex_times(factors: Sequence[Node]) -> str:
     """Factors with thin spaces; a dot between figures."""
     out = _tex(factors[0], _FACTOR if isinstance(factors[0], Product) else _PRODUCT)
-    for before, factor in zip(factors, factors[1:], strict=False):
+    for before, factor in itertools.pairwise(factors):
         figures = isinstance(factor, Number) or (isinstance(factor, Power) and isinstance(factor.base, Number))
         between = r" \cdot " if figures and isinstance(before, Number) else r"\,"
         out += between + _tex(factor, _FACTOR)
