@@ -92,7 +92,7 @@ parameters: {m: 2 kg, r: 0.3 m, a: 25 deg, g: 9.81 m/s^2}
 gravity: g
 bodies: {disk: {shape: disk, radius: r, mass: m}}
 joints: {contact: {type: rolling, circle: {centre: disk.centre, radius: r}, on: {through: ground.O, angle: -a}}}
-initial: {at_rest: true, guess: {disk.y: 0.3}}
+initial: {at_rest: true, guess: {contact.s: 0}}
 """
 
 ARM = """

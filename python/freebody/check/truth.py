@@ -30,6 +30,7 @@ _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
+_NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _STEPS = 2000  # of a run, which is short
 _STEP = 1e-6  # of central differences of gaps, relative to the size of the model
 
@@ -72,6 +73,7 @@ class Samples:
     samples: list[Sample]
     names: list[str]
     known: dict[str, Array] = field(default_factory=dict)
+    weighed: dict[str, tuple[Array, Array]] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -89,6 +91,15 @@ class Samples:
         if sample.motion is not None:
             return sample.motion.evaluate(texts, np.array([state.t]))[0]
         return self.core.evaluate(texts, state.p, state.t, state.q, state.u)
+
+    def masses(self) -> dict[str, tuple[Array, Array]]:
+        """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
+        if not self.weighed:
+            told = [json.loads(self.core.free_bodies(s.state.p, s.state.t, s.state.q, s.state.u))["bodies"] for s in self.samples]
+            for i, body in enumerate(told[0]):
+                mass, inertia = (np.array([row[i][word] or 0.0 for row in told]) for word in ("mass", "inertia"))
+                self.weighed[body["name"]] = mass, inertia
+        return self.weighed
 
     def parameters(self, k: int) -> dict[str, float]:
         """The parameters of sample ``k`` by name, SI."""
@@ -171,6 +182,12 @@ class Truth:
     @cached_property
     def _sticky(self) -> list[str]:
         return [j["name"] for j in self.spec["joints"] if j.get("friction")]
+
+    @cached_property
+    def _rubbing(self) -> list[str]:
+        """The rates at which joints with friction slide."""
+        first = {j["name"]: j["coordinates"][0] for j in self.about["joints"] if j["coordinates"]}
+        return [f"rate({quote(first[name])})" for name in self._sticky if name in first]
 
     def _started(self, parameters: Mapping[str, float]) -> State:
         words = initial_state(self.start, self.core, parameters)
@@ -311,7 +328,7 @@ class Truth:
     def _on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
         """A state on a run from the model's start with random numbers and admissible rates, as long as nothing switches."""
         state = self._started(values)
-        late = 0.0 if family.at_rest else self._time(rng) / 3
+        late = 0.0 if family.at_rest else _NEAR * rng.random() / self.rate
         if family.at_rest:
             state = State(state.p, state.t, state.q, np.zeros_like(state.u))
         elif rng.random() < 0.7:
@@ -365,8 +382,9 @@ class Truth:
             (x["state"], np.sign(round(x["friction"] or 0.0, 12)) if x["state"] == "sliding" else 0)
             for x in json.loads(solved.limits)
         )
-        rubs = motion.evaluate([f"{quote(name)}.friction" for name in self._sticky], np.array([t]))[0] if self._sticky else []
-        return (*limits, *(float(np.sign(x)) for x in rubs))
+        rubs = motion.evaluate(self._rubbing, np.array([t]))[0] if self._rubbing else np.empty(0)
+        slow = 1e-9 * self.rate * min(self.length, 1.0)
+        return (*limits, *(float(np.sign(x)) if abs(x) > slow else 0.0 for x in rubs))
 
 
 def _without(u: Array, rows: Array) -> Array:
