@@ -7,10 +7,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
+from freebody.instant import passes_couple
 from freebody.model import meanings
 from freebody.model.errors import Complaint
 from freebody.model.names import nearest, replace_names, spell
-from freebody.model.units import LENGTH, NUMBER_ONLY, TIME, Dimension
+from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.model.writer import Writer
 
 from .declared import Array, Meaning, Reader
@@ -22,9 +23,7 @@ from .language.tokens import Names
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
-_JOINT_PARTS = ("Fx", "Fy", "M", "F", "Fs", "Fn", "F1", "F2", "tension", "friction")
 _PARTS: dict[str, tuple[str, ...]] = {
-    "joint": _JOINT_PARTS,
     "force": ("value",),
     "motion": ("force",),
     "contact": ("N", "T", "Fx", "Fy"),
@@ -132,10 +131,12 @@ class Letters:
     # --- building ------------------------------------------------------------------------------
 
     def _own(self, gravity: str | None) -> dict[str, Meaning]:
-        out = {name: Meaning(kind, (spell(name),), dimension) for name, (kind, dimension) in self.named.values.items()}
+        there = {c["name"] for part in ("coordinates", "closure_coordinates") for c in self.about[part]}
+        values = {name: v for name, v in self.named.values.items() if v[0] != "coordinate" or name in there}
+        out = {name: Meaning(kind, (spell(name),), dimension) for name, (kind, dimension) in values.items()}
         for coordinate in self.about["coordinates"]:
             name = coordinate["name"]
-            out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else NUMBER_ONLY))
+            out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
         out.setdefault("t", Meaning("time", ("t",), TIME))
         if (text := gravity or self._gravity()) is not None:
             out.setdefault("g", Meaning("gravity", (text,), LENGTH.times(TIME, -2)))
@@ -157,15 +158,23 @@ class Letters:
         """Forces by the names of what makes them, in two spellings."""
         out: dict[str, Meaning] = {}
         for owner, kind in self.named.owners.items():
-            for part in _PARTS.get(kind, ()):
+            for part in self._joint_parts(owner) if kind == "joint" else _PARTS.get(kind, ()):
                 text = f"{spell(owner)}.{part}"
-                try:
-                    meaning = Meaning("reaction", (text,), self.writer.measured(text)[1])
-                except Complaint:
-                    continue
-                for name in (f"{owner}.{part}", f"{owner}_{part}", *([f"{owner}_{_SHORT[part]}"] if part in _SHORT else [])):
-                    out[name] = meaning
+                meaning = Meaning("reaction", (text,), self.named.dimension(f"{owner}.{part}", self.writer.scope))
+                endings = [f".{part}", f"_{part}", *([f"_{_SHORT[part]}"] if part in _SHORT else [])]
+                plain = spell(owner) == owner
+                out |= {f"{owner}{end}": meaning for end in endings} if plain else {text: meaning}
         return out
+
+    def _joint_parts(self, name: str) -> list[str]:
+        """What can be read of a joint's reaction."""
+        joint = next((j for j in self.about["joints"] if j["name"] == name), None)
+        if joint is None or not joint["reaction"]:
+            return []
+        rubs = any(j["name"] == name and j["with"].get("friction") for j in self.spec["joints"])
+        numbered = [f"F{i + 1}" for i in range(min(len(joint["reaction"]), 2))]
+        extra = {"M": passes_couple(joint), "tension": joint["type"] == "link", "friction": rubs}
+        return ["Fx", "Fy", "F", "Fs", "Fn", *numbered, *(part for part, there in extra.items() if there)]
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
         bodies = [b["name"] for b in self.about["bodies"]]

@@ -8,7 +8,6 @@ from fractions import Fraction
 from ...model.units import NUMBER_ONLY, Dimension, unit
 from .errors import StatementError
 from .nodes import (
-    Assignment,
     Call,
     Column,
     Cross,
@@ -26,6 +25,7 @@ from .nodes import (
     Sum,
     Unit,
     addends,
+    inlined,
     letters,
 )
 from .spelling import spell
@@ -66,25 +66,21 @@ def check_dimensions(program: Program, units_of_letters: Mapping[str, str | Dime
     ``units_of_letters``: dimension or unit of each letter by its name, ``""`` for plain numbers and directions. A rate has that of its
     letter by second; a letter that is not listed fits anything.
     """
-    names: dict[Letter, Shape] = {}
     try:
-        for line in program.lines:
-            if isinstance(line, Assignment):
-                names[line.name] = _Reader(units_of_letters, names).of(line.expression)
-        for line in program.equations:
-            _Reader(units_of_letters, names).equation(line)
+        for line in inlined(program):
+            _Reader(units_of_letters).equation(line)
     except StatementError as error:
         raise error.within(program.text) from None
 
 
 def dimensions(node: Node, units_of_letters: Mapping[str, str | Dimension]) -> Shape:
     """The dimension of an expression, None where any fits; of a matrix, by entries. Raises ``DimensionError``."""
-    return _Reader(units_of_letters, {}).of(node)
+    return _Reader(units_of_letters).of(node)
 
 
 class _Reader:
-    def __init__(self, units_of_letters: Mapping[str, str | Dimension], names: Mapping[Letter, Shape]) -> None:
-        self.units, self.names = units_of_letters, names
+    def __init__(self, units_of_letters: Mapping[str, str | Dimension]) -> None:
+        self.units = units_of_letters
 
     def equation(self, equation: Equation) -> None:
         """All terms of both sides have one dimension; of columns, entry by entry."""
@@ -126,8 +122,6 @@ class _Reader:
         raise TypeError(f"{type(node).__name__} has no dimension")
 
     def letter(self, letter: Letter) -> Shape:
-        if letter in self.names:
-            return self.names[letter]
         for name, dots in ((letter.key, 0), (letter.name, letter.dots)):
             if name in self.units:
                 given = self.units[name]
@@ -161,8 +155,9 @@ class _Reader:
 
     def product(self, factors: Sequence[Node]) -> Shape:
         out: Shape = NUMBER_ONLY
-        for factor in factors:
-            shape = self.of(factor)
+        for factor, after in zip(factors, [*factors[1:], None], strict=True):
+            figure = isinstance(after, Unit) and not letters(factor)
+            shape = NUMBER_ONLY if figure else self.of(factor)
             if isinstance(out, list) and isinstance(shape, list) and len(out[0]) == len(shape):
                 out = self.matrix_product(out, shape, factor)
             elif isinstance(shape, list):

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from .errors import StatementError
 from .nodes import (
-    Assignment,
     Call,
     Column,
     Cross,
@@ -31,6 +30,7 @@ from .nodes import (
     Quotient,
     Sum,
     Unit,
+    inlined,
 )
 
 Array = NDArray[np.float64]
@@ -65,17 +65,11 @@ def kind(value: Array) -> str:
 
 def sides(program: Program, values: Mapping[str, Array]) -> list[Sides]:
     """The equations of a program, evaluated with its own names. Keys of ``values`` are those of ``Letter.key``."""
-    known = dict(values)
-    out = []
     try:
-        for line in program.lines:
-            if isinstance(line, Assignment):
-                known[line.name.key] = evaluate(line.expression, known)
-        for line in program.equations:
-            out.append(equation_sides(line, known))
+        written_out = [equation_sides(line, values) for line in inlined(program)]
     except StatementError as error:
         raise error.within(program.text) from None
-    return out
+    return [Sides(line, s.left, s.right) for line, s in zip(program.equations, written_out, strict=True)]
 
 
 def equation_sides(equation: Equation, values: Mapping[str, Array]) -> Sides:
@@ -85,6 +79,8 @@ def equation_sides(equation: Equation, values: Mapping[str, Array]) -> Sides:
         right = np.zeros_like(left)
     elif is_zero(equation.left):
         left = np.zeros_like(right)
+    if left.ndim == right.ndim == 3 and left.shape[1:] == right.shape[:0:-1] and 1 in left.shape[1:]:
+        right = right.transpose(0, 2, 1)  # a row beside a column
     if left.shape != right.shape:
         raise StatementError(
             f"the left side is {_size(left)}, the right side {_size(right)}", equation.span, _advice(left, right)

@@ -7,6 +7,7 @@ import unicodedata
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from ...model.names import nearest
 from .alphabet import LATEX_WORDS, NAMES, dots, folded, plain
 from .errors import Span, StatementError
 
@@ -116,7 +117,10 @@ class _Reader:
     def all(self) -> list[Glyph]:
         out: list[Glyph] = []
         while self.at < len(self.text):
-            out.extend(self.next())
+            found = self.next()
+            if out and out[-1].text == "sum" and [g.kind for g in found] == [Kind.SPACE]:
+                continue  # Σ F is one letter
+            out.extend(found)
         return out
 
     def next(self) -> list[Glyph]:
@@ -211,9 +215,9 @@ class _Reader:
         if word in _NOTHING or word.isspace():
             return [Glyph(Kind.SPACE, " ", span)]
         if word not in _COMMANDS:
-            raise StatementError(
-                f"`\\{word}` is not known here", span, "Greek letters, \\frac, \\sqrt, \\dot, \\ddot, \\cdot, \\times … are"
-            )
+            near = nearest(word, [*_COMMANDS, *LATEX_WORDS, *_FUNCTIONS, *_DOTS])
+            hint = f"did you mean `\\{near}`?" if near else "Greek letters, \\frac, \\sqrt, \\dot, \\cdot, \\times … are"
+            raise StatementError(f"`\\{word}` is not known here", span, hint)
         sign = Glyph(Kind.SPACE if _COMMANDS[word] == " " else Kind.SIGN, _COMMANDS[word], span)
         return [sign, *self.braced(), *self.braced()] if sign.text == "frac" else [sign]
 

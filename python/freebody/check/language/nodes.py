@@ -217,11 +217,11 @@ def substitute(node: N, expressions: dict[Letter, Node]) -> N:
 
 
 def inlined(program: Program) -> tuple[Equation, ...]:
-    """The equations with the assigned names written out."""
-    known: dict[Letter, Node] = {}
-    for line in program.assignments:
-        known[line.name] = substitute(line.expression, known)
-    return tuple(substitute(line, known) for line in program.equations)
+    """The equations with the assigned names written out, in whichever order the lines stand."""
+    given = {line.name: line.expression for line in program.assignments}
+    for _ in given:
+        given = {name: substitute(expression, given) for name, expression in given.items()}
+    return tuple(substitute(line, given) for line in program.equations)
 
 
 def terms(equation: Equation, expand: bool = False) -> list[Term]:

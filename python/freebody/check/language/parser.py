@@ -52,7 +52,7 @@ _SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
 _BEGINS = ("number", "letter", "function", "(", "[", "{", "frac", "matrix[", "|")
 _CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
-_UNIT_PIECE = re.compile(r"\s*[·*/]?\s*(?:[^\W\d_]+|°)(?:\^-?\d|[²³])?")
+_UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_]+|°)(?:\^-?\d|[²³])?")
 
 
 def parse(text: str, names: Iterable[str] = ()) -> Program:
@@ -63,12 +63,12 @@ def parse(text: str, names: Iterable[str] = ()) -> Program:
     known = Names.of(names)
     known = known.also(_assigned(tokens(text, known), known))
     try:
-        lines = [line for row in _lines(tokens(text, known)) for line in _Parser(row, known, text).line()]
+        rows = [_Parser(row, known, text).line() for row in _lines(tokens(text, known))]
     except StatementError as error:
         raise error.within(text) from None
-    if not lines:
+    if not rows:
         raise StatementError("there is no equation", (0, len(text)), "write one, like `m*a = F`", text)
-    return Program(tuple(_meanings(lines, set(names))), text, span=(0, len(text)))
+    return Program(tuple(_meanings(rows, set(names))), text, span=(0, len(text)))
 
 
 def parse_expression(text: str, names: Iterable[str] = ()) -> Node:
@@ -94,17 +94,19 @@ def _assigned(row: Sequence[Token], names: Names) -> list[str]:
     return out
 
 
-def _meanings(lines: Sequence[Equation], known: set[str]) -> list[Assignment | Equation]:
-    """The lines, those that only give a name as assignments."""
+def _meanings(rows: Sequence[Sequence[Equation]], known: set[str]) -> list[Assignment | Equation]:
+    """The lines, those that only give a name as assignments; links of a chain state something."""
     out: list[Assignment | Equation] = []
-    for line in lines:
-        name = line.left
-        others = {n for other in lines if other is not line for n in walk(other) if isinstance(n, Letter)}
-        gives = isinstance(name, Letter) and name.name not in known and line.relation == "=" and name in others
-        if gives and name not in walk(line.right) and not any(isinstance(o, Assignment) and o.name == name for o in out):
-            out.append(Assignment(name, line.right, span=line.span))
+    given: set[Node] = set()
+    for row in rows:
+        name = row[0].left
+        elsewhere = {n for other in rows if other is not row for line in other for n in walk(line)}
+        alone = len(row) == 1 and isinstance(name, Letter) and name.name not in known and row[0].relation == "="
+        if alone and name in elsewhere - given and name not in walk(row[0].right):
+            given.add(name)
+            out.append(Assignment(name, row[0].right, span=row[0].span))
         else:
-            out.append(line)
+            out += row
     return out
 
 
@@ -217,6 +219,9 @@ class _Parser:
                 self.take()
                 factors.append(self.signed(self.factor))
             elif self.now.kind in _BEGINS and not self.closes_bars():
+                if self.now.kind == "number":
+                    hint = "write `*` between them, or `,` between the entries of a matrix"
+                    raise StatementError(f"the number {self.now.text} stands behind a factor", self.now.span, hint)
                 factors.append(self.factor())
             else:
                 return _product(factors)
@@ -399,7 +404,7 @@ class _Parser:
         if isinstance(factors[0], Number):
             if unit := self.unit(factors[0]):
                 factors.append(unit)
-            elif self.now.kind == "letter":
+            elif self.now.kind == "letter" and token.text != "sqrt":
                 factors.append(self.primary())
         if self.now.kind == "letter" and self.now.text == "t" and self.now.attached:
             factors.append(self.primary())
@@ -423,13 +428,26 @@ class _Parser:
             return None
         start = self.row[self.at - 1].span[1]
         if upright := _UPRIGHT.match(self.text, start):
-            return self.unit_of(upright[1].replace("\\cdot", "·"), start, upright.end())
+            return self.unit_of(upright[1].replace(r"\cdot", "·"), start, upright.end())
         for end in reversed(self.unit_ends(start)):
-            written = self.text[start:end].strip()
-            known = all(self.names.find(folded(w)) for w in re.findall(r"[^\W\d_²³]+|°", written))
-            if not known and (found := self.unit_of(written, start, end)):
+            if found := self.unit_of(self.text[start:end], start, end):
                 return found
         return None
+
+    def unit_ends(self, start: int) -> list[int]:
+        """Where a unit that starts here can end: where tokens do, and some word of it is no letter that is known.
+
+        A known letter goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``.
+        """
+        ends, at, some_unknown = [], start, False
+        stops = {t.span[1] for t in self.row}
+        while found := _UNIT_PIECE.match(self.text, at):
+            known = self.names.find(folded(found["word"])) is not None
+            if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
+                break
+            at, some_unknown = found.end(), some_unknown or not known
+            ends += [at] if at in stops and some_unknown else []
+        return ends
 
     def unit_of(self, written: str, start: int, end: int) -> Unit | None:
         """The unit that a text is, read up to ``end``; None where it is none."""
@@ -438,16 +456,7 @@ class _Parser:
         except Complaint:
             return None
         self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
-        return Unit(size, written.strip(), span=(start, end))
-
-    def unit_ends(self, start: int) -> list[int]:
-        """Where a unit that starts here can end: only where tokens do."""
-        ends, at = [], start
-        stops = {t.span[1] for t in self.row}
-        while found := _UNIT_PIECE.match(self.text, at):
-            at = found.end()
-            ends += [at] if at in stops else []
-        return ends
+        return Unit(size, written.strip(), span=(start + len(written) - len(written.lstrip()), end))
 
 
 def _product(factors: Sequence[Node]) -> Node:
@@ -459,5 +468,5 @@ def _product(factors: Sequence[Node]) -> Node:
 def _transposed(node: Matrix | Column) -> Node:
     if isinstance(node, Column):
         return Matrix((node.items,), span=node.span)
-    columns = tuple(zip(*node.rows, strict=True))
-    return Column(columns[0], span=node.span) if len(columns) == 1 else Matrix(columns, span=node.span)
+    rows = tuple(zip(*node.rows, strict=True))
+    return Column(tuple(r[0] for r in rows), span=node.span) if len(rows[0]) == 1 else Matrix(rows, span=node.span)

@@ -66,7 +66,7 @@ class Names:
     @cached_property
     def primed(self) -> bool:
         """Whether a prime is part of a name here; otherwise it is a derivative."""
-        return not self.known or any("'" in n for n in self.known)
+        return not self.known or any(n.endswith("'") for n in self.known)
 
     def find(self, spelling: str) -> tuple[str, int] | None:
         """The name and its number of time derivatives, e.g. of ``thetaddot``; None where it is not known."""
@@ -237,7 +237,9 @@ class _Reader:
         """The glyph behind a name with signs in it, where it stands here."""
         at, left = start, name
         while left:
-            if at >= len(self.row) or not left.startswith(text := self.row[at].text) or not (text or at > start):
+            glyph = self.row[at] if at < len(self.row) else Glyph(Kind.LINE, "\n", (0, 0))
+            text = "" if glyph.kind is Kind.SPACE and "'" in name else glyph.text
+            if not left.startswith(text) or not (text or at > start):
                 return None
             at, left = at + 1, left.removeprefix(text)
         behind = self.row[at : at + 1]
@@ -279,7 +281,8 @@ class _Reader:
 
     def written(self, start: int, end: int) -> str:
         """An unknown name as a person would write it plainly: with its underscores."""
-        return "".join("_" if g.kind is Kind.LOW and not g.text else g.text for g in self.row[start:end])
+        text = "".join("_" if g.kind is Kind.LOW and not g.text else g.text for g in self.row[start:end])
+        return re.sub("^sum(?=.)", "Σ", text.replace("_/", "/"))
 
     def relative(self, start: int, end: int) -> int | None:
         """The glyph behind a name like ``r_G1/O``, or None."""
