@@ -100,9 +100,7 @@ def judged_mutant(bench: Bench, case: Case, before: Equation, made: Mutant) -> O
     seconds = time.perf_counter() - began
     found = list(mends(again, again.equations[0])) if not verdict.mends else list(verdict.mends)
     marks = [other._mark(bench.checker.case(mend.equation).equations[0]) for mend in found]
-    return Outcome(
-        made.kind, spell(before), text, verdict.ok, mark in marks, tuple(str(mend) for mend in found), seconds
-    )
+    return Outcome(made.kind, spell(before), text, verdict.ok, mark in marks, tuple(str(mend) for mend in found), seconds)
 
 
 def outcomes(count: int, seed: int) -> Iterator[Outcome]:
@@ -125,7 +123,9 @@ def main() -> None:
     rng, benches = np.random.default_rng(given.seed), [Bench(book) for book in BOOKS]
     rows = [correct(benches[i % len(benches)], rng) for i in range(given.count)]
     alarms = [row for row in rows if row[1] is not Kind.TRUE]
-    print(f"correct, rearranged: {len(rows)} from {len(benches)} models; false alarms {len(alarms)}; {mean_ms(r[2] for r in rows)}")
+    print(
+        f"correct, rearranged: {len(rows)} from {len(benches)} models; false alarms {len(alarms)}; {mean_ms(r[2] for r in rows)}"
+    )
     for text, kind, _ in alarms:
         print(f"  {kind.value}: {text}")
     done = list(outcomes(given.count, given.seed))

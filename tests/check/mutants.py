@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace as with_
+from dataclasses import dataclass
+from dataclasses import replace as with_
 
 import numpy as np
 
-from freebody.check.language.nodes import Call, Equation, Letter, Negative, Node, Number, Power, Product, Quotient, Sum
-from freebody.check.language.nodes import addends, letters, replace, walk
+from freebody.check.language.nodes import (
+    Call,
+    Equation,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    addends,
+    letters,
+    replace,
+    walk,
+)
 from freebody.check.vocabulary import Vocabulary
 
 Random = np.random.Generator

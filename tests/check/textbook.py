@@ -173,8 +173,12 @@ BOOKS = [
         (("N", "ramp.Fn"),),
     ),
     Book("mass on a spring", SPRING, ("m*x'' + c*x' + k*x = F",)),
-    Book("disk that rolls down a slope", DISK, ("3/2*m*s'' = m*g*sin(a)", "m*s'' = m*g*sin(a) - P", "P = m*s''/2"),
-         (("s", "x(disk.centre)*cos(a) - y(disk.centre)*sin(a)"), ("P", "-contact.Fs"))),
+    Book(
+        "disk that rolls down a slope",
+        DISK,
+        ("3/2*m*s'' = m*g*sin(a)", "m*s'' = m*g*sin(a) - P", "P = m*s''/2"),
+        (("s", "x(disk.centre)*cos(a) - y(disk.centre)*sin(a)"), ("P", "-contact.Fs")),
+    ),
     Book(
         "two-link arm",
         ARM,

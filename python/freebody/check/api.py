@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from freebody.model.errors import Complaint
 
 from .case import Case
+from .claims import claimed
 from .language.dimensions import DimensionError, check_dimensions
 from .language.errors import StatementError
 from .language.parser import parse
@@ -32,27 +35,57 @@ class Checker:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
         self.truth = Truth(mechanism, seed)
+        self.hypothesis = ALL
+        self._run: Any = None
 
-    def case(self, text: str, letters: Declared | None = None, hypothesis: Family = ALL) -> Case:
+    def letters(self, declared: Declared | None = None) -> Letters:
+        """The letters of the model with own ones. Raises ``Complaint``."""
+        return Letters(self.mechanism, {**self.declared, **(declared or {})}, self.truth.gravity)
+
+    def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
         """A statement beside the motions that decide about it. Raises ``StatementError`` and ``Complaint``."""
-        known = Letters(self.mechanism, {**self.declared, **(letters or {})}, self.truth.gravity)
+        known = self.letters(letters)
         program = parse(text, known.names)
-        return Case(program, StatementLetters(known, program, self.truth), self.truth, hypothesis)
+        return Case(program, StatementLetters(known, program, self.truth), self.truth, hypothesis or self.hypothesis)
 
-    def check(self, text: str, letters: Declared | None = None, hypothesis: Family = ALL) -> Verdict:
-        """The verdict about an equation, or about several lines of them. Raises ``StatementError`` and ``Complaint``."""
-        case = self.case(text, letters, hypothesis)
+    def check(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Verdict:
+        """The verdict about an equation, several lines of them, or a claim (see docs/check.md).
+
+        ``hypothesis``: the motions of which it is said. Raises ``StatementError`` and ``Complaint``.
+        """
+        before, self.hypothesis = self.hypothesis, hypothesis or self.hypothesis
         try:
-            units = case.meaning.letters.dimensions
-            check_dimensions(case.program, units)
+            return claimed(self, text, letters or {}) or self._equations(text, letters)
+        finally:
+            self.hypothesis = before
+
+    def _equations(self, text: str, letters: Declared | None) -> Verdict:
+        case = self.case(text, letters)
+        try:
+            check_dimensions(case.program, case.meaning.letters.dimensions)
         except DimensionError as error:
             found = tuple(mend for equation in case.equations for mend in mends(case, equation))
             return Verdict(Kind.DIMENSIONS, text, error.what, mends=found)
         except StatementError:
-            pass
+            pass  # kinds that do not go together are told with the verdict
         return judged(case)
+
+    def moment(self, name: str) -> tuple[Any, float]:
+        """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
+        from freebody.model.start import evaluate
+
+        if self._run is None:
+            self._run = self.mechanism.simulate(None if self.mechanism.run_numbers().until is not None else 1.0)
+        times = {"start": float(self._run.t[0]), "end": float(self._run.outcome.t)}
+        times |= {event.name: event.t for event in reversed(self._run.events)}
+        if name in times:
+            return self._run, times[name]
+        try:
+            return self._run, evaluate(name, {})
+        except Complaint:
+            raise Complaint(f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`") from None
 
 
 def check(mechanism: Builder, text: str, letters: Declared | None = None) -> Verdict:
-    """Whether an equation is true of every motion of a model; see ``Checker``."""
+    """Whether a statement is true of every motion of a model; see ``Checker``."""
     return Checker(mechanism, letters).check(text)

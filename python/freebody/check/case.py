@@ -9,9 +9,8 @@ from typing import Protocol
 from .language.evaluate import Array
 from .language.nodes import Equation, Program, inlined
 from .residual import Residual, residual
-from .truth import ALL, SAMPLES, Family, NoMotion, Samples, Truth
+from .truth import ALL, SAMPLES, Family, Samples, Truth
 from .vocabulary import Vocabulary
-
 
 
 class Meaning(Protocol):

@@ -65,5 +65,3 @@ def _exchanged(equation: Equation, swapped: dict[Letter, Letter]) -> Equation:
     between = {old: Letter(f"\0{old.name}", old.dots) for old in swapped}
     there = substitute(equation, dict(between))
     return substitute(there, {between[old]: new for old, new in swapped.items()})
-
-

@@ -154,6 +154,7 @@ def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Ed
     """A term with a sine, a cosine or a letter more."""
     extras: list[Node] = [Call(name, (angle,)) for angle in vocabulary.angles for name in ("sin", "cos")]
     extras += [n for n in vocabulary.parameters if n not in vocabulary.angular]
+    extras += [Letter(n.name, dots) for n in vocabulary.coordinates for dots in (1, 2)]
     for extra in extras:
         new = Product((node, extra), span=node.span)
         yield Edit("missing factor", node, new, replace(equation, node, new))

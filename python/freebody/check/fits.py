@@ -245,5 +245,3 @@ def powered(node: Node, number: Node, chosen: Sequence[tuple[Letter, int]]) -> N
     if below:
         top = Quotient(top, below[0] if len(below) == 1 else Product(tuple(below)))
     return multiplied(top, number)
-
-

@@ -52,14 +52,15 @@ class StatementLetters:
         coordinates = self._coordinates
         taken = {*parameters, *coordinates}
         vectors = [n for n in self.used if self._one(n).is_vector]
-        others = [n for n in self.used if n not in taken and not self._one(n).is_vector and n.name != "t"]
+        known = dict.fromkeys([*self.used, *(Letter(name) for name in self.letters.of_kind("declared"))])
+        others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         plain = {n: _powers(self._one(n).dimension) for n in (*parameters, *coordinates, *others)}
         return Vocabulary(
             {n: plain[n] for n in parameters},
             {n: plain[n] for n in coordinates},
             {n: plain[n] for n in others},
             tuple(dict.fromkeys((*vectors, *(Letter(n) for n in self.letters.of_kind("direction"))))),
-            frozenset(n for n in plain if n in coordinates and plain[n] == (0, 0, 0) or self._is_angle(n)),
+            frozenset(n for n in plain if (n in coordinates and plain[n] == (0, 0, 0)) or self._is_angle(n)),
         )
 
     def _one(self, letter: Letter) -> One:
@@ -119,5 +120,3 @@ def _powers(dimension: Dimension | None) -> Powers | None:
         return None
     parts = (dimension.length, dimension.mass, dimension.time)
     return (int(parts[0]), int(parts[1]), int(parts[2])) if all(p == int(p) for p in parts) else None
-
-

@@ -17,7 +17,7 @@ from .language.evaluate import Array
 from .language.nodes import Equation, Letter, Number, letters
 from .language.nodes import replace as replaced
 from .language.spelling import spell
-from .residual import HOLDS, Residual, residual, unreached
+from .residual import HOLDS, Residual, residual
 from .rows import rows
 
 if TYPE_CHECKING:
@@ -152,11 +152,7 @@ class _Search:
         return list(kept.values())[:_SHOWN]
 
     def _confirmed(self, equation: Equation) -> bool:
-        return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh)) and not (
-            len(unreached(equation, self.values)) > len(unreached(self.equation, self.values))
-            if self._readable(self.equation)
-            else False
-        )
+        return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
         return (edit for edit in found if self._passes(edit.after))
@@ -216,7 +212,7 @@ def _elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
 
 def _both(first: Edit, second: Edit) -> Edit | None:
     """The second edit after the first, where both can be made."""
-    if second.old is None or second.new is None and second.kind != "extra term":
+    if second.old is None or (second.new is None and second.kind != "extra term"):
         return None
     new = second.new if second.new is not None else Number(0.0, "0")
     after = replaced(first.after, second.old, new)

@@ -58,7 +58,7 @@ def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
 
 def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
     """The sum of the sizes of all terms of an expression, brackets multiplied out."""
-    inside = lambda n: magnitude(n, values)  # noqa: E731
+    inside = lambda n: magnitude(n, values)
     match node:
         case Negative(of=of):
             return inside(of)

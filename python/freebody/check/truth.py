@@ -14,7 +14,7 @@ import numpy as np
 from freebody import _core
 from freebody.instant import State
 from freebody.model.errors import Complaint
-from freebody.model.start import Start, initial_state
+from freebody.model.start import Start, evaluate, initial_state
 from freebody.model.units import Dimension
 from freebody.results import Array, quote
 from freebody.switched import with_dimensions
@@ -41,16 +41,19 @@ class NoMotion(ValueError):
 
 @dataclass(frozen=True)
 class Family:
-    """Which motions: ``held`` are parameters with a number of their own (SI), ``numbers`` holds all at the model's,
-    ``at_rest`` has all rates 0, ``zeros`` lets parameters that are 0 in the model be something else, ``gravity`` False
-    takes it away; ``scaled`` multiplies parameters."""
+    """Which motions: ``held`` are parameters with a number of their own (SI, or an expression of others), ``numbers`` holds all
+    at the model's, ``at_rest`` has all rates 0, ``at_start`` stays where the model starts, ``zeros`` lets parameters that are 0
+    in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
+    expressions of configuration and, linearly, rates that are 0."""
 
-    held: tuple[tuple[str, float], ...] = ()
+    held: tuple[tuple[str, float | str], ...] = ()
     numbers: bool = False
     at_rest: bool = False
+    at_start: bool = False
     zeros: bool = True
     gravity: bool = True
     scaled: tuple[tuple[str, float], ...] = ()
+    vanishing: tuple[str, ...] = ()
 
 
 ALL = Family()
@@ -241,6 +244,13 @@ class Truth:
             raise NoMotion("no motion of this model was found that is not singular, on a limit or of another mode than its start")
         return self._families[key]
 
+    def has(self, family: Family) -> bool:
+        """Whether there are motions of a family."""
+        try:
+            return len(self.samples(family, _PATIENCE)) > 0
+        except NoMotion:
+            return False
+
     def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[Sample]:
         """``count`` samples; none where the first ones already fail."""
         rng = np.random.default_rng([self.seed, fresh])
@@ -256,19 +266,26 @@ class Truth:
         for _ in range(_TRIES):
             try:
                 values = self._parameters(rng, family)
-                made = self._on_a_run(rng, values, family) if self.restricted else self._anywhere(rng, values, family)
+                made = self._made(rng, values, family)
             except (_core.MotionError, _core.ModelError, Complaint, ZeroDivisionError):
                 continue
             if made is not None:
                 return made
         return None
 
+    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        if self.restricted:
+            return self._on_a_run(rng, values, family)
+        return Sample(self._started(values)) if family.at_start else self._anywhere(rng, values, family)
+
     def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         held, scaled = dict(family.held), dict(family.scaled)
         if not family.gravity:
             held |= dict.fromkeys(self.gravities, 0.0)
         drawn = {name: self._drawn(rng, name, value, family) for name, value in self.free_parameters.items()}
-        return {name: held.get(name, value) * scaled.get(name, 1.0) for name, value in drawn.items()}
+        numbers = {name: x for name, x in held.items() if not isinstance(x, str)}
+        plain = {name: numbers.get(name, value) * scaled.get(name, 1.0) for name, value in drawn.items()}
+        return plain | {name: evaluate(x, plain) for name, x in held.items() if isinstance(x, str)}
 
     def _drawn(self, rng: np.random.Generator, name: str, value: float, family: Family) -> float:
         dimension = self.start.parameters.get(name)
@@ -295,12 +312,39 @@ class Truth:
         near = {c["name"]: float(x) for c, x in zip(self.coordinates, guess, strict=True)}
         rates = self._rates(rng, family)
         q, u, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
+        for text in family.vanishing:
+            q, u = self._vanished(text, State(p, t, q, u))
         solved = self.core.instant(p, t, q, u)
         if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
             return None
         sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
         good = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(u) < _FAST * sizes)
         return Sample(State(p, t, q, u)) if good else None
+
+    def _vanished(self, text: str, state: State) -> tuple[Array, Array]:
+        """The nearest place, or else the nearest rates there, where an expression is 0; for mechanisms without loops."""
+        if self._loops:
+            raise NoMotion(f"`{text} = 0` cannot be arranged in a mechanism with closed loops")
+        q, u = state.q, state.u
+        for _ in range(30):
+            value, slope = self._slope(text, state, q, u, 0)
+            if not slope.any() or abs(value) < 1e-14:
+                break
+            q = q - slope * value / (slope @ slope)
+        value, slope = self._slope(text, state, q, u, 1)
+        return q, u - slope * value / (slope @ slope) if slope.any() else u
+
+    def _slope(self, text: str, state: State, q: Array, u: Array, order: int) -> tuple[float, Array]:
+        """The value of an expression and its gradient by coordinates (0) or rates (1)."""
+
+        def at(dq: Array, du: Array) -> float:
+            return float(self.core.evaluate([text], state.p, state.t, q + dq, u + du)[0])
+
+        still, steps = np.zeros_like(q), _STEP * np.eye(len(q))
+        if order:
+            steps = steps / _STEP * self.rate
+            return at(still, still), np.array([at(still, s) - at(still, still) for s in steps]) / self.rate
+        return at(still, still), np.array([at(s, still) - at(-s, still) for s in steps]) / (2 * _STEP)
 
     @cached_property
     def _loops(self) -> int:
@@ -328,10 +372,10 @@ class Truth:
     def _on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
         """A state on a run from the model's start with random numbers and admissible rates, as long as nothing switches."""
         state = self._started(values)
-        late = 0.0 if family.at_rest else _NEAR * rng.random() / self.rate
+        late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
         if family.at_rest:
             state = State(state.p, state.t, state.q, np.zeros_like(state.u))
-        elif rng.random() < 0.7:
+        elif rng.random() < 0.7 and not family.at_start:
             state = self._moving(rng, state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
         ends = motion.final()[0]

@@ -201,7 +201,9 @@ def evidence(case: Case, equation: Equation, found: Residual, family: Family | N
     values = case.values(family)
     shown = {n.key: values[n.key][k].tolist() for n in letters(equation) if n.key in values}
     sides = found.sides
-    return Evidence(shown, sides.left[k].tolist(), sides.right[k].tolist(), float(np.max(np.abs(found.ratio[k]))), len(found.ratio))
+    return Evidence(
+        shown, sides.left[k].tolist(), sides.right[k].tolist(), float(np.max(np.abs(found.ratio[k]))), len(found.ratio)
+    )
 
 
 def _text(case: Case, equation: Equation) -> str:
@@ -216,8 +218,8 @@ def _spelled(case: Case, node: Any) -> str:
 
 
 def _plain(value: Any) -> str:
+    if isinstance(value, str):
+        return value
     if isinstance(value, Sequence):
         return "(" + ", ".join(_plain(v) for v in value) + ")"
     return f"{value:.6g}"
-
-
