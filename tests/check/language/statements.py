@@ -1,104 +1,22 @@
 """Statements as people write them, by the letters that are known where they are made."""
 
-BLOCKS = [
-    "m1",
-    "m2",
-    "g",
-    "theta",
-    "x",
-    "y'",
-    "t",
-    "F_A",
-    "F_B",
-    "F_C",
-    "F_D",
-    "i",
-    "j",
-    "k",
-    "i'",
-    "j'",
-    "r_A/G1",
-    "r_B/G1",
-    "r_C/G1",
-    "r_D/G1",
-    "r_C/G2",
-    "r_D/G2",
-]
-ARM = [
-    "m1",
-    "m2",
-    "g",
-    "theta1",
-    "theta2",
-    "t",
-    "I1",
-    "I2",
-    "i",
-    "j",
-    "k",
-    "M_s",
-    "M_e",
-    "r_G1/O",
-    "r_G2/O",
-    "r_G2/E",
-    "a_G1",
-    "a_G2",
-    "a_G2/O",
-    "a_G2/E",
-    "H/O",
-    "H/E",
-    "ΣM/O",
-    "ΣM/E",
-]
-WEDGES = ["m1", "m2", "g", "alpha", "μ", "N", "R", "F", "a_rel", "a2", "M", "C", "S", "n", "λ", "i", "j", "k"]
-GUN = ["m1", "m2", "I1", "R", "theta", "T", "v_R", "omega", "t", "W"]
-SLOPE = ["M", "m", "g", "l", "theta", "alpha", "s", "t"]
-MOTOR = ["M", "m", "epsilon", "theta", "x", "k", "T", "t"]
-WHEEL = ["v_P", "v_P'", "v_rel", "a_P", "a_P'", "L", "ΣF", "m", "r", "i", "j", "k"]
-BAR = [
-    "l1",
-    "l2",
-    "l3",
-    "theta",
-    "beta",
-    "phi",
-    "t",
-    "T",
-    "I2",
-    "I3",
-    "m2",
-    "m3",
-    "λ1",
-    "λ2",
-    "λ3",
-    "n1",
-    "n2",
-    "n3",
-    "i",
-    "j",
-    "k",
-    "a_G1",
-    "a_G2",
-    "a_G3",
-    "R_D",
-    "R_Dx",
-    "R_Dy",
-    "w",
-    "r_B",
-    "r_C",
-    "r_D",
-    "r_D/A",
-    "r_D/B",
-    "r_D/C",
-    "r_G2/B",
-    "r_G3/C",
-    "H_123/A",
-    "H_23/B",
-    "H_2/B",
-    "H_3/B",
-    "H_3/C",
-]
-LEGS = ["H/A", "H/B", "ΣM/A", "ΣM/B"]
+
+def letters(text: str) -> list[str]:
+    """Letters between blanks."""
+    return text.split()
+
+
+BLOCKS = letters("m1 m2 g theta x y' t F_A F_B F_C F_D i j k i' j' r_A/G1 r_B/G1 r_C/G1 r_D/G1 r_C/G2 r_D/G2")
+ARM = letters("m1 m2 g theta1 theta2 t I1 I2 i j k M_s M_e r_G1/O r_G2/O r_G2/E a_G1 a_G2 a_G2/O a_G2/E H/O H/E ΣM/O ΣM/E")
+WEDGES = letters("m1 m2 g alpha μ N R F a_rel a2 M C S n λ i j k")
+GUN = letters("m1 m2 I1 R theta T v_R omega t W")
+SLOPE = letters("M m g l theta alpha s t")
+MOTOR = letters("M m epsilon theta x k T t")
+WHEEL = letters("v_P v_P' v_rel a_P a_P' L ΣF m r i j k")
+BAR = letters(
+    "l1 l2 l3 theta beta phi t T I2 I3 m2 m3 λ1 λ2 λ3 n1 n2 n3 i j k a_G1 a_G2 a_G3 R_D R_Dx R_Dy w r_B r_C r_D r_D/A r_D/B r_D/C r_G2/B r_G3/C H_123/A H_23/B H_2/B H_3/B H_3/C"
+)
+LEGS = letters("H/A H/B ΣM/A ΣM/B")
 
 STATEMENTS = [
     (BLOCKS, "0 = m1 ẍ + m2 (ẍ + ÿ' j')·i", "0 = m1*xddot + m2*(xddot + y'ddot*j') · i"),

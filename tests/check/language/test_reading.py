@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from statements import STATEMENTS
+from statements import letters as known
 
 from freebody.check.language.nodes import (
     Letter,
@@ -20,35 +21,7 @@ from freebody.check.language.nodes import (
 from freebody.check.language.parser import parse, parse_expression
 from freebody.check.language.spelling import latex, spell
 
-KNOWN = [
-    "m",
-    "l",
-    "g",
-    "theta",
-    "phi",
-    "alpha",
-    "x",
-    "y",
-    "s",
-    "t",
-    "m1",
-    "m2",
-    "R",
-    "I1",
-    "I2",
-    "T",
-    "omega",
-    "F",
-    "i",
-    "j",
-    "k",
-    "a_G",
-    "r_G1/O",
-    "pivot.Fx",
-    "link[2].angle",
-    "'crank",
-    "drive'.F",
-]
+KNOWN = known("m l g theta phi alpha x y t m1 m2 R I1 I2 T omega F i j k a_G r_G1/O pivot.Fx link[2].angle")
 
 
 @pytest.mark.parametrize(("names", "text", "reading"), STATEMENTS)
@@ -152,6 +125,11 @@ def test_x_is_a_cross_only_where_no_letter_is_called_so():
 def test_primes_belong_to_names_where_one_is_declared():
     assert letters(parse("theta' = 0", ["theta"])) == [Letter("theta", 1)]
     assert letters(parse("ÿ' = i'", ["y'", "i'"])) == [Letter("y'", 2), Letter("i'")]
+
+
+def test_names_with_blanks_stand_in_quotes_and_do_not_take_primes_away():
+    program = parse("'crank drive'.Fx = m x''", ["'crank drive'.Fx", "m", "x"])
+    assert letters(program) == [Letter("'crank drive'.Fx"), Letter("m"), Letter("x", 2)]
 
 
 def test_a_declared_name_goes_before_its_reading_as_a_rate():
