@@ -65,16 +65,22 @@ def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
     if truth.gravities:
         yield "without gravity", replace(given, gravity=False)
     yield from ((f"{name} = 0 (no friction)", with_zero(name)) for name in truth.frictions)
-    others = [n for n in truth.free_parameters if n not in (*zeros, *truth.frictions, *truth.gravities)]
+    others = [n for n in mattering(case) if n not in (*zeros, *truth.frictions, *truth.gravities)]
     yield from ((f"{name} = 0", with_zero(name)) for name in others)
     yield "these numbers of the model", replace(given, numbers=True, zeros=False)
     yield "at rest, and these numbers of the model", replace(given, numbers=True, zeros=False, at_rest=True)
 
 
+def mattering(case: Case) -> list[str]:
+    """Free parameters that are more than numbers of the start."""
+    known = {letter.name for letter in case.meaning.vocabulary.parameters}
+    return [name for name in case.truth.free_parameters if name in known]
+
+
 def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:
     given = case.hypothesis
-    for name, value in case.truth.free_parameters.items():
-        if value == 0 or name in dict(given.held):
+    for name in mattering(case):
+        if case.truth.free_parameters[name] == 0 or name in dict(given.held):
             continue
         for words, power in (("→ ∞", 1), ("→ 0", -1)):
             yield f"{name} {words}", tuple(replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)

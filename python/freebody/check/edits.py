@@ -104,6 +104,7 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
                 yield from (("derivative", Letter(name, n, **at)) for n in range(3) if n != dots)
             if node in vocabulary.vectors:
                 yield "sign", Negative(node, **at)
+                yield from (("letter", Negative(other, **at)) for other in vocabulary.alike(node))
         case Call(function=function, arguments=(argument,)):
             yield from (("function", Call(other, (argument,), **at)) for other in _SWAPS.get(function, ()))
             yield from (("angle", Call(function, (angle,), **at)) for angle in _angles(argument, vocabulary))

@@ -63,9 +63,9 @@ class Fits:
 
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
-        if isinstance(need.node, Number) and (found := _constant(need.needed)) is not None:
-            if (number := recognised(found)) is not None:
-                yield Edit("factor", need.node, number, replace(equation, need.node, number))
+        found = _constant(need.needed) if isinstance(need.node, Number) else None
+        if found is not None and (number := recognised(found)) is not None:
+            yield Edit("factor", need.node, number, replace(equation, need.node, number))
         if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
             for letter in self._letters:
                 if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):

@@ -54,7 +54,7 @@ class StatementLetters:
         vectors = [n for n in self.used if self._one(n).is_vector]
         known = dict.fromkeys([*self.used, *(Letter(name) for name in self.letters.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
-        plain = {n: _powers(self._one(n).dimension) for n in (*parameters, *coordinates, *others)}
+        plain = {n: self._powers(n) for n in (*parameters, *coordinates, *others)}
         return Vocabulary(
             {n: plain[n] for n in parameters},
             {n: plain[n] for n in coordinates},
@@ -66,6 +66,11 @@ class StatementLetters:
     def _one(self, letter: Letter) -> One:
         return self.letters.meanings[letter.name]
 
+    def _powers(self, letter: Letter) -> Powers | None:
+        """The dimension of a letter; a parameter that is a bare number has none."""
+        dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
+        return (0, 0, 0) if dimension is None and name in self.truth.free_parameters else _powers(dimension)
+
     def _is_angle(self, letter: Letter) -> bool:
         dimension = self._one(letter).dimension
         return dimension is not None and dimension.angle == 1 and _powers(dimension) == (0, 0, 0)
@@ -74,7 +79,14 @@ class StatementLetters:
     def _parameters(self) -> list[Letter]:
         own = [Letter(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
         made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
-        return list(dict.fromkeys([*made, *(n for n in self.used if n in own), *own]))
+        return self._once([*made, *(n for n in self.used if n in own), *own])
+
+    def _once(self, found: list[Letter]) -> list[Letter]:
+        """Without letters that only name again what another does."""
+        by_meaning: dict[tuple[str, ...], Letter] = {}
+        for letter in found:
+            by_meaning.setdefault(self._one(letter).texts, letter)
+        return list(by_meaning.values())
 
     def _matters(self, name: str) -> bool:
         """Whether a parameter is more than a number of the start."""
@@ -97,9 +109,10 @@ class StatementLetters:
     @cached_property
     def _coordinates(self) -> list[Letter]:
         """Letters that measure the configuration, those of the statement first; the model's own where some are missing."""
-        movable = [n for n in self.used if self._moves(n)]
-        own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier()]
-        missing = max(len(own) - len(movable), 0)
+        movable = self._once([n for n in self.used if self._moves(n)])
+        said = {self._one(n).texts for n in movable}
+        own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        missing = max(len(self.truth.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
     def _moves(self, letter: Letter) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import chain, combinations
 from typing import TYPE_CHECKING
 
@@ -31,6 +32,7 @@ _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
 _SHOWN = 6
 _FRESH = 1
+_LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,11 @@ class Mend:
     size: float
     where: tuple[tuple[int, int], ...] = ()
     given: str = ""
+
+    @property
+    def is_slip(self) -> bool:
+        """Whether something stands there that is wrong, rather than something left out."""
+        return not any(kind in _LEFT_OUT for kind, _, _ in self.edits)
 
     def __str__(self) -> str:
         told = " and ".join(_told(*edit) for edit in self.edits)
@@ -73,23 +80,27 @@ class _Found:
 def mends(case: Case, equation: Equation) -> Iterator[Mend]:
     """The smallest mends of an equation, equally small ones together; nothing where no one or two edits mend it."""
     families = [(case.hypothesis, "")]
-    zeros = [name for name, value in case.truth.free_parameters.items() if value == 0]
-    if zeros and case.hypothesis.zeros:
-        families.append((replace(case.hypothesis, zeros=False), ", ".join(f"{name} = 0" for name in zeros)))
+    given, zeros = case.hypothesis, [name for name, value in case.truth.free_parameters.items() if value == 0]
+    if zeros and given.zeros:
+        families += [(replace(given, held=(*given.held, (name, 0.0))), f"{name} = 0") for name in zeros]
+        if len(zeros) > 1:
+            families.append((replace(given, zeros=False), ", ".join(f"{name} = 0" for name in zeros)))
     for row in rows(equation):
         yield from _of_row(case, row, families)
 
 
 def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]]) -> Iterator[Mend]:
+    """The smallest mends of an equation, in the widest family in which they are smallest."""
     searches = [(_Search(case, row, family), given) for family, given in families]
     if any(search.right for search, _ in searches):
         return
     for step in (_Search.singles, _Search.pairs):
-        for search, given in searches:
-            found = search.best(step(search))
-            if found:
-                yield from (_mend(each, given) for each in found)
-                return
+        every = [(search.best(step(search)), given) for search, given in searches]
+        some = [(found, given) for found, given in every if found]
+        if some:
+            found, given = min(some, key=lambda pair: pair[0][0].size)
+            yield from (_mend(each, given) for each in found)
+            return
 
 
 def _mend(found: _Found, given: str) -> Mend:
@@ -190,24 +201,36 @@ class _Search:
         return tuple(np.round(solved, 7).tolist())
 
     def _solved(self, equation: Equation, base: Array) -> Array | None:
-        """The equation solved for its highest derivative, where it is of numbers and linear in it."""
-        known = [n for n in letters(equation) if n.key in self.other and self.other[n.key].ndim == 1]
-        if base.shape[1] != 1 or not known:
-            return None
-        letter = max(sorted(known, key=lambda n: n.key), key=lambda n: n.dots).key
-        once, twice = (self._residual(equation, self.other | {letter: self.other[letter] + step}) for step in (1.0, 2.0))
-        if once is None or twice is None:
+        """The equation solved for a letter in which it and the one given are linear."""
+        known = {n.key for n in letters(equation)}
+        for key in (key for key in self._pivots if key in known):
+            if (solved := self._solved_for(key, equation, base)) is not None:
+                return solved
+        return None
+
+    @cached_property
+    def _pivots(self) -> list[str]:
+        """Letters in which the equation given is linear, accelerations first."""
+        found = self._residual(self.equation, self.other)
+        known = [n for n in letters(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
+        ranked = sorted(known, key=lambda n: -n.dots)
+        return [n.key for n in ranked if found and self._solved_for(n.key, self.equation, found.sides.residual) is not None]
+
+    def _solved_for(self, key: str, equation: Equation, base: Array) -> Array | None:
+        once, twice = (self._residual(equation, self.other | {key: self.other[key] + step}) for step in (1.0, 2.0))
+        if base.shape[1] != 1 or once is None or twice is None:
             return None
         slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
-        if not np.all(np.abs(bend) < 1e-7 * np.abs(slope)):
-            return None
-        return self.other[letter] - (base / slope)[:, 0]
+        return self.other[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
 
 
 def _elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
-    """Values that are no true state, where only what is the same by itself is the same."""
+    """Values that are no true state, where only what is the same by itself is the same; two names of one quantity stay equal."""
     rng = np.random.default_rng(5)
-    return {key: value * rng.uniform(0.7, 1.4, value.shape) for key, value in values.items()}
+    factors: dict[bytes, Array] = {}
+    for value in values.values():
+        factors.setdefault(value.tobytes(), rng.uniform(0.7, 1.4, value.shape))
+    return {key: value * factors[value.tobytes()] for key, value in values.items()}
 
 
 def _both(first: Edit, second: Edit) -> Edit | None:

@@ -24,8 +24,10 @@ if TYPE_CHECKING:
 
 SAMPLES = 64
 _TRIES = 40  # for one sample; a four-bar with random bars closes in about one of three
-_PATIENCE = 6  # samples, of which one at least must be found
+_PATIENCE = 3  # samples, of which one at least must be found
+_ENOUGH = 8  # samples to judge by
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
+_FEW_TRIES = 8  # where a parameter is far from the model's, and states are rarer or none
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
@@ -260,10 +262,10 @@ class Truth:
                 return []
             if (sample := self._sample(rng, family)) is not None:
                 found.append(sample)
-        return found if len(found) >= min(_PATIENCE, count) else []
+        return found if len(found) >= min(_ENOUGH, count) else []
 
     def _sample(self, rng: np.random.Generator, family: Family) -> Sample | None:
-        for _ in range(_TRIES):
+        for _ in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
             try:
                 values = self._parameters(rng, family)
                 made = self._made(rng, values, family)
@@ -381,7 +383,7 @@ class Truth:
         ends = motion.final()[0]
         t = min(late, 0.9 * ends)
         q, u = (a[0] for a in motion.sample(np.array([t])))
-        same = self._mode(motion.instant(t), motion, t) == self._own_mode
+        same = _same(self._mode(motion.instant(t), motion, t), self._own_mode)
         return Sample(State(state.p, t, q, u), motion) if same and motion.instant(t).residual < _BALANCED else None
 
     def _moving(self, rng: np.random.Generator, state: State) -> State:
@@ -429,6 +431,15 @@ class Truth:
         rubs = motion.evaluate(self._rubbing, np.array([t]))[0] if self._rubbing else np.empty(0)
         slow = 1e-9 * self.rate * min(self.length, 1.0)
         return (*limits, *(float(np.sign(x)) if abs(x) > slow else 0.0 for x in rubs))
+
+
+def _same(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
+    """Whether two modes are one; what slides without friction does so in either sense."""
+
+    def alike(x: Any, y: Any) -> bool:
+        return x == y or (isinstance(x, tuple) and x[0] == y[0] and 0 in (x[1], y[1]))
+
+    return len(a) == len(b) and all(alike(x, y) for x, y in zip(a, b, strict=True))
 
 
 def _without(u: Array, rows: Array) -> Array:

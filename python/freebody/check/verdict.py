@@ -130,13 +130,12 @@ def _count(equation: Equation) -> int:
 
 
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
+    """A slip where one mends it; else an assumption that excuses what was left out; else wrong."""
     seen = evidence(case, equation, found)
-    assumed = assumption(case, equation)
-    if assumed:
-        words, _ = assumed
-        fixes = tuple(mends(case, equation)) if "number" not in words else ()
-        return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", words, fixes, seen)
     fixes = tuple(mends(case, equation))
+    if not any(mend.is_slip for mend in fixes) and (assumed := assumption(case, equation)):
+        words, _ = assumed
+        return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", words, fixes, seen)
     where = "" if fixes else "wrong, and no single or double edit mends it"
     return Verdict(Kind.WRONG, text, where, mends=fixes, evidence=seen)
 

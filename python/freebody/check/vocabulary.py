@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations, combinations_with_replacement, islice
 
 import numpy as np
 
@@ -16,6 +16,7 @@ Powers = tuple[int, int, int]
 """Powers of length, mass and time."""
 
 _DEGREE = 4  # of the product of parameters in a term: m l² has three, m l r g four
+_MOST = 400  # products, each with all its sines and cosines
 _BLIND_DEGREE = 3  # where dimensions do not thin them out
 
 
@@ -57,7 +58,7 @@ class Vocabulary:
 
     def terms(self, wanted: Powers | None, moving: Sequence[Letter] = ()) -> Iterator[Node]:
         """Terms of a dimension (of any where it is None) as equations of motion have them."""
-        for monomial in self._monomials(wanted, list(self._dynamic(moving))):
+        for monomial in islice(self._monomials(wanted, list(self._dynamic(moving))), _MOST):
             for shape in self._shapes:
                 factors = (*monomial, *shape)
                 yield Product(factors) if len(factors) > 1 else factors[0] if factors else Number(1.0, "1")
@@ -79,7 +80,8 @@ class Vocabulary:
     ) -> Iterator[tuple[Node, ...]]:
         sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
         known = {n: self.powers(n) for n in sizes}
-        blind = wanted is None or any(p is None for p in known.values())
+        blind = wanted is None
+        sizes = sizes if blind else [n for n in sizes if known[n] is not None]
         for degree in range((_BLIND_DEGREE if blind else _DEGREE) + 1):
             for chosen in combinations_with_replacement(sizes, degree):
                 if max([chosen.count(n) for n in chosen], default=0) > 2:
