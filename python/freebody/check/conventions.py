@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from .edits import Edit
-from .language.nodes import Equation, Letter, Negative, Node, Number, Quotient, Sum, letters, substitute, walk
+from .language.nodes import Cross, Dot, Equation, Letter, Negative, Node, Number, Quotient, Sum, letters, replace, substitute, walk
 from .vocabulary import Vocabulary
 
 _QUARTER = Quotient(Number(math.pi, "pi"), Number(2.0, "2"))
@@ -17,6 +17,7 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
 
     A letter that stands once is left to the edits of its place.
     """
+    yield from _products(equation)
     found = [n for n in walk(equation) if isinstance(n, Letter)]
     often = [name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1]
     for name in often:
@@ -31,6 +32,16 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
                 swapped = {Letter(a, d): Letter(b, d) for a, b in ((name, other.name), (other.name, name)) for d in range(3)}
                 after = _exchanged(equation, swapped)
                 yield Edit("convention", None, None, after, words=f"`{name}` and `{other.name}` exchanged")
+
+
+def _products(equation: Equation) -> Iterator[Edit]:
+    """Every cross product a scalar product, and the other way round."""
+    for kind, other, words in ((Cross, Dot, "`·` for every `×`"), (Dot, Cross, "`×` for every `·`")):
+        after = equation
+        while (old := next((n for n in walk(after) if isinstance(n, kind)), None)) is not None:
+            after = replace(after, old, other(old.left, old.right, span=old.span))
+        if after is not equation:
+            yield Edit("convention", None, None, after, words=words)
 
 
 def _angles(equation: Equation, plain: Letter, vocabulary: Vocabulary) -> Iterator[Edit]:

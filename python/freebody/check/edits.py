@@ -122,6 +122,9 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
             yield "missing factor", Product((top, bottom), **at)
         case Cross(left=left, right=right):
             yield "sign", Cross(right, left, **at)
+            yield "function", Dot(left, right, **at)
+        case Dot(left=left, right=right):
+            yield "function", Cross(left, right, **at)
     if isinstance(node, Letter) and Letter(node.name) in vocabulary.coordinates and node.dots == 1:
         yield "power", Power(node, Number(2.0, "2"), **at)
 

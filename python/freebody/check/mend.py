@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations
@@ -77,6 +77,10 @@ class _Found:
         return sum(edit.size for edit in self.edits)
 
 
+Step = Callable[["_Search"], Iterator[_Found]]
+"""A way to look for mends."""
+
+
 def mends(case: Case, equation: Equation) -> Iterator[Mend]:
     """The smallest mends of an equation, equally small ones together; nothing where no one or two edits mend it."""
     families = [(case.hypothesis, "")]
@@ -85,16 +89,20 @@ def mends(case: Case, equation: Equation) -> Iterator[Mend]:
         families += [(replace(given, held=(*given.held, (name, 0.0))), f"{name} = 0") for name in zeros]
         if len(zeros) > 1:
             families.append((replace(given, zeros=False), ", ".join(f"{name} = 0" for name in zeros)))
-    for row in rows(equation):
-        yield from _of_row(case, row, families)
+    parts = rows(equation)
+    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, (_Search.singles,)))):
+        yield from whole
+        return
+    for row in parts:
+        yield from _of_row(case, row, families, (_Search.singles, _Search.pairs))
 
 
-def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]]) -> Iterator[Mend]:
+def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Mend]:
     """The smallest mends of an equation, in the widest family in which they are smallest."""
     searches = [(_Search(case, row, family), given) for family, given in families]
     if any(search.right for search, _ in searches):
         return
-    for step in (_Search.singles, _Search.pairs):
+    for step in steps:
         every = [(search.best(step(search)), given) for search, given in searches]
         some = [(found, given) for found, given in every if found]
         if some:
@@ -132,7 +140,8 @@ class _Search:
             if (both := _both(first, second)) is not None and self._passes(both.after):
                 yield _Found((first, both))
         for first in near:
-            yield from (_Found((first, edit)) for edit in self._promising(self._fitted(first.after)))
+            second = (edit for edit in self._fitted(first.after) if edit.kind != "other term")
+            yield from (_Found((first, edit)) for edit in self._promising(second))
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
         units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))

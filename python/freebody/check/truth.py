@@ -30,6 +30,7 @@ _BALANCED = 1e-11  # largest relative residual of a state that may judge: below 
 _FEW_TRIES = 8  # where a parameter is far from the model's, and states are rarer or none
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
+_LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
@@ -180,9 +181,13 @@ class Truth:
         """Whether limits, joint friction or events at the start decide what moves, so that states must lie on runs."""
         if any(event.get("opening") for event in self.spec.get("events", [])) or self._sticky:
             return True
-        state = self._started({})
+        state = self._first
         limits = json.loads(self.core.instant(state.p, state.t, state.q, state.u).limits)
         return any(limit["state"] != "open" for limit in limits)
+
+    @cached_property
+    def _first(self) -> State:
+        return self._started({})
 
     @cached_property
     def _sticky(self) -> list[str]:
@@ -213,7 +218,7 @@ class Truth:
         """A length typical of the model, m."""
         places = json.loads(self.core.points(self.core.bind({})))
         found = [math.hypot(*_place(at)) for at in places.values()] if isinstance(places, dict) else []
-        state = self._started({})
+        state = self._first
         found += [abs(q) for q, c in zip(state.q, self.coordinates, strict=True) if c["dimension"] == "m"]
         return max([x for x in found if x > 0], default=1.0)
 
@@ -225,7 +230,7 @@ class Truth:
     @cached_property
     def rate(self) -> float:
         """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest."""
-        state = self._started({})
+        state = self._first
         sizes = np.array([1.0 if c["dimension"] == "rad" else 1 / self.length for c in self.coordinates])
         try:
             solved = self.core.instant(state.p, state.t, state.q, state.u)
@@ -294,9 +299,16 @@ class Truth:
         size, sign = rng.random(), rng.choice([-1.0, 1.0])
         if family.numbers or (value == 0 and not family.zeros):
             return value
-        low, high = _ANGLE_FACTOR if dimension is not None and _is_angle(dimension) else _FACTOR
+        low, high = self._factor(dimension)
         factor = low * (high / low) ** size
         return value * factor if value else sign * factor * self._unit(dimension)
+
+    def _factor(self, dimension: Dimension | None) -> tuple[float, float]:
+        """By what a parameter may differ from the model's."""
+        if dimension is not None and _is_angle(dimension):
+            return _ANGLE_FACTOR
+        shapes_loops = self._loops and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
+        return _LOOP_FACTOR if shapes_loops else _FACTOR
 
     def _unit(self, dimension: Dimension | None) -> float:
         if dimension is None:
@@ -307,7 +319,7 @@ class Truth:
         """A random state on the model's branch, none of whose limits is closed."""
         words = initial_state(self.start, self.core, values)
         p, t = words["p"], self._time(rng)
-        own = self._started({}).q
+        own = self._first.q
         wide = self._loops == 0 or bool(words["branch"])
         spread = np.array([(math.pi if wide else 0.6) if c["dimension"] == "rad" else self.length for c in self.coordinates])
         guess = own + spread * rng.uniform(-1, 1, len(own))
@@ -358,7 +370,7 @@ class Truth:
     @cached_property
     def freedom(self) -> int:
         """Rates that can be given at will."""
-        state = self._started({})
+        state = self._first
         solved = self.core.instant(state.p, state.t, state.q, state.u)
         return max(int(json.loads(solved.rank)["freedom"]) - int(self.about["freedom"].get("driven", 0)), 0)
 
@@ -417,7 +429,7 @@ class Truth:
 
     @cached_property
     def _own_mode(self) -> tuple[Any, ...]:
-        state = self._started({})
+        state = self._first
         motion = self._run(state, 1e-3 / self.rate)
         t = motion.final()[0]
         return self._mode(motion.instant(t), motion, t)
