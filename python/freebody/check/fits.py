@@ -64,7 +64,7 @@ class Fits:
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
         found = _constant(need.needed) if isinstance(need.node, Number) else None
-        if found is not None and (number := recognised(found)) is not None:
+        if found is not None and found != -need.node.value and (number := recognised(found)) is not None:
             yield Edit("factor", need.node, number, replace(equation, need.node, number))
         if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
             for letter in self._letters:
