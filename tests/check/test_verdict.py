@@ -30,7 +30,7 @@ def test_textbook_equations_are_true(book: Book) -> None:
 
 
 SLIPS = [
-    ("l*theta'' + x''*cos(theta) - g*sin(theta) = 0", "sign", "g*sin(theta)"),
+    ("l*theta'' + x''*cos(theta) - g*sin(theta) = 0", "sign", "-g*sin(theta)"),
     ("l*theta'' + x''*sin(theta) + g*sin(theta) = 0", "function", "sin(theta)"),
     ("l*theta'' + 2*x''*cos(theta) + g*sin(theta) = 0", "factor", "2"),
     ("theta'' + x''*cos(theta) + g*sin(theta) = 0", "missing factor", "thetaddot"),

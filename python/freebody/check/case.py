@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from .families import ALL, Family, Samples
 from .language.evaluate import Array
 from .language.nodes import Equation, Letter, Program, inlined
 from .residual import Residual, residual
-from .truth import ALL, SAMPLES, Family, Samples, Truth
+from .truth import SAMPLES, Truth
 from .vocabulary import Vocabulary
 
 

@@ -13,6 +13,7 @@ from freebody.model.errors import Complaint
 from freebody.results import Array
 
 from .case import Case
+from .families import Sample, Samples
 from .hypothesis import FAR, family
 from .language.evaluate import equation_sides, evaluate
 from .language.nodes import Equation, Letter, Number, Program, letters, walk
@@ -20,7 +21,6 @@ from .language.nodes import replace as replaced
 from .language.parser import parse, parse_expression
 from .meaning import StatementLetters
 from .residual import HOLDS, magnitude, residual
-from .truth import Sample, Samples
 from .verdict import Evidence, Kind, Verdict, evidence
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
 
 def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
     names = [c["name"] for c in truth.coordinates]
-    if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth._loops:
+    if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth.loops:
         raise Complaint(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
     state, i = sample.state, names.index(letter.name)
     q, u = state.q.copy(), state.u.copy()

@@ -11,11 +11,11 @@ import numpy as np
 
 from .assumptions import assumption
 from .case import Case
+from .families import Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation, letters
 from .mend import Mend, mends
 from .residual import FAILS, HOLDS, Residual, residual, unreached
-from .truth import Family, NoMotion
 
 if TYPE_CHECKING:
     from .language.evaluate import Array
