@@ -61,6 +61,12 @@ class Mechanism:
     def instant(self, p: Array, t: float, q: Array, u: Array, route: str = "minimal") -> Instant:
         """Accelerations and all reactions at a state by ``minimal``, ``newton_euler`` or ``constraints``."""
 
+    def free_bodies(self, p: Array, t: float, q: Array, u: Array) -> str:
+        """JSON {"bodies", "loads", "rows", "accelerations"}: all that acts on each body at a state; see ``freebody.free_body``."""
+
+    def letters(self, p: Array, t: float, q: Array, u: Array, setting: str, questions: str) -> str:
+        """JSON {"answers", "loads", "letters"}: what is asked of a state, in letters; ``letters/question.rs`` lists the questions."""
+
     def evaluate(self, texts: Sequence[str], p: Array, t: float, q: Array, u: Array) -> Array:
         """Values (k,) of observable expressions at a state; works count as 0."""
 
@@ -123,6 +129,8 @@ class Trajectory:
         """Reactions (nt, nj, 3) and whether they are determinate."""
     def instant(self, t: float, route: str = "minimal") -> Instant:
         """Everything about one time, with what is in place and holds then."""
+    def free_bodies(self, t: float) -> str:
+        """As that of ``Mechanism``, with what is in place and holds then."""
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """Column names and values (nt, k): kinetic, potential, work of each non-conservative force and motion, balance."""
     def final(self) -> tuple[float, Array, Array, Array, str]:

@@ -7,6 +7,7 @@ use freebody::assembly::{assemble, Wish};
 use freebody::balance::{Balance, Observer, Route, Trouble};
 use freebody::compile::Compiled;
 use freebody::gauges::Law;
+use freebody::letters::{answer, Question};
 use freebody::simulation::{simulate, Rule, Settings, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -129,6 +130,37 @@ impl Mechanism {
         let solved = balance.instant(route).map_err(errors::motion)?;
         let freedom = balance.freedom();
         Ok(Instant::new(&m, solved, &freedom))
+    }
+
+    /// Bodies and loads of the free-body diagrams at a state, in numbers, as JSON.
+    fn free_bodies(
+        &self,
+        p: PyReadonlyArray1<f64>,
+        t: f64,
+        q: PyReadonlyArray1<f64>,
+        u: PyReadonlyArray1<f64>,
+    ) -> PyResult<String> {
+        let m = self.0.mechanism();
+        let mut balance = self.placed(&m, &p, t, &q, &u)?;
+        Ok(freebody::free_bodies::free_bodies(&mut balance).map_err(errors::motion)?.to_string())
+    }
+
+    /// Answers in letters to questions about a state: `setting` and `questions` as JSON, the answers as JSON.
+    fn letters(
+        &self,
+        p: PyReadonlyArray1<f64>,
+        t: f64,
+        q: PyReadonlyArray1<f64>,
+        u: PyReadonlyArray1<f64>,
+        setting: &str,
+        questions: &str,
+    ) -> PyResult<String> {
+        let m = self.0.mechanism();
+        let mut balance = self.placed(&m, &p, t, &q, &u)?;
+        let wrong = |e: serde_json::Error| errors::motion(Trouble::new("wrong_question", e.to_string()));
+        let setting = serde_json::from_str(setting).map_err(wrong)?;
+        let questions: Vec<Question> = serde_json::from_str(questions).map_err(wrong)?;
+        Ok(answer(&mut balance, &setting, &questions).map_err(errors::motion)?.to_string())
     }
 
     fn evaluate<'py>(

@@ -3,6 +3,7 @@
 //! The core knows no files, no clock and no Python. `ARCHITECTURE.md` at the root of the
 //! repository is the map.
 
+pub mod algebra;
 pub mod assembly;
 pub mod balance;
 pub mod benchmark;
@@ -12,10 +13,12 @@ pub mod describe;
 pub mod error;
 pub mod expr;
 pub mod forces;
+pub mod free_bodies;
 pub mod gauges;
 pub mod graph;
 pub mod joints;
 pub mod kinematics;
+pub mod letters;
 pub mod mechanism;
 pub mod mode;
 pub mod motion;

@@ -101,7 +101,11 @@ impl Mechanism {
     /// The numbers of the mechanism at parameters `p`.
     pub fn bind<S: Scalar>(&self, p: &[S]) -> Numbers<S> {
         let env = OfParameters { p, tables: &self.tables };
-        let slots: Vec<S> = self.slots.iter().map(|e| e.eval(&env)).collect();
+        self.with_slots(p, self.slots.iter().map(|e| e.eval(&env)).collect())
+    }
+
+    /// The numbers of the mechanism at parameters `p` and values of its slots.
+    pub fn with_slots<S: Scalar>(&self, p: &[S], slots: Vec<S>) -> Numbers<S> {
         let at = |xy: [Slot; 2]| Vec2 { x: slots[xy[0]], y: slots[xy[1]] };
         let heavy: Vec<_> = self.bodies.iter().map(|body| mass_properties(body, &slots)).collect();
         let place = |site: usize| match self.sites[site].at {

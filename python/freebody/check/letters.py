@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 from freebody.instant import passes_couple
-from freebody.model import meanings
+from freebody.model import meanings, syntax
 from freebody.model.errors import Complaint
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
@@ -18,6 +18,7 @@ from .declared import Array, Meaning, Reader
 from .language.alphabet import folded
 from .language.errors import StatementError
 from .language.nodes import Letter, Program, walk
+from .language.parser import parse
 from .language.tokens import Names
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ _PARTS: dict[str, tuple[str, ...]] = {
     "string": ("tension",),
     "stop": ("N",),
 }
+_FUNCTIONS = sorted(syntax.READINGS | {"rate", "accel"})
+_READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _SHORT = {"Fx": "x", "Fy": "y"}
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
@@ -95,6 +98,21 @@ class Letters:
     def vectors(self) -> frozenset[str]:
         """Letters that are vectors."""
         return frozenset(name for name, m in self.meanings.items() if m.is_vector)
+
+    def read(self, text: str) -> Program:
+        """The statement that a text is. What it asks of the model in the model's own words, ``ax(rod.G)``, ``energy()``,
+        ``accel(s)``, becomes a letter, too. Raises ``StatementError``."""
+        for found in _READING.finditer(text):
+            name = "".join(found[0].split())
+            if name not in self.meanings and (meaning := self._reading(name)) is not None:
+                self._put(name, meaning)
+        return parse(text, self.names)
+
+    def _reading(self, text: str) -> Meaning | None:
+        try:
+            return Meaning("reading", *_single(self._measured(text)))
+        except Complaint:
+            return None
 
     # --- values --------------------------------------------------------------------------------
 
@@ -181,9 +199,12 @@ class Letters:
         particles = frozenset(b["name"] for b in self.about["bodies"] if b.get("particle"))
         joints = {j["name"]: (j["first"], j["second"]) for j in self.about["joints"]}
         try:
-            self.meanings[name] = Reader(self._measured, joints, bodies, particles).read(said)
+            self._put(name, Reader(self._measured, joints, bodies, particles).read(said))
         except Complaint as complaint:
             raise Complaint(f"letter `{name}`: {complaint.what}", complaint.hint) from None
+
+    def _put(self, name: str, meaning: Meaning) -> None:
+        self.meanings[name] = meaning
         for cached in ("vectors", "_spellings"):
             self.__dict__.pop(cached, None)
 
@@ -204,6 +225,10 @@ class Letters:
     @cached_property
     def _spellings(self) -> Names:
         return Names.of(self.meanings)
+
+
+def _single(measured: tuple[str, Dimension | None]) -> tuple[tuple[str], Dimension | None]:
+    return (measured[0],), measured[1]
 
 
 def declarations(lines: Iterable[str]) -> dict[str, str]:

@@ -29,6 +29,8 @@ MISTAKES = [
     ("[m, 0; 1] (x, F) = 0", "^^^^^^^^^", "different lengths"),
     ("x = 1\nF = m g)", "       ^", "never opened"),
     (r"F = \frac{m}{", "            ^", "never closed"),
+    ("d/dt(m x) = F", "^^^^", "only letters are differentiated"),
+    (r"\frac{d}{dt} (m x) = F", "^^^^^^^^^^^^", "only letters are differentiated"),
     ("diff(m x, t) = 0", "^^^^^^^^^^^^", "only letters are differentiated"),
 ]
 

@@ -63,6 +63,7 @@ ONE_READING = {
         r"\dot\theta = \omega",
         r"\frac{d\theta}{dt} = \omega",
         "theta' = omega",
+        "θ̇(t) = ω(t)",
     ],
     "sin(theta)^2 = tan(alpha)^2": [
         "sin²θ = tan²α",
@@ -130,6 +131,11 @@ def test_primes_belong_to_names_where_one_is_declared():
 def test_names_with_blanks_stand_in_quotes_and_do_not_take_primes_away():
     program = parse("'crank drive'.Fx = m x''", ["'crank drive'.Fx", "m", "x"])
     assert letters(program) == [Letter("'crank drive'.Fx"), Letter("m"), Letter("x", 2)]
+
+
+@pytest.mark.parametrize("text", ["dθ/dt = 0", "d θ/dt = 0", r"\frac{d\theta}{dt} = 0"])
+def test_a_parameter_d_does_not_hide_derivatives(text):
+    assert letters(parse(text, ["d", "t", "theta"])) == [Letter("theta", 1)]
 
 
 def test_a_declared_name_goes_before_its_reading_as_a_rate():

@@ -29,6 +29,7 @@ LEFT_SIDES = [
     ("√(g/l) = 0", np.sqrt(g / l)),
     ("2^−2 l = 0", l / 4),
     ("atan2(l, m) = 0", np.arctan2(l, m)),
+    ("2 × m = 0", 2 * m),
     ("30° l = 0", np.pi / 6 * l),
     ("F i − m g j = 0", np.stack([F, -m * g, ZERO], axis=-1)),
     ("r_G/O × m a_G + θ̈ k = 0", np.stack([ZERO, ZERO, m * (R[:, 0] * A[:, 1] - R[:, 1] * A[:, 0]) + al], axis=-1)),

@@ -7,7 +7,7 @@ use crate::gauges::Placed;
 use crate::kinematics::{relative, JointView};
 use crate::mechanism::Part;
 use crate::plane::{vec2, Twist, Wrench};
-use crate::scalar::Jet;
+use crate::scalar::{Jet, Scalar};
 use crate::solve::{Factor, Lu, Matrix, Pattern};
 
 /// Memory of the sparse solution: one group of rows for each joint or drive that has any.
@@ -315,31 +315,31 @@ fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
 
 /// The row of a joint along a curve, which has no residual: the second body's point has, across the curve, the
 /// acceleration of a point that runs along the curve as the coordinate does.
-pub(super) fn curve_row(at: Placed<'_>, index: usize) -> Row {
+pub fn curve_row<S: Scalar>(at: Placed<'_, S>, index: usize) -> Row<S> {
     let joint = &at.m.joints[index];
     let child = joint.child.expect("a joint along a curve is in the tree");
     let start = at.m.bodies[child].branch.expect("a body of the tree").start;
     let c = &joint.coordinates[0];
-    let s = at.n.slots[c.zero] + at.q[start] * c.sense;
-    let unit = [Jet::new(s, 1.0, 0.0), Jet::constant(0.0)];
+    let s = at.n.slots[c.zero] + at.q[start].scale(c.sense);
+    let unit = [Jet::new(s, S::one(), S::zero()), Jet::constant(S::zero())];
     let run = JointView::new(at.m, at.n, joint, Jet::constant).pose(&unit[..joint.size], false);
     let (axes, _) = relative(joint, at.m, &at);
-    let fixed = |x: f64, y: f64| axes.turn.apply(vec2(x, y));
+    let fixed = |x: S, y: S| axes.turn.apply(vec2(x, y));
     let place = axes.at + fixed(run.x.d0, run.y.d0);
     let slope = fixed(run.x.d1, run.y.d1);
-    let across = slope.perp() * (1.0 / slope.norm());
+    let across = slope.perp() * (S::one() / slope.norm());
     let [first, second] = at.m.ends(joint).map(|body| {
         let (arm, w) = (place - at.k.pose[body].at, at.k.twist[body].w);
         -arm * (w * w)
     });
     let (rate, w) = (at.k.nu[start], at.k.twist[at.m.ends(joint)[0]].w);
-    let along = fixed(run.x.d2, run.y.d2) * (rate * rate) + slope.perp() * (2.0 * w * rate);
+    let along = fixed(run.x.d2, run.y.d2) * (rate * rate) + slope.perp() * (w * rate).scale(2.0);
     Row {
         source: Source::Joint(index, 0),
         value: None,
         rate: None,
         bias: across.dot(second - first - along),
-        motion: pair(at, joint, place, Wrench { f: across, m: 0.0 }),
+        motion: pair(at, joint, place, Wrench { f: across, m: S::zero() }),
         force: None,
     }
 }

@@ -184,7 +184,7 @@ pub fn pair<S: Scalar>(at: Placed<'_, S>, joint: &Joint, place: Vec2<S>, load: W
 }
 
 /// The row of a coupling or of a prescribed motion.
-fn drive_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+pub fn drive_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
     let drive: &Drive = &at.m.drives[index];
     let going = Moving { at, bodies: base, accelerations: None };
     let of = jet(&going, &drive.of);

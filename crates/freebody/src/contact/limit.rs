@@ -92,13 +92,13 @@ pub struct Border {
 
 /// Where a closed limit acts, in fixed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct Contact<S = f64> {
     /// The place.
-    pub point: Vec2,
+    pub point: Vec2<S>,
     /// Unit normal, along which the force on the disk's body pushes.
-    pub normal: Vec2,
+    pub normal: Vec2<S>,
     /// Unit tangent: the normal turned clockwise by a right angle.
-    pub tangent: Vec2,
+    pub tangent: Vec2<S>,
 }
 
 impl Gap {

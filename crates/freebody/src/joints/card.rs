@@ -101,6 +101,9 @@ pub struct RowCard {
     /// It holds a turn, which a particle does not have.
     #[serde(skip)]
     pub turning: bool,
+    /// It is a component of the force of a pin, which a person tells along fixed axes: 0 for x, 1 for y.
+    #[serde(skip)]
+    pub pin: Option<usize>,
     /// Only its change counts: its value at the start of a motion is its zero (teeth mesh as they are put).
     #[serde(skip)]
     pub phased: bool,
@@ -146,15 +149,18 @@ impl Card {
         self.coordinates.push(CoordinateCard { name: "angle", dimension: "rad", turn: true });
         self
     }
+    /// The two rows that keep a point on a point.
+    pub fn pin(self) -> Self {
+        let axis = |name, axis| RowCard { name, turning: false, pin: Some(axis), phased: false };
+        self.row(axis("force along x", 0)).row(axis("force along y", 1))
+    }
     /// A row whose multiplier is a force.
-    pub fn force(mut self, name: &'static str) -> Self {
-        self.rows.push(RowCard { name, turning: false, phased: false });
-        self
+    pub fn force(self, name: &'static str) -> Self {
+        self.row(RowCard { name, turning: false, pin: None, phased: false })
     }
     /// A force row of which only the change counts.
-    pub fn phased(mut self, name: &'static str) -> Self {
-        self.rows.push(RowCard { name, turning: false, phased: true });
-        self
+    pub fn phased(self, name: &'static str) -> Self {
+        self.row(RowCard { name, turning: false, pin: None, phased: true })
     }
     /// It can rub along its first coordinate.
     pub fn rubbing(mut self) -> Self {
@@ -162,8 +168,11 @@ impl Card {
         self
     }
     /// A row that holds the second body's turn.
-    pub fn couple(mut self) -> Self {
-        self.rows.push(RowCard { name: "couple", turning: true, phased: false });
+    pub fn couple(self) -> Self {
+        self.row(RowCard { name: "couple", turning: true, pin: None, phased: false })
+    }
+    fn row(mut self, row: RowCard) -> Self {
+        self.rows.push(row);
         self
     }
 }

@@ -70,7 +70,7 @@ impl Joint for Gear {
         let pitch = n.of[0] + Self::side(n) * n.of[1];
         Some(Few::of(&[passed(r, b1, b2, flank) - flank * strand(pitch * pitch, b1 + b2)]))
     }
-    fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
+    fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         let (b1, b2) = Self::base(n);
         r.at() * (b1 / (b1 + b2))
     }

@@ -10,8 +10,7 @@ impl Joint for Hinge {
         Card::new("hinge", "A point of one body stays on a point of the other.")
             .needs("of", FieldKind::Points, Role::Both, "m", "the points; more than two share one pin")
             .turn()
-            .force("force along x")
-            .force("force along y")
+            .pin()
             .rubbing()
     }
     #[inline]

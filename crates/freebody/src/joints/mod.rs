@@ -86,7 +86,7 @@ pub trait Joint {
         false
     }
     /// Where the reaction acts, in the first marker's axes; the second marker by default.
-    fn contact(&self, _n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
+    fn contact<S: Scalar>(&self, _n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         r.at()
     }
     /// Period of the row `i`, which is an angle times a length, when its angles may have wound; 0 for none.
@@ -126,7 +126,7 @@ macro_rules! list {
             fn unsigned(&self, k: usize) -> bool {
                 match self { $(Kind::$Joint => $module::$Joint.unsigned(k)),* }
             }
-            fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
+            fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
                 match self { $(Kind::$Joint => $module::$Joint.contact(n, r)),* }
             }
             fn period(&self, n: &Numbers<f64>, row: usize) -> f64 {

@@ -24,7 +24,7 @@ impl Joint for Rolling {
     fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         Some(Few::of(&[r.x]))
     }
-    fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
+    fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         vec2(r.x, r.y - n.of[0])
     }
 }
@@ -66,7 +66,7 @@ impl Joint for RollingCircles {
     fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         Some(Few::of(&[r.y.atan2(r.x)]))
     }
-    fn contact(&self, n: &Numbers<f64>, r: &Relative<f64>) -> Vec2<f64> {
+    fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         r.at() * (n.of[0] / r.at().norm())
     }
     fn period(&self, n: &Numbers<f64>, row: usize) -> f64 {

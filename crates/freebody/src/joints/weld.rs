@@ -11,8 +11,7 @@ impl Joint for Weld {
         Card::new("weld", "The two bodies move as one.")
             .needs("of", FieldKind::Points, Role::Both, "m", "the points that coincide")
             .takes("angle", FieldKind::Number, "rad", "0", "turn of the second body against the first")
-            .force("force along x")
-            .force("force along y")
+            .pin()
             .couple()
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, _: &[S]) -> Option<Relative<S>> {

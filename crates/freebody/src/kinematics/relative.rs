@@ -58,6 +58,10 @@ impl<'a, T: Scalar> JointView<'a, T> {
     pub fn residual(&self, r: &Relative<T>) -> Few<T> {
         self.joint.kind.residual(&self.numbers(), r).expect("a joint that closes a loop has a residual")
     }
+    /// Where the reaction acts, in the first marker's axes.
+    pub fn contact(&self, r: &Relative<T>) -> Vec2<T> {
+        self.joint.kind.contact(&self.numbers(), r)
+    }
     /// The coordinates in the order of the card, where they can be read off.
     pub fn measure(&self, r: &Relative<T>) -> Option<Few<T>> {
         self.joint.kind.measure(&self.numbers(), r)
@@ -65,10 +69,6 @@ impl<'a, T: Scalar> JointView<'a, T> {
 }
 
 impl JointView<'_, f64> {
-    /// Where the reaction acts, in the first marker's axes.
-    pub fn contact(&self, r: &Relative<f64>) -> Vec2<f64> {
-        self.joint.kind.contact(&self.numbers(), r)
-    }
     /// Period of a row of the card.
     pub fn period(&self, row: usize) -> f64 {
         self.joint.kind.period(&self.numbers(), row)

@@ -4,8 +4,10 @@
 mod closed_forms;
 mod contacts;
 mod cords;
+mod free_bodies;
 mod gauges;
 mod joints;
+mod letters;
 mod metamorphic;
 mod model;
 mod random;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import lru_cache
 
 _GREEK = [
     "alpha",
@@ -75,6 +76,7 @@ def plain(char: str) -> str:
     return NAMES.get(base, base)
 
 
+@lru_cache(4096)
 def folded(name: str) -> str:
     """The spelling by which names are compared: ``m₁``, ``m_1`` → ``m1``; ``θ_A`` → ``thetaA``."""
     return _NUMBERED.sub("", "".join(plain(c) for c in name if not unicodedata.combining(c)))

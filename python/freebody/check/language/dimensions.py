@@ -137,7 +137,7 @@ class _Reader:
         first = matrices[0][1]
         same = [(node, shape) for node, shape in matrices if [len(r) for r in shape] == [len(r) for r in first]]
         return [
-            [self.common([(node, d) for node, s in same if (d := s[r][c]) is not None]) for c in range(len(row))]
+            [self.common([(_entry(node, r, c), d) for node, s in same if (d := s[r][c]) is not None]) for c in range(len(row))]
             for r, row in enumerate(first)
         ]
 
@@ -201,6 +201,16 @@ class _Reader:
                     f"`{function}` of `{spell(node)}`, {dimension.words()}", node.span, "it takes a plain number"
                 )
         return NUMBER_ONLY
+
+
+def _entry(node: Node, row: int, column: int) -> Node:
+    """The entry of a written column or matrix; of what is worked out, the whole."""
+    match node:
+        case Column(items=items):
+            return items[row]
+        case Matrix(rows=rows):
+            return rows[row][column]
+    return node
 
 
 def _scalar(shape: Shape) -> Known:

@@ -173,7 +173,7 @@ class _Reader:
 
     def one(self) -> list[Glyph]:
         """One thing that is an argument without braces: of 12 only the 1."""
-        if self.text[self.at].isdigit():
+        if self.text[self.at].isdecimal():
             self.at += 1
             return [Glyph(Kind.DIGIT, self.text[self.at - 1], (self.at - 1, self.at))]
         return self.next()

@@ -160,7 +160,7 @@ class Line:
     def raised(self, token: Token) -> Node:
         """The exponent that small figures are."""
         text = token.text
-        if text.lstrip("-").isdigit():
+        if text.lstrip("-").isdecimal():
             number = Number(float(text.lstrip("-")), text.lstrip("-"), span=token.span)
             return Negative(number, span=token.span) if text.startswith("-") else number
         return Letter(text, span=token.span)
@@ -203,9 +203,12 @@ class Line:
         return StatementError(f"`{token.text}` has no place in an equation", token.span)
 
     def letter(self, token: Token) -> Node:
+        """A letter; written as a function of time, θ(t), it is the same."""
+        if [t.text for t in self.row[self.at : self.at + 3]] == ["(", "t", ")"] and self.now.attached:
+            self.at += 3
         if token.text == "pi" and not self.names.find("pi"):
             return Number(math.pi, "pi", span=token.span)
-        return Letter(token.text, token.dots, span=token.span)
+        return Letter(token.text, token.dots, span=self.span(token))
 
     def group(self) -> Node:
         """What is in brackets: an expression, or a column."""

@@ -172,11 +172,13 @@ def _tex_inside(node: Node) -> str:
             return _tex_times(factors)
         case Quotient(top=top, bottom=bottom):
             return rf"\frac{{{_tex(top, _SUM)}}}{{{_tex(bottom, _SUM)}}}"
-        case Power(base=Call(function=function, arguments=arguments), exponent=exponent) if function in _NAMED:
+        case Power(base=Call(function=function, arguments=arguments), exponent=exponent) if function in _NAMED and not isinstance(
+            exponent, Negative
+        ):
             return rf"\{function}^{{{_tex(exponent, _SUM)}}}{_tex_arguments(arguments)}"
         case Power(base=base, exponent=exponent):
             inside = _tex(base, _ATOM)
-            inside = rf"\left({inside}\right)" if isinstance(base, Quotient) else inside
+            inside = rf"\left({inside}\right)" if isinstance(base, Quotient | Call) else inside
             return rf"{inside}^{{{_tex(exponent, _SUM)}}}"
         case Call(function="sqrt", arguments=(of,)):
             return rf"\sqrt{{{_tex(of, _SUM)}}}"

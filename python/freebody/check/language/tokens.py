@@ -15,8 +15,9 @@ from .glyphs import Glyph, Kind, glyphs
 ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
 _SUFFIXES = ("dddot", "ddot", "dot", "")
+_ONLY_LETTERS, _WRITE_OUT = "only letters are differentiated here, by t", "write the derivative out, like `m*vdot`"
 _WORDS = {"with", "where", "and"}
-_OPERATORS = {"+", "-", "*", "/", "^", "·", "×", "=", "<=", ">=", "<", ">"}
+_OPERANDS = {"letter", "number", "raised", ")", "]"}
 _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
 # r_G1/O, ΣM/O, H_123/A: a label after a stroke that is part of a name, where no declared name decides
 _RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
@@ -159,7 +160,7 @@ class _Reader:
     def fraction(self, text: str, start: int) -> None:
         """A sign like ½ as a quotient in brackets."""
         for piece in text:
-            self.put("number" if piece.isdigit() else piece, piece, start)
+            self.put("number" if piece.isdecimal() else piece, piece, start)
 
     # --- names ---------------------------------------------------------------------------------
 
@@ -193,7 +194,7 @@ class _Reader:
 
     def crosses(self, end: int) -> bool:
         """Whether an x between blanks is the sign of a cross product: only where no letter x is known."""
-        if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind in _OPERATORS | {"(", "[", "line"}:
+        if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind not in _OPERANDS:
             return False
         after = self.row[end : end + 1]
         return self.blank and bool(after) and after[0].kind is Kind.SPACE
@@ -238,7 +239,7 @@ class _Reader:
         at, left = start, name
         while left:
             glyph = self.row[at] if at < len(self.row) else Glyph(Kind.LINE, "\n", (0, 0))
-            text = "" if glyph.kind is Kind.SPACE and "'" in name else glyph.text
+            text = "" if glyph.kind is Kind.SPACE and ("'" in name or "(" in name) else glyph.text
             if not left.startswith(text) or not (text or at > start):
                 return None
             at, left = at + 1, left.removeprefix(text)
@@ -301,15 +302,18 @@ class _Reader:
     def derivative(self) -> _Piece | None:
         """dθ/dt and d²θ/dt², from a d on."""
         row, at = self.row, self.at
-        if row[at].text != "d" or row[at].dots or self.names.find("d"):
+        if row[at].text != "d" or row[at].dots:
             return None
         order, at = self.order(at + 1)
         while at < len(row) and row[at].kind is Kind.SPACE:
             at += 1
         stroke = next((i for i in range(at, len(row)) if row[i].kind not in _IN_NAMES), len(row))
-        if stroke == at or self.spelling(stroke, stroke + 3) != "/dt":
+        if self.spelling(stroke, stroke + 3) != "/dt":
             return None
         again, end = self.order(stroke + 3)
+        if stroke == at:
+            span = (row[self.at].span[0], row[end - 1].span[1])
+            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
         if again != order or (end < len(row) and row[end].kind in _IN_NAMES):
             return None
         spelling = self.spelling(at, stroke)
@@ -320,8 +324,11 @@ class _Reader:
         """The same written as a LaTeX fraction, from there on."""
         inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
         text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside)
+        if text.startswith("{d}{dt}"):
+            span = (self.row[self.at].span[0], self.row[inside[6]].span[1])
+            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
         found = _FRACTION.match(text)
-        if not found or self.names.find("d"):
+        if not found:
             return None
         ends = {0: inside[0]}
         for i in inside:
@@ -332,10 +339,8 @@ class _Reader:
 
     def order(self, at: int) -> tuple[int, int]:
         """The order of a derivative written here (1 where nothing is), and the glyph behind it."""
-        if at < len(self.row) and self.row[at].kind is Kind.RAISED:
-            return int(self.row[at].text), at + 1
-        if self.spelling(at, at + 1) == "^" and at + 1 < len(self.row):
-            braced = self.row[at + 1].text == "{"
-            digit = at + 1 + braced
-            return int(self.row[digit].text), digit + 1 + braced
-        return 1, at
+        written = "".join("^" * (g.kind is Kind.RAISED) + g.text for g in self.row[at : at + 4])
+        if not (found := re.match(r"\^(\d)|\^\{(\d)\}", written)):
+            return 1, at
+        raised = self.row[at].kind is Kind.RAISED
+        return int(found[1] or found[2]), at + found.end() - raised

@@ -48,9 +48,9 @@ impl<T: Scalar> Face<T> {
     }
 }
 
-impl Face<f64> {
+impl<T: Scalar> Face<T> {
     /// The normal, and the vector from the point of contact to the centre of the disk.
-    pub fn foot(&self) -> (Vec2, Vec2) {
+    pub fn foot(&self) -> (Vec2<T>, Vec2<T>) {
         match *self {
             Face::Flat { to, along } => {
                 let normal = along.perp();
@@ -58,8 +58,11 @@ impl Face<f64> {
             }
             Face::Round { to, radius, side } => {
                 let length = to.norm();
-                let outward = if length > 0.0 { to * (1.0 / length) } else { vec2(1.0, 0.0) };
-                (outward * side, to - outward * radius)
+                let outward = match length.value() > 0.0 {
+                    true => to * (T::one() / length),
+                    false => vec2(T::one(), T::zero()),
+                };
+                (outward * T::of(side), to - outward * radius)
             }
         }
     }

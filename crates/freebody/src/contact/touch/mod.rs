@@ -95,7 +95,7 @@ impl Touch {
     }
 
     /// The point of contact on the surface, with its directions.
-    pub fn contact(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: usize) -> Contact {
+    pub fn contact<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: usize) -> Contact<T> {
         let centre = poses.pose(m.body_of(self.disk.centre)).place(poses.arm(self.disk.centre));
         let (normal, foot) = self.face(m, poses, piece).foot();
         Contact { point: centre - foot, normal, tangent: -normal.perp() }

@@ -1,0 +1,53 @@
+//! Loads that a state determines: weights, and the forces of the model.
+
+use super::{along_gauge, mass_centre, Load, Origin, Part, Size};
+use crate::balance::Spread;
+use crate::expr::spell;
+use crate::forces::Push;
+use crate::gauges::{gradient, Placed, State};
+use crate::mechanism::Part as Piece;
+use crate::plane::vec2;
+use crate::scalar::Scalar;
+
+/// The weight of every body that has one.
+pub fn weights<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
+    for (body, of) in at.m.bodies.iter().enumerate().skip(1) {
+        let force = at.n.gravity * at.n.mass[body];
+        if force.x.value() == 0.0 && force.y.value() == 0.0 {
+            continue;
+        }
+        let parts = vec![Part { body, point: mass_centre(at, body), force, couple: S::zero() }];
+        let symbol = format!("{}.weight", spell(&of.name));
+        out.push(Load { origin: Origin::Weight(body), symbol, of: [0, body], parts, size: Size::Known });
+    }
+}
+
+/// Every force of the model that is in place, all that it does together.
+pub fn forces<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
+    for (index, force) in at.m.forces.iter().enumerate().filter(|(f, _)| at.mode.has(Piece::Force(*f))) {
+        let several = force.pulls.len() + force.pushes.len() > 1;
+        let name = |k: usize| if several { format!("{}.{}", force.name, k + 1) } else { force.name.clone() };
+        for (k, pull) in force.pulls.iter().enumerate() {
+            let value = crate::balance::pull_value(at, pull);
+            let spread: Spread<S> = pull.bodies.iter().map(|&b| (b, gradient(at, &pull.gauge, b) * value)).collect();
+            let parts = along_gauge(at, &pull.gauge, &spread);
+            out.push(load(index, name(k), parts));
+        }
+        for (k, push) in force.pushes.iter().enumerate() {
+            out.push(load(index, name(force.pulls.len() + k), vec![pushed(at, push)]));
+        }
+    }
+}
+
+fn load<S: Scalar>(force: usize, symbol: String, parts: Vec<Part<S>>) -> Load<S> {
+    let of = [if parts.len() > 1 { parts[1].body } else { 0 }, parts.first().map_or(0, |p| p.body)];
+    Load { origin: Origin::Force(force), symbol, of, parts, size: Size::Known }
+}
+
+fn pushed<S: Scalar>(at: Placed<'_, S>, push: &Push) -> Part<S> {
+    let body = at.m.body_of(push.site);
+    let pose = at.k.pose[body];
+    let f = vec2(push.x.eval(&State(at)), push.y.eval(&State(at)));
+    let force = if push.with_body { pose.turn.apply(f) } else { f };
+    Part { body, point: pose.place(at.n.arms[push.site]), force, couple: S::zero() }
+}

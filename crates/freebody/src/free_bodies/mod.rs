@@ -1,0 +1,160 @@
+//! What acts on each body: the loads of a free-body diagram, told over any scalar.
+//!
+//! A load is one thing that pushes, pulls or turns: a weight, a spring, one component of the reaction of a joint. On two bodies
+//! it acts in equal and opposite ways. What is not known before the balance is solved is told for a unit of it.
+
+mod accelerations;
+mod given;
+mod limits;
+mod numbers;
+mod reactions;
+
+pub use accelerations::accelerations;
+pub use numbers::free_bodies;
+
+use crate::balance::Source;
+use crate::gauges::{Law, Leaf, Placed, Poses};
+use crate::kinematics::{relative, JointView};
+use crate::plane::{Vec2, Wrench};
+use crate::scalar::Scalar;
+
+/// Where a load comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Gravity on a body.
+    Weight(usize),
+    /// A force of the model.
+    Force(usize),
+    /// The force of a pin of a joint along fixed axes: 0 for x, 1 for y.
+    Pin(usize, usize),
+    /// A row: of a joint, a motion or coupling, a closed limit, friction that sticks.
+    Row(Source),
+    /// Friction of a limit that slides.
+    Sliding(usize),
+    /// The spring and damper that stand for a limit.
+    Pressed(usize),
+    /// Friction of a joint that slides.
+    Rubbing(usize),
+}
+
+/// What one load does to one body.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<S> {
+    /// The body; 0 for ground.
+    pub body: usize,
+    /// Where the force acts, fixed axes, m.
+    pub point: Vec2<S>,
+    /// Force, fixed axes, N; for a unit of an unknown a direction.
+    pub force: Vec2<S>,
+    /// Couple beside the force at its point, N·m.
+    pub couple: S,
+}
+
+/// How much is known of the size of a load before the balance is solved.
+#[derive(Clone, Copy, Debug)]
+pub enum Size<S> {
+    /// All: its parts are what acts.
+    Known,
+    /// Nothing: its parts are told for a unit of it.
+    Unknown,
+    /// It is this many times another load of the list, its parts being told for a unit of it.
+    Follows(usize, S),
+    /// It follows from the others by a law that is not linear; its parts are told for a unit of it.
+    ByLaw,
+}
+
+/// A load.
+#[derive(Clone, Debug)]
+pub struct Load<S> {
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Its name, as in an expression of the model: `pivot.Fx`, `motor`.
+    pub symbol: String,
+    /// First and second body; ground for the first where it has none.
+    pub of: [usize; 2],
+    /// What it does to each body, ground among them where it takes the opposite.
+    pub parts: Vec<Part<S>>,
+    /// What is known of its size.
+    pub size: Size<S>,
+}
+
+/// All loads at a state, in the order: weights, forces, joints, motions, limits, friction.
+pub fn loads<S: Scalar>(at: Placed<'_, S>) -> Vec<Load<S>> {
+    let mut loads = vec![];
+    given::weights(at, &mut loads);
+    given::forces(at, &mut loads);
+    reactions::joints(at, &mut loads);
+    reactions::drives(at, &mut loads);
+    limits::limits(at, &mut loads);
+    limits::rubs(at, &mut loads);
+    loads
+}
+
+/// The mass centre of a body, fixed axes.
+pub fn mass_centre<S: Scalar>(at: Placed<'_, S>, body: usize) -> Vec2<S> {
+    at.k.pose[body].at + at.k.pose[body].turn.apply(at.n.centre[body])
+}
+
+/// A load at the pin of a body, told as a force at a point and a couple beside it.
+fn part<S: Scalar>(at: Placed<'_, S>, body: usize, at_pin: Wrench<S>, point: Vec2<S>) -> Part<S> {
+    let there = at_pin.seen_from(at.k.pose[body].at - point);
+    Part { body, point, force: there.f, couple: there.m }
+}
+
+/// Adds what ground takes: the opposite of all parts together, at the point `at`.
+fn ground_takes<S: Scalar>(parts: &mut Vec<Part<S>>, point: Vec2<S>) {
+    let (mut force, mut couple) = (Vec2::zero(), S::zero());
+    for part in parts.iter() {
+        force += part.force;
+        couple += part.couple + (part.point - point).cross(part.force);
+    }
+    parts.push(Part { body: 0, point, force: -force, couple: -couple });
+}
+
+/// The loads of a spread along a gauge, each at the point that the gauge looks at.
+fn along_gauge<S: Scalar>(at: Placed<'_, S>, gauge: &Law, spread: &[(usize, Wrench<S>)]) -> Vec<Part<S>> {
+    let told = |&(body, w): &(usize, Wrench<S>)| part(at, body, w, place_on(at, gauge, body));
+    let mut parts: Vec<Part<S>> = spread.iter().map(told).collect();
+    if looks_at_ground(at, gauge) {
+        ground_takes(&mut parts, place_on(at, gauge, 0));
+    }
+    parts
+}
+
+/// Where a gauge takes hold of a body: its only site there, or the place of a joint, or the mass centre.
+fn place_on<S: Scalar>(at: Placed<'_, S>, gauge: &Law, body: usize) -> Vec2<S> {
+    let mut sites: Vec<usize> = gauge.leaves().filter_map(|leaf| site_on(at, leaf, body)).collect();
+    sites.sort_unstable();
+    sites.dedup();
+    let joint = gauge.leaves().find_map(|leaf| match leaf {
+        Leaf::Coordinate(joint, _) if at.m.ends(&at.m.joints[*joint]).contains(&body) => Some(*joint),
+        _ => None,
+    });
+    match (&sites[..], joint) {
+        ([site], _) => at.pose(body).place(at.arm(*site)),
+        ([], Some(joint)) => joint_place(at, joint),
+        ([], None) | ([_, _, ..], _) => mass_centre(at, body),
+    }
+}
+
+fn site_on<S: Scalar>(at: Placed<'_, S>, leaf: &Leaf, body: usize) -> Option<usize> {
+    match leaf {
+        Leaf::X(site) | Leaf::Y(site) if at.m.body_of(*site) == body => Some(*site),
+        _ => None,
+    }
+}
+
+fn looks_at_ground<S: Scalar>(at: Placed<'_, S>, gauge: &Law) -> bool {
+    gauge.leaves().any(|leaf| match leaf {
+        Leaf::X(_) | Leaf::Y(_) => site_on(at, leaf, 0).is_some(),
+        Leaf::Coordinate(joint, _) => at.m.ends(&at.m.joints[*joint]).contains(&0),
+        _ => false,
+    })
+}
+
+/// Where the reaction of a joint acts, fixed axes.
+fn joint_place<S: Scalar>(at: Placed<'_, S>, joint: usize) -> Vec2<S> {
+    let joint = &at.m.joints[joint];
+    let (axes, place) = relative(joint, at.m, &at);
+    axes.place(JointView::new(at.m, at.n, joint, |x| x).contact(&place))
+}

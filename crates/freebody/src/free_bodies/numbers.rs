@@ -1,0 +1,195 @@
+//! The loads of a solved instant in numbers, as data for whoever draws or reasons.
+
+use super::{accelerations, loads, mass_centre, Load, Origin, Part, Size};
+use crate::balance::{closing_rows, Balance, Labels, Source, Trouble};
+use crate::joints::Joint as _;
+use crate::mechanism::Mechanism;
+use crate::plane::{Twist, Vec2};
+use serde_json::{json, Map, Value};
+
+/// Part of a load's force times the characteristic length below which its couple is round-off.
+const NO_COUPLE: f64 = 1e-12;
+
+/// Bodies, loads with their sizes, and what joints and motions ask of the accelerations, at the state of `balance`.
+///
+/// # Errors
+/// As [`Balance::solve`].
+pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
+    balance.solve()?;
+    let labels = balance.labels();
+    let sizes = Sizes::of(balance, &labels);
+    let at = balance.at();
+    let m = balance.m;
+    let all = loads(at);
+    let told: Vec<Value> = all.iter().map(|load| tell(balance, load, sizes.of_load(balance, load, &all))).collect();
+    let still = vec![0.0; m.freedom()];
+    let drift = accelerations(at, &still);
+    let unit = |j: usize| -> Vec<Twist> {
+        let mut one = still.clone();
+        one[j] = 1.0;
+        accelerations(at, &one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
+    };
+    let units: Vec<Vec<Twist>> = (0..m.freedom()).map(unit).collect();
+    let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(balance, i, &drift, &units)).collect();
+    let rows: Vec<Value> = closing_rows(at, Some(&drift))
+        .iter()
+        .map(|row| {
+            let power = |motion: &[Twist]| -> f64 { row.motion.iter().map(|(b, w)| w.power(motion[*b])).sum() };
+            let coefficients: Map<String, Value> =
+                (0..m.freedom()).map(|j| (m.coordinate(j).name.clone(), json!(power(&units[j])))).collect();
+            json!({"name": row.source.name(m), "coefficients": coefficients, "right": -row.bias})
+        })
+        .collect();
+    let mut found = vec![0.0; m.freedom()];
+    balance.accelerations(&mut found);
+    let accelerations: Map<String, Value> =
+        found.iter().enumerate().map(|(j, a)| (m.coordinate(j).name.clone(), json!(a))).collect();
+    Ok(json!({"bodies": bodies, "loads": told, "rows": rows, "accelerations": accelerations}))
+}
+
+fn xy(v: Vec2) -> Value {
+    json!([v.x, v.y])
+}
+
+/// Acceleration of the mass centre and angular acceleration, by those of the pin; `w` the angular velocity.
+fn at_centre(arm: Vec2, pin: Twist, w: f64) -> [f64; 3] {
+    let a = pin.at(arm) - arm * (w * w);
+    [a.x, a.y, pin.w]
+}
+
+fn body(balance: &Balance<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) -> Value {
+    let (at, m) = (balance.at(), balance.m);
+    let (body, pose, twist) = (&m.bodies[i], at.k.pose[i], at.k.twist[i]);
+    let centre = mass_centre(at, i);
+    let arm = centre - pose.at;
+    let origin = m.sites.iter().position(|s| s.body == i).expect("every body has its origin as a site");
+    let found = at_centre(arm, balance.solved().bodies[i], twist.w);
+    let by: Map<String, Value> = units
+        .iter()
+        .enumerate()
+        .map(|(j, u)| (m.coordinate(j).name.clone(), json!(at_centre(arm, u[i], 0.0))))
+        .collect();
+    json!({
+        "name": body.name, "particle": body.particle, "mass": at.n.mass[i],
+        "inertia": if body.particle { 0.0 } else { at.n.inertia[i] },
+        "at": xy(pose.place(at.n.arms[origin])), "angle": pose.turn.angle,
+        "G": xy(centre), "v": xy(twist.at(arm)), "omega": twist.w,
+        "a": [found[0], found[1]], "alpha": if body.particle { 0.0 } else { found[2] },
+        "by_accelerations": by, "drift": at_centre(arm, drift[i], twist.w),
+    })
+}
+
+fn tell(balance: &Balance<'_>, load: &Load<f64>, (value, determinate): (Option<f64>, bool)) -> Value {
+    let m = balance.m;
+    let (kind, name, path, component) = described(m, load);
+    let parts: Vec<Value> = load.parts.iter().map(|p| part(balance, p)).collect();
+    let follows = match load.size {
+        Size::Follows(of, ratio) => json!({"load": of, "ratio": ratio}),
+        _ => Value::Null,
+    };
+    json!({
+        "name": name, "path": path, "symbol": load.symbol, "kind": kind, "component": component,
+        "unknown": !matches!(load.size, Size::Known), "follows": follows, "value": value, "determinate": determinate,
+        "of": load.of.map(|b| &m.bodies[b].name), "on": parts,
+    })
+}
+
+/// A part, its couple taken up by the place of the force where there is one, round-off left out.
+fn part(balance: &Balance<'_>, p: &Part<f64>) -> Value {
+    let size = p.force.norm();
+    let (mut point, mut couple) = (p.point, p.couple);
+    if couple.abs() <= NO_COUPLE * size * balance.length {
+        couple = 0.0;
+    } else if size > 0.0 {
+        point = p.point + p.force.perp() * (-couple / (size * size));
+        couple = 0.0;
+    }
+    json!({"body": balance.m.bodies[p.body].name, "point": xy(point), "force": xy(p.force), "couple": couple})
+}
+
+/// Kind, name, place in the model and component of a load.
+fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, String, Option<String>) {
+    let row = |joint: usize, r: usize| Some(m.joints[joint].kind.card().rows[r].name.to_string());
+    match load.origin {
+        Origin::Weight(body) => ("weight", &m.bodies[body].name, format!("bodies.{}", m.bodies[body].name), None),
+        Origin::Force(force) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name), None),
+        Origin::Pin(joint, axis) => {
+            let component = ["x", "y"][axis].to_string();
+            ("joint", &m.joints[joint].name, format!("joints.{}", m.joints[joint].name), Some(component))
+        }
+        Origin::Row(source) => {
+            let (kind, component) = match source {
+                Source::Joint(joint, r) => ("joint", row(joint, r)),
+                Source::Drive(drive) if m.drives[drive].coupling => ("coupling", None),
+                Source::Drive(_) => ("motion", None),
+                Source::Limit(limit) => (m.groups[m.limits[limit].group].word, None),
+                Source::Friction(_) | Source::Rub(_) => ("friction", None),
+            };
+            let path = match source {
+                Source::Limit(l) | Source::Friction(l) => m.groups[m.limits[l].group].path(),
+                _ => source.path(m),
+            };
+            (kind, source.name(m), path, component)
+        }
+        Origin::Sliding(limit) | Origin::Pressed(limit) => {
+            let group = &m.groups[m.limits[limit].group];
+            let kind = if matches!(load.origin, Origin::Sliding(_)) { "friction" } else { group.word };
+            (kind, &group.name, group.path(), None)
+        }
+        Origin::Rubbing(rub) => {
+            let source = Source::Rub(rub);
+            ("friction", source.name(m), source.path(m), None)
+        }
+    }
+}
+
+/// The sizes of all unknown loads in the last solution, and whether they are determinate.
+struct Sizes<'l> {
+    labels: &'l Labels,
+    joints: Vec<(Vec2, Vec<f64>)>,
+    drives: Vec<f64>,
+    limits: Vec<[f64; 2]>,
+}
+
+impl<'l> Sizes<'l> {
+    fn of(b: &Balance<'_>, labels: &'l Labels) -> Self {
+        let loads = b.joint_loads();
+        let joints = loads.iter().enumerate().map(|(j, l)| (l.force, rows_of(b, j))).collect();
+        Sizes { labels, joints, drives: b.drive_forces(), limits: b.limit_forces() }
+    }
+
+    fn of_load(&self, b: &Balance<'_>, load: &Load<f64>, all: &[Load<f64>]) -> (Option<f64>, bool) {
+        let m = b.m;
+        let group = |limit: usize| m.limits[limit].group;
+        if let Size::Follows(of, ratio) = load.size {
+            let (normal, sure) = self.of_load(b, &all[of], all);
+            return (normal.map(|n| n * ratio), sure);
+        }
+        match load.origin {
+            Origin::Weight(_) | Origin::Force(_) => (None, true),
+            Origin::Pin(joint, axis) => {
+                let force = self.joints[joint].0;
+                (Some([force.x, force.y][axis]), self.labels.joints[joint][axis])
+            }
+            Origin::Row(Source::Joint(joint, row)) => {
+                let of = &m.joints[joint];
+                let at = of.rows.iter().position(|&r| r == row).expect("a row of the joint");
+                let sign = if load.symbol.ends_with(".tension") { -1.0 } else { 1.0 };
+                let sure = self.labels.joints[joint].iter().all(|&s| s);
+                (Some(sign * self.joints[joint].1[at]), sure)
+            }
+            Origin::Row(Source::Drive(drive)) => (Some(self.drives[drive]), self.labels.drives[drive]),
+            Origin::Row(Source::Limit(l)) => (Some(self.limits[l][0]), self.labels.groups[group(l)][2]),
+            Origin::Row(Source::Friction(l)) => (Some(self.limits[l][1]), self.labels.groups[group(l)][3]),
+            Origin::Row(Source::Rub(rub)) | Origin::Rubbing(rub) => (Some(b.rub_force(rub)), true),
+            Origin::Pressed(l) | Origin::Sliding(l) => (Some(b.press(l)), true),
+        }
+    }
+}
+
+fn rows_of(b: &Balance<'_>, joint: usize) -> Vec<f64> {
+    if b.m.joints[joint].rows.is_empty() {
+        return vec![];
+    }
+    b.row_loads(joint)
+}

@@ -1,0 +1,258 @@
+//! One balance equation of a group of bodies: moments about a point, or forces along a direction.
+//!
+//! The group moves as one, virtually: turned about a point P, or shifted along a direction e. The power of all loads on it is
+//! then that of its rate of momentum: Σ M/P = Ḣ/P, or Σ F·e = L̇·e. Loads between its own bodies cancel.
+
+use super::question::{About, Along, Group};
+use super::vectors::{tell, tree, tree_by};
+use super::Letters;
+use crate::algebra::{Letter, Tree};
+use crate::balance::Trouble;
+use crate::free_bodies::{Load, Part};
+use crate::plane::{vec2, Vec2};
+use crate::scalar::{Scalar, Symbol};
+use serde_json::{json, Value};
+
+/// A rigid virtual motion of a group.
+#[derive(Clone, Copy)]
+pub enum Test {
+    /// A turn about a point at `about / scale`, fixed axes: the scale keeps equations free of fractions.
+    Moment { about: Vec2<Symbol>, scale: Symbol },
+    /// A shift along a direction.
+    Force(Vec2<Symbol>),
+}
+
+impl Test {
+    /// The power of a force at a point and a couple.
+    fn power(self, point: Vec2<Symbol>, force: Vec2<Symbol>, couple: Symbol) -> Symbol {
+        match self {
+            Test::Moment { about, scale } => (point * scale - about).cross(force) + couple * scale,
+            Test::Force(along) => along.dot(force),
+        }
+    }
+
+    fn about(point: Vec2<Symbol>) -> Self {
+        Test::Moment { about: point, scale: Symbol::one() }
+    }
+
+    fn tell(self) -> Value {
+        match self {
+            Test::Moment { about, scale } => {
+                json!({"kind": "moment", "about": tell(about * (Symbol::one() / scale)), "scale": tree(scale)})
+            }
+            Test::Force(along) => json!({"kind": "force", "along": tell(along)}),
+        }
+    }
+}
+
+impl Letters<'_> {
+    /// The bodies of a group; none named means all.
+    pub(super) fn group(&self, group: &Group) -> Result<Vec<usize>, Trouble> {
+        if group.is_empty() {
+            return Ok(self.m.listed_bodies());
+        }
+        group.iter().map(|name| self.body(name)).collect()
+    }
+
+    pub(super) fn body(&self, name: &str) -> Result<usize, Trouble> {
+        let known = || self.m.listed_bodies().into_iter().map(|i| &self.m.bodies[i].name);
+        self.m.bodies.iter().position(|b| b.name == name).ok_or_else(|| unknown("body", name, known()))
+    }
+
+    pub(super) fn point(&self, name: &str) -> Result<usize, Trouble> {
+        let known = self.m.points.iter().map(|p| &p.0);
+        let found = self.m.points.iter().find(|p| p.0 == name);
+        found.map(|p| p.1).ok_or_else(|| unknown("point", name, known))
+    }
+
+    fn load(&self, index: usize) -> Result<&Load<Symbol>, Trouble> {
+        let sentence = || Trouble::new("unknown_name", format!("there is no load {index}; count them from 0"));
+        self.loads.get(index).ok_or_else(sentence)
+    }
+
+    /// The line on which a load acts on a group.
+    fn acts_on(&self, index: usize, bodies: &[usize]) -> Result<Part<Symbol>, Trouble> {
+        let load = self.load(index)?;
+        let part = load.parts.iter().find(|part| bodies.contains(&part.body)).or(load.parts.first());
+        part.copied().ok_or_else(|| Trouble::new("unknown_name", format!("`{}` acts on nothing", load.symbol)))
+    }
+
+    fn turned_about(&self, about: &About, bodies: &[usize]) -> Result<Test, Trouble> {
+        let at = self.at();
+        let point = match about {
+            About::Point(name) => {
+                let site = self.point(name)?;
+                self.k.pose[self.m.body_of(site)].place(at.n.arms[site])
+            }
+            About::Load(index) => self.acts_on(*index, bodies)?.point,
+            About::Meeting(a, b) => return Ok(meeting(self.acts_on(*a, bodies)?, self.acts_on(*b, bodies)?)),
+            About::Centre => self.centre_of(bodies),
+        };
+        Ok(Test::about(point))
+    }
+
+    fn centre_of(&self, bodies: &[usize]) -> Vec2<Symbol> {
+        let (mut mass, mut moment) = (Symbol::zero(), Vec2::zero());
+        for &b in bodies {
+            mass += self.n.mass[b];
+            moment += self.centre(b) * self.n.mass[b];
+        }
+        match mass.is_zero() {
+            true => self.centre(bodies[0]),
+            false => moment * (Symbol::one() / mass),
+        }
+    }
+
+    fn along(&self, along: &Along, bodies: &[usize]) -> Result<Vec2<Symbol>, Trouble> {
+        let (zero, one) = (Symbol::zero(), Symbol::one());
+        Ok(match along {
+            Along::X => vec2(one, zero),
+            Along::Y => vec2(zero, one),
+            Along::Load(index) => self.acts_on(*index, bodies)?.force,
+            Along::Across(index) => self.acts_on(*index, bodies)?.force.perp(),
+            Along::Body(name) => {
+                let turn = self.k.pose[self.body(name)?].turn;
+                vec2(turn.cos, turn.sin)
+            }
+        })
+    }
+
+    pub(super) fn test(&self, about: Option<&About>, along: Option<&Along>, bodies: &[usize]) -> Result<Test, Trouble> {
+        match (about, along) {
+            (Some(about), None) => self.turned_about(about, bodies),
+            (None, Some(along)) => Ok(Test::Force(self.along(along, bodies)?)),
+            _ => Err(Trouble::new(
+                "wrong_question",
+                "an equation is told `about` a point or `along` a direction, one of them",
+            )),
+        }
+    }
+
+    /// What every load gives to an equation; what acts between bodies of the group is left out.
+    fn moments(&self, bodies: &[usize], test: Test) -> Vec<(usize, Symbol, bool)> {
+        let mut told = vec![];
+        for (index, (load, &size)) in self.loads.iter().zip(&self.sizes).enumerate() {
+            let inside: Vec<&Part<Symbol>> = load.parts.iter().filter(|p| bodies.contains(&p.body)).collect();
+            if inside.is_empty() {
+                continue;
+            }
+            let mut sum = Symbol::zero();
+            for p in &inside {
+                let couple =
+                    if self.m.bodies[p.body].particle && bodies.len() == 1 { Symbol::zero() } else { p.couple };
+                sum += test.power(p.point, p.force, couple);
+            }
+            let internal = load.parts.len() > 1 && inside.len() == load.parts.len();
+            told.push((index, sum * size, internal));
+        }
+        told
+    }
+
+    /// The rate of momentum of a body as the equation sees it.
+    fn momentum_rate(&self, body: usize, test: Test) -> Symbol {
+        let (arm, w, a) = (self.arm(body), self.k.twist[body].w, self.bodies[body]);
+        let force = (a.at(arm) - arm * (w * w)) * self.n.mass[body];
+        test.power(self.centre(body), force, self.turning(body, a.w))
+    }
+
+    fn turning(&self, body: usize, w: Symbol) -> Symbol {
+        if self.m.bodies[body].particle {
+            Symbol::zero()
+        } else {
+            self.n.inertia[body] * w
+        }
+    }
+
+    /// The momentum of a body as the equation sees it.
+    pub(super) fn momentum(&self, body: usize, test: Test) -> Symbol {
+        let twist = self.k.twist[body];
+        let velocity = twist.at(self.arm(body));
+        test.power(self.centre(body), velocity * self.n.mass[body], self.turning(body, twist.w))
+    }
+
+    /// Σ loads − rate of momentum, which must vanish.
+    pub(super) fn residual(&self, bodies: &[usize], test: Test) -> Symbol {
+        let mut sum = Symbol::zero();
+        for (_, moment, internal) in self.moments(bodies, test) {
+            if !internal {
+                sum += moment;
+            }
+        }
+        for &b in bodies {
+            sum -= self.momentum_rate(b, test);
+        }
+        sum
+    }
+
+    /// The equation with all that it is made of.
+    pub(super) fn equation(&self, bodies: &[usize], test: Test) -> Value {
+        let moments = self.moments(bodies, test);
+        let (mut left, mut right, mut momentum) = (Symbol::zero(), Symbol::zero(), Symbol::zero());
+        for (_, moment, internal) in &moments {
+            if !internal {
+                left += *moment;
+            }
+        }
+        let mut inertia = vec![];
+        for &b in bodies {
+            let rate = self.momentum_rate(b, test);
+            right += rate;
+            momentum += self.momentum(b, test);
+            inertia.push(json!({"body": self.m.bodies[b].name, "tree": tree(rate), "zero": rate.is_zero()}));
+        }
+        let loads: Vec<Value> = moments
+            .iter()
+            .map(|(i, moment, internal)| {
+                json!({"load": i, "tree": tree(*moment), "zero": moment.is_zero(), "internal": internal})
+            })
+            .collect();
+        let unknowns = self.unknowns();
+        let residual = right - left;
+        json!({
+            "bodies": bodies.iter().map(|&b| &self.m.bodies[b].name).collect::<Vec<_>>(),
+            "test": test.tell(), "loads": loads, "inertia": inertia, "momentum": tree(momentum),
+            "left": tree_by(left, &unknowns), "right": tree_by(right, &unknowns),
+            "residual": tree_by(residual, &unknowns), "linear": self.linear(residual),
+        })
+    }
+
+    /// An expression as coefficients of what is unknown, and the rest.
+    pub(super) fn linear(&self, of: Symbol) -> Value {
+        let unknowns = self.unknowns();
+        let (factors, rest) = of.linear_in(&unknowns);
+        let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
+        let told = |(l, c): (&Letter, Symbol)| json!({"letter": Tree::letter(&l.name, l.dots), "tree": tree(c)});
+        let coefficients: Vec<Value> = found.map(told).collect();
+        json!({"coefficients": coefficients, "rest": tree(rest)})
+    }
+
+    /// The equation of a coordinate: the bodies that it carries, tested by the motion that it allows.
+    pub(super) fn of_coordinate(&self, i: usize) -> (Vec<usize>, Test) {
+        let (joint, k) = self.m.coordinates[i];
+        let child = self.m.joints[joint].child.expect("a coordinate of the tree");
+        let column = self.k.columns[child][k];
+        let pin = self.k.pose[child].at;
+        let test = match column.w.is_zero() {
+            true => Test::Force(column.v),
+            false => Test::about(pin + column.v.perp() * (Symbol::one() / column.w)),
+        };
+        (self.carried_by(child), test)
+    }
+
+    /// A body with all that hang on it in the tree, in the order of the model.
+    fn carried_by(&self, root: usize) -> Vec<usize> {
+        let hangs = |&body: &usize| self.m.common_carrier(body, root) == root;
+        self.m.listed_bodies().into_iter().filter(hangs).collect()
+    }
+}
+
+/// A turn about the place where two lines meet.
+fn meeting(a: Part<Symbol>, b: Part<Symbol>) -> Test {
+    let scale = a.force.cross(b.force);
+    Test::Moment { about: a.point * scale + a.force * (b.point - a.point).cross(b.force), scale }
+}
+
+fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> Trouble {
+    let told = crate::compile::unknown(what, name, known);
+    Trouble::new("unknown_name", format!("{}; {}", told.what, told.hint))
+}

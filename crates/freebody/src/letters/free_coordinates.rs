@@ -1,0 +1,116 @@
+//! The most brute force: three coordinates a body, and every joint a constraint.
+
+use super::motion::acceleration;
+use super::vectors::tree_by;
+use super::{sizes, Letters};
+use crate::algebra::{Letter, Tree};
+use crate::balance::joint_rows;
+use crate::balance::{closing_rows, Row};
+use crate::free_bodies::{loads, Load, Size};
+use crate::gauges::Placed;
+use crate::kinematics::Kinematics;
+use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
+use crate::scalar::{Scalar, Symbol};
+use serde_json::{json, Value};
+
+/// The bodies placed each by itself: x and y of its mass centre and its angle.
+struct Free {
+    k: Kinematics<Symbol>,
+    bodies: Vec<Twist<Symbol>>,
+    coordinates: Vec<String>,
+}
+
+impl Letters<'_> {
+    /// Letters for the place of every body, with the numbers of the present state beside them.
+    fn free(&self) -> Free {
+        let mut free = Free { k: self.k.clone(), bodies: self.bodies.clone(), coordinates: vec![] };
+        for i in 1..self.m.bodies.len() {
+            let body = &self.m.bodies[i];
+            let mut named = |word: &str, values: [Symbol; 3]| -> [Symbol; 3] {
+                let name = format!("{word}_{}", body.name);
+                let told = [0, 1, 2].map(|d| Symbol::letter(Letter::new(&name, d as u8), values[d].value()));
+                free.coordinates.push(name);
+                told
+            };
+            let (arm, twist, pin) = (self.arm(i), self.k.twist[i], self.bodies[i]);
+            let (r, v, a) = (self.centre(i), twist.at(arm), acceleration(pin, arm, twist.w));
+            let x = named("x", [r.x, v.x, a.x]);
+            let y = named("y", [r.y, v.y, a.y]);
+            let angle = match body.particle {
+                true => [self.k.pose[i].turn.angle, Symbol::zero(), Symbol::zero()],
+                false => named("phi", [self.k.pose[i].turn.angle, twist.w, pin.w]),
+            };
+            let turn = Turn::by(angle[0]);
+            let to_pin = -turn.apply(self.n.centre[i]);
+            free.k.pose[i] = Pose { at: vec2(x[0], y[0]) + to_pin, turn };
+            free.k.twist[i] = Twist { v: vec2(x[1], y[1]) + to_pin.perp() * angle[1], w: angle[1] };
+            let centripetal = to_pin * (angle[1] * angle[1]);
+            let at_pin: Vec2<Symbol> = vec2(x[2], y[2]) + to_pin.perp() * angle[2] - centripetal;
+            free.bodies[i] = Twist { v: at_pin, w: angle[2] };
+        }
+        for (i, body) in self.m.bodies.iter().enumerate() {
+            if let Some(branch) = body.branch {
+                free.k.arm[i] = free.k.pose[i].at - free.k.pose[branch.parent].at;
+            }
+        }
+        free
+    }
+
+    /// Three balance equations a body and every joint's own equations, in the places of the bodies.
+    pub(super) fn constraints(&self) -> Value {
+        let free = self.free();
+        let at = Placed { k: &free.k, ..self.at() };
+        let all = loads(at);
+        let values: Vec<f64> = self.sizes.iter().map(|s| s.value()).collect();
+        let sizes = sizes(&all, &values);
+        let mut unknowns: Vec<Letter> = free.coordinates.iter().map(|c| Letter::new(c, 2)).collect();
+        let open = all.iter().filter(|l| matches!(l.size, Size::Unknown | Size::ByLaw));
+        unknowns.extend(open.map(|l| Letter::new(&l.symbol, 0)));
+        let balances: Vec<Value> =
+            self.m.listed_bodies().into_iter().flat_map(|i| self.balances(&free, i, &all, &sizes, &unknowns)).collect();
+        let mut rows: Vec<Row<Symbol>> = vec![];
+        for (index, joint) in self.m.joints.iter().enumerate() {
+            if joint.child.is_some() && joint.curve.is_none() && !joint.rows.is_empty() {
+                joint_rows(at, index, Some(&free.bodies), &mut rows);
+            }
+        }
+        rows.extend(closing_rows(at, Some(&free.bodies)));
+        json!({
+            "coordinates": free.coordinates, "unknowns": unknowns.iter().map(|l| Tree::letter(&l.name, l.dots)).collect::<Vec<_>>(), "balances": balances,
+            "rows": rows.iter().map(|row| self.row(row)).collect::<Vec<_>>(),
+        })
+    }
+
+    fn balances(
+        &self,
+        free: &Free,
+        i: usize,
+        all: &[Load<Symbol>],
+        sizes: &[Symbol],
+        unknowns: &[Letter],
+    ) -> Vec<Value> {
+        let turn = free.k.pose[i].turn;
+        let arm = turn.apply(self.n.centre[i]);
+        let centre = free.k.pose[i].at + arm;
+        let a = acceleration(free.bodies[i], arm, free.k.twist[i].w) * self.n.mass[i];
+        let mut left = [Symbol::zero(); 3];
+        for (load, &size) in all.iter().zip(sizes) {
+            for part in load.parts.iter().filter(|part| part.body == i) {
+                left[0] += part.force.x * size;
+                left[1] += part.force.y * size;
+                left[2] += ((part.point - centre).cross(part.force) + part.couple) * size;
+            }
+        }
+        let right = [a.x, a.y, self.n.inertia[i] * free.bodies[i].w];
+        let kinds = ["LMB along x", "LMB along y", "AMB about G"];
+        let count = if self.m.bodies[i].particle { 2 } else { 3 };
+        (0..count)
+            .map(|k| {
+                json!({
+                    "body": self.m.bodies[i].name, "kind": kinds[k],
+                    "left": tree_by(left[k], unknowns), "right": tree_by(right[k], unknowns),
+                })
+            })
+            .collect()
+    }
+}

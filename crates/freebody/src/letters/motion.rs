@@ -1,0 +1,75 @@
+//! Kinematics in letters: every mass centre, a point seen from a moving body, and what loops and motions ask.
+
+use super::vectors::{tell, tree};
+use super::Letters;
+use crate::balance::{closing_rows, Row, Source, Trouble};
+use crate::free_bodies::mass_centre;
+use crate::plane::{Twist, Vec2};
+use crate::scalar::{Scalar, Symbol};
+use serde_json::{json, Value};
+
+impl Letters<'_> {
+    /// Angle, position, velocity and acceleration of every body and its mass centre.
+    pub(super) fn kinematics(&self) -> Value {
+        let told = |i: usize| {
+            let (body, twist, pin) = (&self.m.bodies[i], self.k.twist[i], self.bodies[i]);
+            let arm = self.arm(i);
+            json!({
+                "body": body.name, "particle": body.particle,
+                "mass": tree(self.n.mass[i]), "inertia": tree(self.n.inertia[i]),
+                "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(pin.w),
+                "r": tell(mass_centre(self.at(), i)), "v": tell(twist.at(arm)),
+                "a": tell(acceleration(pin, arm, twist.w)),
+            })
+        };
+        Value::Array(self.m.listed_bodies().into_iter().map(told).collect())
+    }
+
+    /// Velocity and acceleration of a point through a body: what the body carries, what the point does against it, and
+    /// Coriolis's part. They add up to the whole.
+    pub(super) fn frame(&self, point: &str, body: &str) -> Result<Value, Trouble> {
+        let (site, frame) = (self.point(point)?, self.body(body)?);
+        let own = self.m.body_of(site);
+        let turn = self.k.pose[own].turn;
+        let arm = turn.apply(self.n.arms[site]);
+        let place = self.k.pose[own].at + arm;
+        let v = self.k.twist[own].at(arm);
+        let a = acceleration(self.bodies[own], arm, self.k.twist[own].w);
+        let (twist, pin, w) = (self.k.twist[frame], self.bodies[frame], self.k.twist[frame].w);
+        let reach = place - self.k.pose[frame].at;
+        let v_transport = twist.at(reach);
+        let v_relative = v - v_transport;
+        let a_transport = acceleration(pin, reach, w);
+        let coriolis = v_relative.perp() * w.scale(2.0);
+        Ok(json!({
+            "v": tell(v), "v_transport": tell(v_transport), "v_relative": tell(v_relative),
+            "a": tell(a), "a_transport": tell(a_transport), "a_coriolis": tell(coriolis),
+            "a_relative": tell(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(pin.w),
+        }))
+    }
+
+    /// What loops, motions and closed limits ask, told of the coordinates.
+    pub(super) fn rows(&self) -> Value {
+        let rows = closing_rows(self.at(), Some(&self.bodies));
+        Value::Array(rows.iter().map(|row| self.row(row)).collect())
+    }
+
+    pub(super) fn row(&self, row: &Row<Symbol>) -> Value {
+        let kind = match row.source {
+            Source::Joint(..) => "joint",
+            Source::Drive(drive) if self.m.drives[drive].coupling => "coupling",
+            Source::Drive(_) => "motion",
+            Source::Limit(limit) | Source::Friction(limit) => self.m.groups[self.m.limits[limit].group].word,
+            Source::Rub(_) => "friction",
+        };
+        json!({
+            "name": row.source.name(self.m), "kind": kind, "value": row.value.map(tree), "rate": row.rate.map(tree),
+            "acceleration": tree(row.bias), "linear": self.linear(row.bias),
+        })
+    }
+}
+
+/// The acceleration of a point at an arm from a pin.
+pub(super) fn acceleration(pin: Twist<Symbol>, arm: Vec2<Symbol>, w: Symbol) -> Vec2<Symbol> {
+    pin.at(arm) - arm * (w * w)
+}

@@ -1,0 +1,142 @@
+//! What can be asked of a mechanism in letters, as data.
+
+use super::Letters;
+use crate::algebra;
+use crate::balance::{Balance, Trouble};
+use crate::free_bodies;
+use serde::Deserialize;
+use serde_json::{json, Value};
+use std::collections::BTreeMap;
+
+/// Names of bodies; none means all.
+pub type Group = Vec<String>;
+
+/// A point about which moments are taken.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum About {
+    /// A named point.
+    Point(String),
+    /// Where a load acts, by its place in the list of loads.
+    Load(usize),
+    /// Where the lines of two loads meet.
+    Meeting(usize, usize),
+    /// The mass centre of the group.
+    Centre,
+}
+
+/// A direction along which forces are taken.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Along {
+    /// The fixed x axis.
+    X,
+    /// The fixed y axis.
+    Y,
+    /// That of a load.
+    Load(usize),
+    /// Across that of a load, a right angle counter-clockwise on.
+    Across(usize),
+    /// The x axis of a body.
+    Body(String),
+}
+
+/// One question.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "ask", rename_all = "snake_case")]
+pub enum Question {
+    /// Position, velocity and acceleration of every mass centre.
+    Kinematics,
+    /// A balance equation of a group: moments about a point, or forces along a direction.
+    Equation {
+        /// The bodies.
+        bodies: Group,
+        /// The point.
+        about: Option<About>,
+        /// The direction.
+        along: Option<Along>,
+    },
+    /// The balance equation of a coordinate: of the bodies that it carries, in the sense in which it moves them.
+    Coordinate {
+        /// Its name.
+        name: String,
+    },
+    /// What loops, motions and closed limits ask: the value, rate and acceleration that must vanish.
+    Rows,
+    /// Three coordinates a body, every joint a constraint.
+    Constraints,
+    /// A point seen from a moving body: transport, relative and Coriolis parts.
+    Frame {
+        /// The point.
+        point: String,
+        /// The body.
+        body: String,
+    },
+    /// Kinetic and potential energy.
+    Energy,
+    /// Lagrange's equations.
+    Lagrange,
+    /// The equations of the coordinates for small departures from rest at given coordinates.
+    Linear {
+        /// Coordinates that are numbers there; the others stay letters.
+        at: BTreeMap<String, f64>,
+    },
+}
+
+/// What is taken as a number from the start.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Setting {
+    /// All rates are 0.
+    pub at_rest: bool,
+    /// Letters with their numbers: `theta`, or `theta.1` for its rate and `theta.2` for its acceleration.
+    pub numbers: BTreeMap<String, f64>,
+}
+
+impl Setting {
+    /// The number that a letter is set to.
+    pub fn fixed(&self, name: &str, dots: u8) -> Option<f64> {
+        let key = if dots == 0 { name.to_string() } else { format!("{name}.{dots}") };
+        self.numbers.get(&key).copied().or_else(|| (self.at_rest && dots == 1).then_some(0.0))
+    }
+}
+
+/// Answers to questions about a solved balance.
+///
+/// # Errors
+/// Unknown names; as [`Balance::solve`].
+pub fn answer(balance: &mut Balance<'_>, setting: &Setting, questions: &[Question]) -> Result<Value, Trouble> {
+    let told = free_bodies::free_bodies(balance)?;
+    let values: Vec<f64> = told["loads"]
+        .as_array()
+        .map_or(vec![], |loads| loads.iter().map(|l| l["value"].as_f64().unwrap_or(1.0)).collect());
+    let balance = &*balance;
+    algebra::session(|| {
+        let letters = Letters::new(balance, setting, &values);
+        let answers: Result<Vec<Value>, Trouble> = questions.iter().map(|q| letters.answer(q)).collect();
+        Ok(json!({"answers": answers?, "loads": told["loads"], "letters": letters.table()}))
+    })
+}
+
+impl Letters<'_> {
+    fn answer(&self, question: &Question) -> Result<Value, Trouble> {
+        match question {
+            Question::Kinematics => Ok(self.kinematics()),
+            Question::Equation { bodies, about, along } => {
+                let bodies = self.group(bodies)?;
+                let test = self.test(about.as_ref(), along.as_ref(), &bodies)?;
+                Ok(self.equation(&bodies, test))
+            }
+            Question::Coordinate { name } => {
+                let (bodies, test) = self.of_coordinate(self.coordinate(name)?);
+                Ok(self.equation(&bodies, test))
+            }
+            Question::Rows => Ok(self.rows()),
+            Question::Constraints => Ok(self.constraints()),
+            Question::Frame { point, body } => self.frame(point, body),
+            Question::Energy => Ok(self.energy()),
+            Question::Lagrange => Ok(self.lagrange()),
+            Question::Linear { at } => Ok(self.linearised(at)),
+        }
+    }
+}

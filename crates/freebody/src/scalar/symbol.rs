@@ -1,0 +1,202 @@
+//! The number read as a symbol.
+
+use super::Scalar;
+use crate::algebra::{with, Letter, Ratio, Rule, SumId, Tree};
+use std::collections::HashMap;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// An expression in letters, in canonical form, and the value it has for the values of the letters.
+///
+/// It is a handle that holds within one [`crate::algebra::session`]. Decisions read the value.
+#[derive(Clone, Copy, Debug)]
+pub struct Symbol {
+    id: SumId,
+    value: f64,
+}
+
+impl PartialEq for Symbol {
+    /// Whether both are identically the same expression.
+    fn eq(&self, o: &Self) -> bool {
+        self.id == o.id
+    }
+}
+
+impl Symbol {
+    fn new(id: SumId, value: f64) -> Self {
+        Symbol { id, value: if id == SumId::ZERO { 0.0 } else { value } }
+    }
+    fn valued(id: SumId) -> Self {
+        Symbol::new(id, with(|arena| arena.value(id)))
+    }
+    /// The letter. Within a session a letter keeps the value it was first made with; letters are
+    /// written in the order in which they were first made.
+    pub fn letter(letter: Letter, value: f64) -> Self {
+        let (id, value) = with(|arena| arena.letter_sum(letter, value));
+        Symbol::new(id, value)
+    }
+    /// The derivative `order` of a function of one variable that is known by its name only, at
+    /// `self`; `rule` gives its values. Within a session a name keeps its first rule.
+    pub fn function(self, name: &str, order: u8, rule: Rule) -> Self {
+        let value = rule(self.value, order);
+        Symbol::new(with(|arena| arena.named(name, order, self.id, rule)), value)
+    }
+    /// The absolute value: `self` or −`self`, by its value.
+    pub fn abs(self) -> Self {
+        Symbol::new(with(|arena| arena.abs(self.id)), self.value.abs())
+    }
+    /// A fraction raises a positive base.
+    fn rational_power(self, exponent: Ratio) -> Self {
+        let (n, d) = exponent.parts();
+        let value = if d == 1 { self.value.powi(n as i32) } else { self.value.powf(exponent.value()) };
+        Symbol::new(with(|arena| arena.power(self.id, exponent)), value)
+    }
+    /// Whether it vanishes identically.
+    pub fn is_zero(self) -> bool {
+        self.id == SumId::ZERO
+    }
+    /// The number it is, when no letter is in it.
+    pub fn constant(self) -> Option<f64> {
+        self.letters().is_empty().then_some(self.value)
+    }
+    /// The partial derivative; letters with different dots are independent.
+    pub fn derivative(self, letter: &Letter) -> Self {
+        Symbol::valued(with(|arena| {
+            let letter = arena.letter_id(letter);
+            arena.derivative(self.id, letter, &mut HashMap::new())
+        }))
+    }
+    /// The expression with letters replaced, all at once.
+    pub fn substitute(self, new: &[(Letter, Symbol)]) -> Self {
+        Symbol::valued(with(|arena| {
+            let mut new = new.iter().map(|(letter, symbol)| (arena.letter_id(letter), symbol.id)).collect();
+            arena.substitute(self.id, &mut new)
+        }))
+    }
+    /// The factor of a letter that occurs linearly; `None` when it does not.
+    pub fn coefficient_of(self, letter: &Letter) -> Option<Self> {
+        let slope = self.derivative(letter);
+        (!slope.letters().contains(letter)).then_some(slope)
+    }
+    /// The factor of each letter, and the rest, of an expression that is linear in them all together.
+    pub fn linear_in(self, letters: &[Letter]) -> (Vec<Self>, Self) {
+        let (factors, rest) = with(|arena| {
+            let ids: Vec<_> = letters.iter().map(|letter| arena.letter_id(letter)).collect();
+            arena.linear(self.id, &ids)
+        });
+        (factors.into_iter().map(Symbol::valued).collect(), Symbol::valued(rest))
+    }
+    /// What is left when the letters are zero.
+    pub fn without(self, letters: &[Letter]) -> Self {
+        let zeros: Vec<(Letter, Symbol)> = letters.iter().map(|l| (l.clone(), Symbol::zero())).collect();
+        self.substitute(&zeros)
+    }
+    /// The angles whose sines and cosines are factors of its terms.
+    pub fn angles(self) -> Vec<Self> {
+        let angles = with(|arena| arena.angles(self.id));
+        angles.into_iter().map(Symbol::valued).collect()
+    }
+    /// The factors of the cosine and of the sine of an angle.
+    pub fn harmonic(self, angle: Symbol) -> [Self; 2] {
+        with(|arena| arena.harmonic(self.id, angle.id)).map(Symbol::valued)
+    }
+    /// The letters in it, in the order in which they were made.
+    pub fn letters(self) -> Vec<Letter> {
+        with(|arena| arena.letters(self.id).into_iter().filter_map(|id| arena.letter(id).cloned()).collect())
+    }
+    /// The value for other values of the letters, on the branches of this session.
+    pub fn evaluate(self, values: &dyn Fn(&Letter) -> f64) -> f64 {
+        with(|arena| arena.evaluate(self.id, values, &mut HashMap::new()))
+    }
+    /// The expression as a person writes it.
+    pub fn tree(self) -> Tree {
+        self.tree_by(&[])
+    }
+    /// The same, as a sum of one term for each of `letters` that occurs linearly, and the rest.
+    pub fn tree_by(self, letters: &[Letter]) -> Tree {
+        with(|arena| {
+            let letters: Vec<_> = letters.iter().map(|letter| arena.letter_id(letter)).collect();
+            arena.tree(self.id, &letters)
+        })
+    }
+}
+
+impl Add for Symbol {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Symbol::new(with(|arena| arena.add(self.id, o.id)), self.value + o.value)
+    }
+}
+impl Sub for Symbol {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Symbol::new(with(|arena| arena.subtract(self.id, o.id)), self.value - o.value)
+    }
+}
+impl Mul for Symbol {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        Symbol::new(with(|arena| arena.multiply(self.id, o.id)), self.value * o.value)
+    }
+}
+impl Div for Symbol {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        Symbol::new(with(|arena| arena.divide(self.id, o.id)), self.value / o.value)
+    }
+}
+impl Neg for Symbol {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Symbol::new(with(|arena| arena.negate(self.id)), -self.value)
+    }
+}
+impl AddAssign for Symbol {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+impl SubAssign for Symbol {
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}
+
+impl Scalar for Symbol {
+    fn of(value: f64) -> Self {
+        Symbol::new(with(|arena| arena.number(value)), value)
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.value.sin_cos();
+        with(|arena| (Symbol::new(arena.sin(self.id), s), Symbol::new(arena.cos(self.id), c)))
+    }
+    fn sqrt(self) -> Self {
+        Symbol::new(with(|arena| arena.sqrt(self.id)), self.value.sqrt())
+    }
+    fn exp(self) -> Self {
+        Symbol::new(with(|arena| arena.exp(self.id)), self.value.exp())
+    }
+    fn ln(self) -> Self {
+        Symbol::new(with(|arena| arena.ln(self.id)), self.value.ln())
+    }
+    fn atan2(self, x: Self) -> Self {
+        Symbol::new(with(|arena| arena.atan2(self.id, x.id)), self.value.atan2(x.value))
+    }
+    fn powi(self, n: i32) -> Self {
+        self.rational_power(Ratio::whole(n.into()))
+    }
+    fn powf(self, exponent: Self) -> Self {
+        match with(|arena| arena.exact_constant(exponent.id)) {
+            Some(exponent) => self.rational_power(exponent),
+            None => (self.ln() * exponent).exp(),
+        }
+    }
+    fn value(self) -> f64 {
+        self.value
+    }
+    fn zero() -> Self {
+        Symbol::new(SumId::ZERO, 0.0)
+    }
+    fn one() -> Self {
+        Symbol::new(SumId::ONE, 1.0)
+    }
+}
