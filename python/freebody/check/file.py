@@ -31,7 +31,7 @@ class Statement(BaseModel):
     model: str | None = Field(None, description="another model, a file beside this one")
     set_: dict[str, Any] = Field({}, alias="set", description="parameters with other numbers; a list tries each")
     letters: dict[str, _SAID] = Field({}, description="own letters")
-    verdict: str | None = Field(None, description="what is expected: true, if, wrong, undecidable or dimensions")
+    verdict: str | None = Field(None, description="what is expected: right, if, wrong, undecidable or dimensions")
     note: str = Field("", description="what a reader should know")
 
 
