@@ -13,6 +13,8 @@ from freebody import _core
 from freebody.instant import State
 from freebody.results import Array
 
+from .prestress import admissible, written_out
+
 
 class NoMotion(ValueError):
     """A model, or a family of its motions, of which no true state was found."""
@@ -49,11 +51,15 @@ class Sample:
 
 @dataclass
 class Samples:
-    """True states of one family. ``values`` reads any expression of the model language on all of them."""
+    """True states of one family. ``values`` reads any expression of the model language on all of them.
+
+    Reactions that are not determined have random admissible values; with ``stress`` 0 those of least norm."""
 
     core: _core.Mechanism
     samples: list[Sample]
     names: list[str]
+    stress: float = 1.0
+    loose: set[str] = field(default_factory=set)
     known: dict[str, Array] = field(default_factory=dict)
     weighed: dict[str, tuple[Array, Array]] = field(default_factory=dict)
 
@@ -64,7 +70,8 @@ class Samples:
         """Each expression on all samples, (K,); NaN where it reads a reaction that is not determined."""
         new = [text for text in dict.fromkeys(texts) if text not in self.known]
         if new:
-            rows = np.array([self._row(sample, new) for sample in self.samples])
+            rng = np.random.default_rng(17)
+            rows = np.array([self._stressed(sample, new, self._row(sample, new), rng) for sample in self.samples])
             self.known |= {text: rows[:, i] for i, text in enumerate(new)}
         return {text: self.known[text] for text in texts}
 
@@ -73,6 +80,19 @@ class Samples:
         if sample.motion is not None:
             return sample.motion.evaluate(texts, np.array([state.t]))[0]
         return self.core.evaluate(texts, state.p, state.t, state.q, state.u)
+
+    def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
+        """A row in which what reads reactions that are not determined has a value, too."""
+        if not np.isnan(row).any() or sample.motion is not None:
+            return row
+        values = admissible(self.core, sample.state, rng, self.stress)
+        lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and written_out(text, values) != text]
+        state = sample.state
+        if lost:
+            told = [written_out(texts[i], values) for i in lost]
+            row[lost] = self.core.evaluate(told, state.p, state.t, state.q, state.u)
+            self.loose |= {texts[i] for i in lost}
+        return row
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
