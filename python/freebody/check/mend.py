@@ -149,8 +149,9 @@ class _Search:
             if (both := _both(first, second)) is not None and self._passes(both.after):
                 yield _Found((first, both))
         for first in near:
-            second = (edit for edit in self._fitted(first.after) if edit.kind != "other term")
+            second = self._fitted(first.after, others=False)
             yield from (_Found((first, edit)) for edit in self._promising(second))
+        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
         units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))
@@ -162,9 +163,9 @@ class _Search:
             () if broken else self._fitted(equation),
         )
 
-    def _fitted(self, equation: Equation) -> Iterator[Edit]:
+    def _fitted(self, equation: Equation, others: bool = True) -> Iterator[Edit]:
         try:
-            yield from self.fits.edits(equation)
+            yield from self.fits.edits(equation, others)
         except StatementError:
             return
 
