@@ -133,7 +133,7 @@ class _Search:
         self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
-        self.other = _elsewhere(self.few)
+        self.other = elsewhere(self.few)
         self.fits = Fits(self.values, self.vocabulary)
         self.right = self._worst(equation, self.values) < HOLDS
 
@@ -245,7 +245,7 @@ class _Search:
         return self.other[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
 
 
-def _elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
+def elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
     """Values that are no true state, where only what is the same by itself is the same; two names of one quantity stay equal."""
     rng = np.random.default_rng(5)
     factors: dict[bytes, Array] = {}
