@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 
 from .language.evaluate import is_zero
 from .language.nodes import (
@@ -156,7 +157,9 @@ def _fewer(equation: Equation, node: Node) -> Iterator[Edit]:
 
 def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Edit]:
     """A term with a sine, a cosine or a letter more."""
-    extras: list[Node] = [Call(name, (angle,)) for angle in vocabulary.angles for name in ("sin", "cos")]
+    differences = [Sum((a, Negative(b))) for a, b in combinations(vocabulary.angles, 2)]
+    arguments: list[Node] = [*vocabulary.angles, *differences]
+    extras: list[Node] = [Call(name, (argument,)) for argument in arguments for name in ("sin", "cos")]
     extras += [n for n in vocabulary.parameters if n not in vocabulary.angular]
     extras += [Letter(n.name, dots) for n in vocabulary.coordinates for dots in (1, 2)]
     for extra in extras:
