@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from freebody.cli.code import code
+from freebody.cli.check import check
 from freebody.cli.mistakes import Guarded, Mistake
 
 if TYPE_CHECKING:
@@ -197,6 +198,7 @@ def systems(
 
 
 app.command()(code)
+app.command()(check)
 
 
 @app.command()
