@@ -63,7 +63,7 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
         options: Options { max_steps: 200_000, ..Options::default() },
         route: None,
         impacts: Rule::Law(Law::Newton),
-        jams_strike: false,
+        jams_strike: true,
     };
     let clock = Instant::now();
     let start = Start { p: &[], t: 0.0, q: &q, u: &u, mode: None };
