@@ -161,6 +161,11 @@ impl Machine<'_> {
                 self.balance.mode.limits[l].hold = Hold::Stuck;
             }
         }
+        // What opens does not approach any more, by however little.
+        self.balance.place(t, q, &rest[..n]);
+        let opening = reached.iter().filter(|&&l| holds[l] == Hold::Open && self.balance.gap_rate(l) < 0.0);
+        let opening: Vec<usize> = opening.copied().collect();
+        opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Smooth);
         let aligned = self.balance.align(t, q, &mut rest[..n]);
         self.balance.mode.limits.iter_mut().zip(holds).for_each(|(held, hold)| held.hold = hold);
         aligned?;
