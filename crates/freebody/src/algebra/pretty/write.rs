@@ -29,12 +29,13 @@ impl Writer<'_> {
         let mut settled = product.clone();
         for (form, e) in &mut settled.factors {
             let Form::Sum(terms) = form else { continue };
-            *terms = self.ordered(terms);
-            if e.is_whole() && terms[0].number.is_negative() {
+            let mut inner = self.ordered(terms);
+            if e.is_whole() && inner[0].number.is_negative() {
                 let minus = Coefficient::whole(-1);
-                terms.iter_mut().for_each(|term| term.number = term.number.negated());
+                inner.iter_mut().for_each(|term| term.number = term.number.negated());
                 settled.number = if e.is_even() { settled.number } else { settled.number.times(minus) };
             }
+            *terms = inner.into();
         }
         settled
     }
@@ -96,7 +97,7 @@ impl Writer<'_> {
     }
 
     fn written(&mut self, of: SumId) -> Tree {
-        let terms = self.whole(of).into_terms();
+        let terms = (*self.whole(of)).clone().into_terms();
         Tree::sum(self.written_terms(&terms))
     }
     fn written_atom(&mut self, id: AtomId) -> Tree {
@@ -114,6 +115,11 @@ impl Writer<'_> {
         }
     }
 
+    pub(super) fn holds_function(&self, product: &Product) -> bool {
+        let mut atoms = BTreeSet::new();
+        collect(product, &mut atoms);
+        atoms.into_iter().any(|id| self.kind(id) == Kind::Function)
+    }
     fn place(&self, product: &Product) -> Place {
         let mut atoms = BTreeSet::new();
         collect(product, &mut atoms);

@@ -122,7 +122,7 @@ fn a_tree_can_be_grouped_by_unknowns() {
         let by = [Letter::new("q", 2), Letter::new("p", 2)];
         assert_eq!(
             text(&lower.tree_by(&by)),
-            "m2 l1 l2 cos(q - p) q'' + m2 l2^2 p'' - m2 l2 (l1 sin(q - p) q'^2 - g sin(p))"
+            "m2 l1 l2 cos(q - p) q'' + m2 l2^2 p'' - m2 l1 l2 sin(q - p) q'^2 + m2 l2 g sin(p)"
         );
     });
 }
