@@ -24,16 +24,23 @@ impl Writer<'_> {
         self.written_settled(&product)
     }
 
-    /// Sums within in their order, turned round when their first term is negative.
+    /// Sums within in their order, begun with a positive term where that costs no sign.
     fn settled(&self, product: &Product) -> Product {
         let mut settled = product.clone();
         for (form, e) in &mut settled.factors {
             let Form::Sum(terms) = form else { continue };
             let mut inner = self.ordered(terms);
-            if e.is_whole() && inner[0].number.is_negative() {
-                let minus = Coefficient::whole(-1);
-                inner.iter_mut().for_each(|term| term.number = term.number.negated());
-                settled.number = if e.is_even() { settled.number } else { settled.number.times(minus) };
+            let positive = inner.iter().position(|term| !term.number.is_negative());
+            let turns = e.is_even() || (e.is_whole() && (settled.number.is_negative() || positive.is_none()));
+            match positive {
+                Some(0) => {}
+                _ if turns => {
+                    let minus = Coefficient::whole(-1);
+                    inner.iter_mut().for_each(|term| term.number = term.number.negated());
+                    settled.number = if e.is_even() { settled.number } else { settled.number.times(minus) };
+                }
+                Some(at) => inner[..=at].rotate_right(1),
+                None => {}
             }
             *terms = inner.into();
         }
