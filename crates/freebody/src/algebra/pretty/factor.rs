@@ -19,8 +19,8 @@ type Collected = Vec<(Poly, Poly)>;
 /// How many of the most promising ways to collect a sum are followed to their end.
 fn followed(terms: usize) -> usize {
     match terms {
-        0..=6 => 4,
-        7..=16 => 3,
+        0..=5 => usize::MAX,
+        6..=16 => 3,
         17..=60 => 2,
         _ => 1,
     }
@@ -124,10 +124,12 @@ impl Writer<'_> {
         }
         let terms = poly.iter().map(|(factors, c)| self.single(factors, *c)).collect();
         let mut best = Product::of_sum(terms);
-        let ways = self.groupings(poly).into_iter().filter_map(|keys| collected(poly, &keys));
-        let mut ways: Vec<(usize, Collected)> = ways.map(|way| (self.outlook(&way), way)).collect();
+        let ways = self.groupings(poly).into_iter().filter_map(|keys| collected(poly, &keys)).enumerate();
+        let mut ways: Vec<(usize, usize, Collected)> = ways.map(|(at, way)| (self.outlook(&way), at, way)).collect();
         ways.sort_by_key(|way| way.0);
-        for (_, way) in ways.into_iter().take(followed(poly.len())) {
+        ways.truncate(followed(poly.len()));
+        ways.sort_by_key(|way| way.1);
+        for (_, _, way) in ways {
             let gathered = self.gathered(&way);
             if gathered.cost < best.cost {
                 best = gathered;

@@ -71,8 +71,8 @@ fn small_forms() {
             ((a * a + b * b).sqrt(), "(a^2 + b^2)^1/2"),
             (cos(Symbol::of(std::f64::consts::PI / 6.0)) * m, "1/2 3^1/2 m"),
             (a - a * cos(b), "a (1 - cos(b))"),
-            (m * (b - a), "m (b - a)"),
-            (m * (k * a - k * b - l), "m (M (a - b) - l)"),
+            (m * (b - a), "(b - a) m"),
+            (m * (k * a - k * b - l), "((a - b) M - l) m"),
         ];
         for (symbol, expected) in forms {
             assert_eq!(written(symbol), expected);
