@@ -80,6 +80,9 @@ class LatexPrinter(Printer):
     minus = "-"
 
     def name(self, letter: Sym) -> str:
+        written = self.letters.written(letter.name)
+        if written:
+            return written.latex(letter.dots)
         return latex_name(letter.name, letter.dots, reaction=self.letters.kind(letter.name) == "unknown")
 
     def number(self, value: Fraction | float | int) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from freebody.equations.names import Name
 from freebody.equations.tree import Sym
 
 KINDS = ("coordinate", "parameter", "time", "unknown", "constant")
@@ -14,12 +15,14 @@ KINDS = ("coordinate", "parameter", "time", "unknown", "constant")
 
 @dataclass(frozen=True)
 class Letter:
-    """One letter: its kind (coordinate, parameter, time, unknown or constant), SI unit, and what it is."""
+    """One letter: its kind (coordinate, parameter, time, unknown or constant), SI unit, what it is, and, where that is not its
+    own name, how it is ``written``."""
 
     name: str
     kind: str = "parameter"
     unit: str = ""
     doc: str = ""
+    written: Name | None = None
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,10 @@ class Letters(Mapping[str, Letter]):
     def kind(self, name: str) -> str:
         """The kind of a name."""
         return self.table[name].kind if name in self.table else "parameter"
+
+    def written(self, name: str) -> Name | None:
+        """How a letter is written that is not written by its own name."""
+        return self.table[name].written if name in self.table else None
 
     def of_kind(self, *kinds: str) -> list[str]:
         """The names of some kinds, in the order of the model."""

@@ -85,7 +85,8 @@ class TextPrinter(Printer):
     """The sign of multiplication, where one is needed."""
 
     def name(self, letter: Sym) -> str:
-        return unicode_name(letter.name, letter.dots)
+        written = self.letters.written(letter.name)
+        return written.unicode(letter.dots) if written else unicode_name(letter.name, letter.dots)
 
     def number(self, value: Fraction | float | int) -> str:
         if not isinstance(value, float):
@@ -153,7 +154,8 @@ class AsciiPrinter(TextPrinter):
     times = "*"
 
     def name(self, letter: Sym) -> str:
-        return ascii_name(letter.name, letter.dots)
+        written = self.letters.written(letter.name)
+        return ascii_name(written.ascii() if written else letter.name, letter.dots)
 
     def number(self, value: Fraction | float | int) -> str:
         return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -14,13 +14,14 @@ import numpy as np
 
 from freebody.free_body import FreeBodies
 from freebody.instant import State
+from freebody.naming import Naming
 from freebody.results import Array
 from freebody.run import Source
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark
 from freebody.views.diagram.describe import described, spoken
-from freebody.views.diagram.names import Letters
+from freebody.views.diagram.names import Labels
 from freebody.views.diagram.panel import panel
 from freebody.views.diagram.paper import Row, sheet
 from freebody.views.diagram.scenery import Scenery, scenery
@@ -106,7 +107,7 @@ def diagram(
 ) -> Diagram:
     """Free-body diagrams of groups of bodies (by default every body by itself) at a state."""
     near = free if scaled else _further(source, state, free)
-    desk = _Desk(source, state, free, near, Letters(source, free), scaled, effective)
+    desk = _Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
     return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
 
@@ -119,7 +120,7 @@ class _Desk:
     state: State
     free: FreeBodies
     near: FreeBodies
-    letters: Letters
+    labels: Labels
     scaled: bool
     effective: bool
 
@@ -141,17 +142,19 @@ class _Desk:
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
         """What acts, m a and I α, and remarks."""
         if self.scaled:
-            return acting.to_scale(self.free, group, self.letters, drawn.sketch, self.effective)
-        forces = list(acting.symbolic(self.free, self.near, group, self.letters, drawn.sketch))
-        return forces, list(acting.effective(self.free, group, self.letters)) if self.effective else [], []
+            return acting.to_scale(self.free, group, self.labels, drawn.sketch, self.effective)
+        forces = list(acting.symbolic(self.free, self.near, group, self.labels, drawn.sketch))
+        return forces, list(acting.effective(self.free, self.near, group, self.labels)) if self.effective else [], []
 
 
 def _further(source: Source, state: State, free: FreeBodies) -> FreeBodies:
-    """The free bodies a little further on in all coordinates and rates; those of now where that has no answer."""
+    """The free bodies a little further on in all coordinates and rates, and with something of every parameter (a mass, gravity)
+    that is 0; those of now where that has no answer."""
     from freebody._core import MotionError
 
+    p, q, u = (np.where(state.p == 0, _STEP, state.p), state.q + _uneven(state.q), state.u + _uneven(state.u))
     try:
-        return FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q + _uneven(state.q), state.u + _uneven(state.u)))
+        return FreeBodies.read(source.core.free_bodies(p, state.t, q, u))
     except MotionError:
         return free
 

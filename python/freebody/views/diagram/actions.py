@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.free_body import FreeBodies, Load, Part
+from freebody.free_body import Body, FreeBodies, Load, Part
 from freebody.results import Array
-from freebody.views.diagram.names import Letters
+from freebody.views.diagram.names import Labels
 from freebody.views.measures import digits, place_of
 from freebody.views.scene import Sketch
 
@@ -50,16 +50,16 @@ class Action:
         return abs(self.couple) if self.turns else float(np.hypot(*self.force))
 
 
-def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> Iterator[Action]:
-    """Every load on a group in the positive sense of its letter. ``near``: the same a little further on in all coordinates,
-    where what is 0 now has a direction."""
-    beyond = {load.path: load for load in near.on(*group)}
+def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels: Labels, sketch: Sketch) -> Iterator[Action]:
+    """Every load on a group in the positive sense of its letter, friction that slides as it acts. ``near``: the same a little
+    further on, where what is 0 now has a direction."""
+    beyond = {load.symbol: load for load in near.on(*group)}
     for load in free.on(*group):
         if not load.unknown and not any(any(part.force) or part.couple for part in load.on):
-            load = beyond.get(load.path, load)
+            load = beyond.get(load.symbol, load)
         for part in load.on:
             if part.body in group:
-                yield from _positive(load, part, letters.of(load), sketch)
+                yield from _positive(load, part, labels.of(load), sketch)
 
 
 def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Action]:
@@ -87,6 +87,8 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
 def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
     """Force and couple of a part in the sense in which the load's letter is positive."""
     force, couple = np.array(part.force), part.couple
+    if load.follows and load.follows[1] < 0:
+        return -force, -couple
     if load.unknown or load.kind == "weight":
         return force, couple
     others = [other for other in load.on if other is not part]
@@ -102,13 +104,13 @@ def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
 
 
 def to_scale(
-    free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch, effective: bool
+    free: FreeBodies, group: Collection[str], labels: Labels, sketch: Sketch, effective: bool
 ) -> tuple[list[Action], list[Action], list[str]]:
     """What acts on a group at the instant, the components of a pin's force together; m a and I α where asked for; and what
     cannot be drawn, in words."""
     loads = free.on(*group)
-    forces = list(_acting(loads, group, letters, sketch))
-    terms = list(_terms(free, group, letters)) if effective else []
+    forces = list(_acting(loads, group, labels, sketch))
+    terms = [term for name in group for term in _terms(free.bodies[name], labels, len(group) == 1)] if effective else []
     largest = max((action.size for action in forces + terms if not action.turns), default=0.0)
     turning = max([action.size for action in forces + terms if action.turns] + [largest * _ACROSS * sketch.size])
     least = max(_ROUND_OFF * largest, _NOTHING), max(_ROUND_OFF * turning, _NOTHING)
@@ -123,7 +125,7 @@ def to_scale(
     return [_with_value(a) for a in seen(forces)], [_with_value(a) for a in seen(terms)], notes
 
 
-def _acting(loads: Collection[Load], group: Collection[str], letters: Letters, sketch: Sketch) -> Iterable[Action]:
+def _acting(loads: Collection[Load], group: Collection[str], labels: Labels, sketch: Sketch) -> Iterable[Action]:
     found: dict[tuple[str, bool, str], Action] = {}
     for load in (load for load in loads if load.determinate):
         for i, part in enumerate(load.on):
@@ -131,7 +133,7 @@ def _acting(loads: Collection[Load], group: Collection[str], letters: Letters, s
                 continue
             force, couple = load.value * np.array(part.force), load.value * part.couple
             new = Action(
-                load.name, load.kind, letters.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
+                load.name, load.kind, labels.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
             )
             for one in (replace(new, couple=0.0), replace(new, force=np.zeros(2))):
                 key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
@@ -149,31 +151,31 @@ def _with_value(action: Action) -> Action:
     return replace(action, label=rf"{action.label} = {_figure(action.size)}\ \mathrm{{{unit}}}")
 
 
-def effective(free: FreeBodies, group: Collection[str], letters: Letters) -> Iterator[Action]:
-    """The other side of the balance, symbolic: m a at every mass centre, by components for a body by itself; I α."""
-    for term in _terms(free, group, letters, moving=False):
-        if term.turns:
-            yield replace(term, couple=1.0)
-        elif len(group) > 1:
-            yield replace(term, force=term.force / np.hypot(*term.force))
-        else:
-            for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-                yield replace(term, label=rf"{letters.mass(term.body)}\,a_{part}", force=np.array(way))
-
-
-def _terms(free: FreeBodies, group: Collection[str], letters: Letters, moving: bool = True) -> Iterator[Action]:
-    """m a and I α of every body, those that are 0 at the instant left out or, unless ``moving``, in any direction."""
-    alone = len(group) == 1
+def effective(free: FreeBodies, near: FreeBodies, group: Collection[str], labels: Labels) -> Iterator[Action]:
+    """The other side of the balance, symbolic: m a at every mass centre, by components for a body by itself; I α. Of a body
+    that is massless only by a parameter's value, as ``near`` tells, they are there."""
     for name in group:
-        body = free.bodies[name]
-        plain = Action(name, "effective", "", name, np.array(body.G), np.zeros(2))
-        a = np.array(body.a) if moving or np.any(body.a) else np.array([1.0, 1.0])
-        if body.mass and a.any():
-            yield replace(plain, label=rf"{letters.mass(name)}\,{letters.acceleration(name, alone)}", force=body.mass * a)
-        alpha = body.alpha if moving else 1.0
-        if body.inertia and not body.particle and alpha:
-            label = rf"{letters.inertia(name)}\,{letters.angular(name, alone)}"
-            yield replace(plain, label=label, couple=body.inertia * alpha)
+        body = replace(free.bodies[name], mass=near.bodies[name].mass, inertia=near.bodies[name].inertia, alpha=1.0)
+        for term in _terms(body if any(body.a) else replace(body, a=(1.0, 1.0)), labels, len(group) == 1):
+            if term.turns:
+                yield replace(term, couple=1.0)
+            elif len(group) > 1:
+                yield replace(term, force=term.force / np.hypot(*term.force))
+            else:
+                for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+                    yield replace(term, label=rf"{labels.mass(name)}\,a_{part}", force=np.array(way))
+
+
+def _terms(body: Body, labels: Labels, alone: bool) -> Iterator[Action]:
+    """m a and I α of a body, as far as they are not 0."""
+    name = body.name
+    plain = Action(name, "effective", "", name, np.array(body.G), np.zeros(2))
+    if body.mass and any(body.a):
+        yield replace(
+            plain, label=rf"{labels.mass(name)}\,{labels.acceleration(name, alone)}", force=body.mass * np.array(body.a)
+        )
+    if body.inertia and not body.particle and body.alpha:
+        yield replace(plain, label=rf"{labels.inertia(name)}\,{labels.angular(name, alone)}", couple=body.inertia * body.alpha)
 
 
 def _figure(value: float) -> str:

@@ -28,6 +28,6 @@ def _way(action: Action) -> str:
 
 def spoken(label: str) -> str:
     """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``."""
-    plain = re.sub(r"\\(?:mathrm|mathbf)\{([^{}]*)\}", r"\1", label)
+    plain = re.sub(r"\\(?:mathrm|mathbf|text)\{([^{}]*)\}", r"\1", label)
     plain = re.sub(r"\\[, ]", " ", plain)
     return re.sub(r"[{}]|\\", "", plain)

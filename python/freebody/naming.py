@@ -1,0 +1,119 @@
+"""The letter of every load, mass and inertia of a model: the same on its diagrams and in its equations.
+
+A component of a pin's force is ``pivot_x``; a normal force ``N_track``, friction ``F_floor``, a tension ``T_rope``, a couple
+``M_weld``, any other force ``F_drive``. Masses, inertias and gravity have the letters of the model, else ``m_rod``, ``I_rod``, g.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeAlias
+
+from freebody.equations.names import Name, ascii_name
+from freebody.equations.tree import Tree, read
+from freebody.free_body import FreeBodies, Load
+from freebody.instant import State
+from freebody.run import Source
+
+_Law: TypeAlias = dict[str, Any] | None
+"""A force of the model as the core reads it."""
+_PINS = {"Fx": "x", "Fy": "y"}
+_STEMS = {"normal force": "N", "friction force": "F", "tooth force": "F", "thrust": "T", "couple": "M",
+          "force of the first roller": "N", "force of the second roller": "N"}  # fmt: skip
+_KINDS = {"contact": "N", "friction": "F", "string": "T"}
+_TURNING = ("torque", "torsion_spring")
+_PLAIN = re.compile(r"[^\W\d]\w*")
+
+
+def load_names(loads: Iterable[Load], source: Source) -> dict[str, Name]:
+    """The letter of every load but weights, by its symbol in the model's language, each a letter of its own. A force whose law
+    is one letter, or whose name is, has that letter."""
+    forces = {force["name"]: force for force in json.loads(source.spec).get("forces", [])}
+    laws = {load: forces.get(load.name) if load.kind == "force" else None for load in loads if load.kind != "weight"}
+    made = {load.symbol: _name(load, law) for load, law in laws.items()}
+    own = {load.symbol for load, law in laws.items() if _given(law)}
+    listed = source.about["parameters"] + source.about["coordinates"]
+    taken = Counter(_folded(ascii_name(each["name"])) for each in listed)
+    taken.update(_folded(name.ascii()) for symbol, name in made.items() if symbol not in own)
+    return {s: name if s in own or taken[_folded(name.ascii())] == 1 else Name(s) for s, name in made.items()}
+
+
+def _name(load: Load, force: _Law) -> Name:
+    given, last = _given(force), load.symbol.rpartition(".")[2]
+    if given:
+        return given
+    stem, below = _owner(load.name)
+    if last in _PINS:
+        return Name(stem, (*below, _PINS[last]))
+    number = re.sub(r"\D", "", last) if load.kind in ("contact", "friction") or "roller" in (load.component or "") else ""
+    return Name(_stem(load, force), tuple(filter(None, (stem, *below, number))))
+
+
+def _stem(load: Load, force: _Law) -> str:
+    told = _STEMS.get(load.component or "") or _KINDS.get(load.kind)
+    if told:
+        return told
+    pushes = any(any(part.force) for part in load.on)
+    turns = any(part.couple for part in load.on) and not pushes
+    return "M" if turns or (force or {}).get("type") in _TURNING else "F"
+
+
+def _given(force: _Law) -> Name | None:
+    """The letter that a force has of its own: that of its law, or its name."""
+    if force is None:
+        return None
+    value = force["with"].get("value")
+    if isinstance(value, str) and _PLAIN.fullmatch(value):
+        return Name.parse(value)
+    return Name(force["name"]) if len(force["name"]) == 1 else None
+
+
+def _owner(name: str) -> tuple[str, tuple[str, ...]]:
+    """``pin[2]`` → ``pin``, 2."""
+    found = re.fullmatch(r"(.+)\[(\d+)\]", name)
+    return (found[1], (found[2],)) if found else (name, ())
+
+
+def _folded(name: str) -> str:
+    return name.replace("_", "")
+
+
+@dataclass(frozen=True)
+class Naming:
+    """All letters of a model at a state."""
+
+    source: Source
+    state: State
+    free: FreeBodies
+
+    @cached_property
+    def loads(self) -> dict[str, Name]:
+        """The letters of loads, see ``load_names``."""
+        return load_names(self.free.loads, self.source)
+
+    @cached_property
+    def bodies(self) -> dict[str, tuple[Tree, Tree]]:
+        """Mass and inertia of every body, as they stand in the equations."""
+        s = self.state
+        told = self.source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps([{"ask": "kinematics"}]))
+        return {each["body"]: (read(each["mass"]), read(each["inertia"])) for each in json.loads(told)["answers"][0]}
+
+    @cached_property
+    def gravity(self) -> Name | None:
+        """The letter of gravity: its parameter's, else g; None where it is a vector of two letters."""
+        x, y = (str(part).strip("-()") for part in json.loads(self.source.spec)["gravity"] or (0, 0))
+        if _PLAIN.search(x) or float(x):
+            return None
+        return Name.parse(y if _PLAIN.fullmatch(y) else "g")
+
+    def friction(self, load: Load) -> Name | None:
+        """The letter that the model has for the coefficient of a contact's or joint's friction, if it has one."""
+        spec = json.loads(self.source.spec)
+        told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == load.name)
+        value = (told | told.get("with", {})).get("friction")
+        return Name.parse(value) if isinstance(value, str) and _PLAIN.fullmatch(value) else None
