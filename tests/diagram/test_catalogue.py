@@ -7,10 +7,15 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from matplotlib.transforms import Bbox
 
 from freebody import catalogue
+from freebody.equations import Letter, Letters, Sym, latex
+from freebody.free_body import FreeBodies
 from freebody.model import Mechanism
+from freebody.naming import load_names
 from freebody.views.diagram.arrows import Arrow
+from freebody.views.diagram.layout import extent
 
 MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
 WITHOUT_ANSWER = {"19.3.23/idle"}  # a body without inertia moves freely: no instant, so no loads
@@ -28,10 +33,23 @@ def drawn(model, of=None):
 
 
 @cache
-def told(model):
-    """The loads as the core tells them."""
+def free_bodies(model):
+    """The bodies and loads as the core tells them."""
     state, _ = mechanism(model).start()
-    return json.loads(mechanism(model).compile().free_bodies(state.p, state.t, state.q, state.u))["loads"]
+    return mechanism(model).compile().free_bodies(state.p, state.t, state.q, state.u)
+
+
+@cache
+def told(model):
+    return json.loads(free_bodies(model))["loads"]
+
+
+def going(body, place):
+    """Velocity of a place on a body, a moment later, fixed axes."""
+    x, y = np.subtract(place, body["G"])
+    return sum(
+        step * (np.array(body[v]) + body[w] * np.array([-y, x])) for v, w, step in (("v", "omega", 1), ("a", "alpha", 1e-3))
+    )
 
 
 def way(mark):
@@ -78,8 +96,63 @@ def test_a_load_that_is_zero_is_drawn_as_well(model):
 
 
 def test_there_are_loads_that_are_zero():
-    assert still("S19.19/model") == {"spring"}
+    assert still("S19.19/model") == {"spring", "motor.weight", "load.weight"}
+    assert still("19.3.23/model") == {"rod1.weight"}
     assert len(still("GEN-STEP/model")) == 6
+
+
+@pytest.mark.parametrize("model", ["S19.19/model", "19.3.23/model"])
+def test_a_weight_that_is_zero_points_down(model):
+    weights = [mark for cut in drawn(model).cuts for mark in cut.forces if mark.action.kind == "weight"]
+    assert len(weights) == 2
+    for mark in weights:
+        assert way(mark) == pytest.approx([0, -1, 0], abs=1e-9)
+
+
+def test_a_mass_that_is_zero_by_a_parameter_has_an_effective_side():
+    upper, _ = drawn("19.3.23/model").cuts
+    assert {mark.action.label for mark in upper.effective} >= {r"m_1\,a_x", r"m_1\,a_y"}
+
+
+@every_model
+def test_a_load_has_one_letter_on_diagrams_and_in_equations(model):
+    """LaTeX of its symbol printed with the letters of the model; a pair of loads has two letters."""
+    loads = {load.symbol: load for load in FreeBodies.read(free_bodies(model)).loads}
+    source = mechanism(model).source()
+    names = load_names(loads.values(), source)
+    letters = Letters({symbol: Letter(symbol, "unknown", written=name) for symbol, name in names.items()})
+    printed = {symbol: latex(Sym(symbol), letters) for symbol in names}
+    for cut in drawn(model).cuts:
+        for mark in cut.forces:
+            [load] = mark.action.loads
+            if load.kind != "weight" and not load.follows:
+                assert mark.action.label == printed[load.symbol]
+    reactions = [printed[symbol] for symbol, load in loads.items() if load.unknown]
+    assert len(set(reactions)) == len(reactions)
+
+
+def sliding(model):
+    return [load for load in told(model) if load["follows"]]
+
+
+@pytest.mark.parametrize("model", ["S19.15/model", "S19.15/free"])
+def test_friction_that_slides_is_against_the_sliding(model):
+    """Its power on the two bodies together, at the velocities that their touching points take up, is below zero."""
+    free = json.loads(free_bodies(model))
+    bodies = {body["name"]: body for body in free["bodies"]}
+    assert sliding(model)
+    for load in sliding(model):
+        marks = {
+            mark.action.body: mark
+            for cut in drawn(model).cuts
+            for mark in cut.forces
+            if mark.action.loads[0].symbol == load["symbol"]
+        }
+        power = sum(
+            way(marks[on["body"]])[:2] @ going(bodies[on["body"]], on["point"]) for on in load["on"] if on["body"] in marks
+        )
+        assert power < 0
+        assert all(mark.action.label.startswith(r"\mu\,N_{\text{face}") for mark in marks.values())
 
 
 @every_model
@@ -110,17 +183,38 @@ def test_there_are_cuts_between_bodies_to_be_equal_and_opposite():
     assert sum(len({on["body"] for on in load["on"]} - {"ground"}) == 2 for load in told("GEN-FOURBAR/model")) == 4
 
 
+def labels(axes):
+    return [text for text in axes.texts if text.get_label() == "label"]
+
+
+def middle(text):
+    return np.array(text.get_position())  # a unit of the axes is a point of the page
+
+
+def size(text):
+    return extent(text.get_text(), text.get_fontsize(), text.get_fontweight() == "bold")
+
+
+@pytest.mark.parametrize("model", ["19.3.13/model", "GEN-CHAIN/model"])
+def test_labels_are_as_large_and_where_they_are_taken_to_be(model):
+    [axes] = drawn(model).figure.axes
+    for text in labels(axes):
+        box = text.get_window_extent()
+        assert (box.width, box.height) == pytest.approx(size(text), abs=1.5)
+        assert (box.x0 + box.x1) / 2 == pytest.approx(middle(text)[0], abs=1.0)
+        assert (box.y0 + box.y1) / 2 == pytest.approx(middle(text)[1], abs=1.0)
+
+
 @every_model
 @pytest.mark.parametrize("of", [None, "all"])
 def test_no_two_labels_overlap(model, of):
     figure = drawn(model, of).figure
-    figure.canvas.draw()
     [axes] = figure.axes
-    boxes = [text.get_window_extent() for text in axes.texts if text.get_label() == "label"]
+    boxes = [Bbox.from_bounds(*middle(text) - size(text) / 2, *size(text)) for text in labels(axes)]
     for a, b in combinations(boxes, 2):
         width, height = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
         assert width <= 0 or height <= 0, (width, height)
-    page = figure.bbox
+    page = Bbox.from_extents(*np.ravel(list(zip(axes.get_xlim(), axes.get_ylim(), strict=True))))
     for box in boxes:
         assert page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
 

@@ -76,7 +76,7 @@ def _arrow(action: Action, scenery: Scenery, marks: Sequence[Mark], per_newton: 
     choices = [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
     if action.kind not in ("weight", "effective"):
         choices += [Arrow(action, start, start - length * way, start) for start in starts for length in lengths]
-    ink = scenery.ink()
+    ink = scenery.ink
     costs = [_cost(choice, scenery, ink, marks) + float(np.hypot(*(choice.at - at))) for choice in choices]
     return choices[int(np.argmin(costs))]
 
@@ -107,8 +107,8 @@ def _near(places: Array, ink: Array, distance: float) -> int:
     """How many of some places lie near ink."""
     if not len(places) or not len(ink):
         return 0
-    gaps = np.hypot(*(places[:, None] - ink[None]).transpose(2, 0, 1))
-    return int((gaps.min(axis=1) < distance).sum())
+    squares = np.subtract.outer(places[:, 0], ink[:, 0]) ** 2 + np.subtract.outer(places[:, 1], ink[:, 1]) ** 2
+    return int((squares.min(axis=1) < distance**2).sum())
 
 
 def _within(places: Array, outline: Array) -> Array:
@@ -122,10 +122,12 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
     """A couple may stand anywhere on its body; its own point comes first, then the mass centre."""
     own, centre = scenery.place(action.at), scenery.centres[action.body]
     places = [own] if action.kind == "joint" else [own + part * (centre - own) for part in (0.0, 1.0, 0.5, 0.75, 1.4)]
-    turn, ink, others = np.sign(action.couple), scenery.ink(), dense([mark.line for mark in marks])
+    turn, ink, others = np.sign(action.couple), scenery.ink, dense([mark.line for mark in marks])
     best: tuple[float, Bow] | None = None
     for rank, place in enumerate(places):
         for radius in _RADII:
+            if best is not None and 5.0 * rank + 0.6 * radius >= best[0]:
+                break
             for gap in _GAPS:
                 start = gap + turn * _OPEN / 2
                 line = shapes.arc(place, radius, start, start + turn * (2 * np.pi - _OPEN))

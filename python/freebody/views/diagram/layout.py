@@ -81,22 +81,22 @@ def placed(labels: Sequence[Label], ink: Ink) -> list[Placed]:
 
 def _options(label: Label, half: Array) -> tuple[Array, Array, Array]:
     """Centres (k, 2), what their distance and rank cost (k,), and the anchors they belong to (k, 2)."""
-    centres, costs, owners = [], [], []
-    for rank, anchor in enumerate(label.anchors):
-        for distance in _DISTANCES:
-            for angle in _DIRECTIONS:
-                way = np.array([np.cos(angle), np.sin(angle)])
-                reach = float(np.min(half / np.maximum(np.abs(way), 1e-9)))
-                centres.append(anchor + way * (distance - AIR + min(reach, float(np.hypot(*half)))))
-                costs.append(distance + 2.5 * rank)
-                owners.append(anchor)
-    return np.array(centres), np.array(costs), np.array(owners)
+    ways = np.column_stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)])
+    reach = np.minimum(np.min(half / np.maximum(np.abs(ways), 1e-9), axis=1), np.hypot(*half))
+    away = np.add.outer(np.array(_DISTANCES) - AIR, reach)[..., None] * ways
+    centres = (label.anchors[:, None, None] + away).reshape(-1, 2)
+    each = away.shape[0] * away.shape[1]
+    costs = np.add.outer(2.5 * np.arange(len(label.anchors)), np.repeat(_DISTANCES, len(ways))).ravel()
+    return centres, costs, np.repeat(label.anchors, each, axis=0)
 
 
 def _covering(centres: Array, half: Array, ink: Ink) -> Array:
     """How much ink (k,) a box covers at each centre."""
-    apart = np.abs(centres[:, None] - ink.places[None])
-    return ((apart < half).all(axis=2) * ink.weights).sum(axis=1)
+    reached = (np.abs(ink.places - centres.mean(axis=0)) < half + np.ptp(centres, axis=0)).all(axis=1)
+    (x, y), weights = ink.places[reached].T, ink.weights[reached]
+    over = (np.abs(np.subtract.outer(centres[:, 0], x)) < half[0]) & (np.abs(np.subtract.outer(centres[:, 1], y)) < half[1])
+    covered: Array = over @ weights
+    return covered
 
 
 def _overlap(centres: Array, half: Array, other: Array, its_half: Array) -> Array:

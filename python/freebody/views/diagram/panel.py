@@ -37,7 +37,7 @@ class Panel:
 
     def box(self) -> tuple[Array, Array]:
         """Lower left and upper right corner of everything."""
-        seen = [self.scenery.ink(), *lines(self.marks), *_corners(self.labels)]
+        seen = [self.scenery.ink, *lines(self.marks), *_corners(self.labels)]
         seen += [] if self.axes is None else [np.array([self.axes - 3, self.axes + _CORNER])]
         everything = np.vstack(seen)
         return everything.min(axis=0), everything.max(axis=0)
@@ -46,7 +46,7 @@ class Panel:
 def panel(scenery: Scenery, actions: Sequence[Action], names: Sequence[str], per_newton: float | None, axes: bool) -> Panel:
     """Everything put in place. ``names``: the bodies to be named."""
     marks = arranged(actions, scenery, per_newton)
-    strokes, arrows = scenery.ink(), dense(lines(marks), 1.5)
+    strokes, arrows = scenery.ink, dense(lines(marks), 1.5)
     dots = np.array([tag.at for tag in scenery.points]).reshape(-1, 2)
     ink = Ink.of((strokes, 2.0), (arrows, 15.0), (dots, 8.0), (scenery.pins, 8.0))
     labels = placed([*_letters(marks), *_others(scenery, names)], ink)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from functools import cached_property
 
 import numpy as np
 
@@ -98,6 +98,7 @@ class Scenery:
         """Whether any of some places (k, 2) is on a body."""
         return any(_contains(outline, places) for outline in self.solids)
 
+    @cached_property
     def ink(self) -> Array:
         """Places (k, 2) all along what is drawn, a few pt apart."""
         lines = (
@@ -123,8 +124,12 @@ def _contains(outline: Array, places: Array) -> bool:
 
 def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
     """Places along polylines, at most a step apart."""
-    sides = [(a, b) for line in lines for a, b in pairwise(line)]
-    return np.vstack([np.linspace(a, b, int(np.hypot(*(b - a)) / step) + 2) for a, b in sides] or [np.zeros((0, 2))])
+    starts, ends = (np.vstack([line[piece] for line in lines] or [np.zeros((0, 2))]) for piece in (slice(-1), slice(1, None)))
+    counts = (np.hypot(*(ends - starts).T) / step).astype(int) + 2
+    side = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(side)) - np.repeat(np.cumsum(counts) - counts, counts)
+    found: Array = starts[side] + (place / (counts[side] - 1))[:, None] * (ends - starts)[side]
+    return found
 
 
 def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool) -> Scenery:
