@@ -19,10 +19,10 @@ from freebody.results import Array
 from freebody.run import Source
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark
+from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
 from freebody.views.diagram.describe import described, spoken
 from freebody.views.diagram.names import Labels
-from freebody.views.diagram.panel import panel
+from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.paper import Row, sheet
 from freebody.views.diagram.scenery import Scenery, scenery
 from freebody.views.style import quiet
@@ -133,9 +133,10 @@ class _Desk:
         if per_newton is not None:
             short = [spoken(a.label) for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
-        panels = [panel(drawn, forces, group if len(group) > 1 else (), per_newton, axes=True)]
+        panels = [Panel(drawn, arranged(forces, drawn, per_newton), group if len(group) > 1 else (), oriented=True)]
         if terms:
-            panels.append(panel(drawn.bare(), terms, (), per_newton, axes=False))
+            bare = drawn.bare()
+            panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))
         title = "all bodies" if len(group) == len(self.free.bodies) > _NAMED else " + ".join(group)
         return Cut(group, Row(title, panels, per_newton, notes, vanishes=self.effective and not terms))
 

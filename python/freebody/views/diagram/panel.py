@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from freebody.results import Array
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.arrows import Arrow, Mark, arranged, lines
+from freebody.views.diagram.arrows import Arrow, Mark, lines
 from freebody.views.diagram.layout import Ink, Label, Placed, placed
 from freebody.views.diagram.scenery import Scenery, dense
 from freebody.views.style import GROUND as GREY
@@ -28,30 +29,37 @@ def tone(action: Action) -> str:
 
 @dataclass(frozen=True)
 class Panel:
-    """All that is drawn, in pt; ``axes`` is where x and y are shown, if they are."""
+    """All that is drawn, in pt. ``names``: the bodies that are named; ``oriented``: x and y are shown."""
 
     scenery: Scenery
     marks: list[Mark]
-    labels: list[Placed]
-    axes: Array | None
+    names: Sequence[str]
+    oriented: bool
+
+    @cached_property
+    def labels(self) -> list[Placed]:
+        """Every letter in its place."""
+        dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
+        ink = Ink.of((self.scenery.ink, 2.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
+        return placed([*_letters(self.marks), *_others(self.scenery, self.names)], ink)
+
+    @cached_property
+    def axes(self) -> Array | None:
+        """Where x and y are shown, if they are."""
+        return _corner(self._inside(), self.labels, self.scenery, self._arrows) if self.oriented else None
 
     def box(self) -> tuple[Array, Array]:
         """Lower left and upper right corner of everything."""
-        seen = [self.scenery.ink, *lines(self.marks), *_corners(self.labels)]
-        seen += [] if self.axes is None else [np.array([self.axes - 3, self.axes + _CORNER])]
-        everything = np.vstack(seen)
+        axes = [] if self.axes is None else [np.array([self.axes - 3, self.axes + _CORNER])]
+        everything = np.vstack([*self._inside(), *axes])
         return everything.min(axis=0), everything.max(axis=0)
 
+    @cached_property
+    def _arrows(self) -> Array:
+        return dense(lines(self.marks), 1.5)
 
-def panel(scenery: Scenery, actions: Sequence[Action], names: Sequence[str], per_newton: float | None, axes: bool) -> Panel:
-    """Everything put in place. ``names``: the bodies to be named."""
-    marks = arranged(actions, scenery, per_newton)
-    strokes, arrows = scenery.ink, dense(lines(marks), 1.5)
-    dots = np.array([tag.at for tag in scenery.points]).reshape(-1, 2)
-    ink = Ink.of((strokes, 2.0), (arrows, 15.0), (dots, 8.0), (scenery.pins, 8.0))
-    labels = placed([*_letters(marks), *_others(scenery, names)], ink)
-    rough = Panel(scenery, marks, labels, None)
-    return Panel(scenery, marks, labels, _corner(rough, np.vstack([strokes, arrows])) if axes else None)
+    def _inside(self) -> list[Array]:
+        return [self.scenery.ink, *lines(self.marks), *_corners(self.labels)]
 
 
 def _letters(marks: Sequence[Mark]) -> Iterator[Label]:
@@ -78,19 +86,18 @@ def _corners(labels: Sequence[Placed]) -> list[Array]:
     return [np.array([label.centre - label.half, label.centre + label.half]) for label in labels]
 
 
-def _corner(rough: Panel, ink: Array) -> Array:
+def _corner(inside: Sequence[Array], labels: Sequence[Placed], scenery: Scenery, arrows: Array) -> Array:
     """Where the axes are in nobody's way: the free place nearest to the lower left corner, or outside of it."""
-    low, high = rough.box()
-    boxes = _corners(rough.labels)
+    low, high = np.vstack(inside).min(axis=0), np.vstack(inside).max(axis=0)
+    ink, boxes = np.vstack([scenery.ink, arrows]), _corners(labels)
     spots = [
         np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
     ]
     for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
         start, end = at - 4, at + _CORNER
         written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
-        covered = ((ink > start) & (ink < end)).all(axis=1).any() or rough.scenery.within(
-            np.array([start, end, (start + end) / 2])
-        )
-        if not written and not covered:
+        if written or ((ink > start) & (ink < end)).all(axis=1).any():
+            continue
+        if not scenery.within(np.array([start, end, (start + end) / 2])):
             return at
     return np.array([low[0], low[1] - _CORNER])
