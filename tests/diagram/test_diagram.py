@@ -107,9 +107,10 @@ def test_the_page_of_all_diagrams(tmp_path):
     done = CliRunner().invoke(app, ["systems", "19.3.23", "--diagrams", "-o", str(page)])
     assert done.exit_code == 0, done.output
     text = page.read_text(encoding="utf-8")
-    assert text.count("<section>") == 3 and "no inertia" in text
+    assert text.count("<section ") == 3 and "no inertia" in text
     own = [line.split('"')[0] for line in text.split(' id="')[1:]]
     assert len(own) == len(set(own))
+    assert {line.split('"')[0] for line in text.split(' href="#')[1:]} <= set(own)
 
 
 def test_labels_of_one_place_make_room_for_each_other():

@@ -17,22 +17,30 @@ _PAGE = """<!doctype html>
 body {{ font: 15px/1.4 system-ui, sans-serif; color: #23272e; margin: 2em auto; max-width: 90em; padding: 0 1em }}
 section {{ display: flex; flex-wrap: wrap; gap: 1em 3em; align-items: flex-start; border-top: 1px solid #d5d9de; padding: 1em 0 }}
 h2 {{ flex: 100%; font-size: 1.1em; margin: 0 }} svg {{ max-width: 100%; height: auto }} p {{ color: #b3261e }}
+h2 a {{ color: inherit; text-decoration: none }} h2 a:hover {{ text-decoration: underline }}
+nav {{ columns: 24em; margin-bottom: 2em }} nav a {{ display: block; color: #0b5fa5 }}
 </style>
 <h1>Free-body diagrams</h1>
+<nav>
+{links}
+</nav>
 {sections}
 </html>
 """
 
 
 def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
-    """One page with the diagrams of models, each with its heading: every body, and the group of all where there are several.
+    """One page with the diagrams of models, each with a heading and a link to it: every body, and the group of all where there are several.
     A model whose start has no answer is named with the reason."""
     from freebody.model import Mechanism
 
-    sections = []
+    links, sections = [], []
     for heading, model in models:
-        sections.append(f"<section><h2>{escape(heading)}</h2>\n{_pictures(Mechanism.load(model), f'd{len(sections)}')}</section>")
-    path.write_text(_PAGE.format(sections="\n".join(sections)), encoding="utf-8")
+        place = re.sub(r"\W+", "-", heading).strip("-")
+        links.append(f'<a href="#{place}">{escape(heading)}</a>')
+        pictures = _pictures(Mechanism.load(model), f"d{len(sections)}")
+        sections.append(f'<section id="{place}"><h2><a href="#{place}">{escape(heading)}</a></h2>\n{pictures}</section>')
+    path.write_text(_PAGE.format(links="\n".join(links), sections="\n".join(sections)), encoding="utf-8")
     return path
 
 
