@@ -1,0 +1,125 @@
+"""Source code of functions that evaluate trees: Python with NumPy, and C99.
+
+Every distinct subexpression is one node of a graph, found bottom-up by what it is made of; a node that is used twice gets a
+name and is computed once."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from freebody.equations.emit import LANGUAGES, Language, Writer
+from freebody.equations.letters import Letters
+from freebody.equations.names import ascii_name
+from freebody.equations.tree import PI, Entries, Sym, Tree, symbols
+
+_RESERVED = frozenset(
+    "auto break case char const continue default do double else enum extern float for goto if inline int long register "
+    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while "
+    "np _array q u p t a r out sin cos tan exp log atan2 fabs sign sqrt pow".split()
+) | frozenset(keyword.kwlist)
+_HELP = {
+    "q": "coordinates", "u": "rates of the coordinates", "p": "parameters", "t": "time in s",
+    "a": "accelerations of the coordinates", "r": "unknowns: reactions and motors",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Argument:
+    """A letter's place among the arguments of generated functions: ``q[1]``, or ``t``."""
+
+    array: str
+    index: int
+
+    @property
+    def code(self) -> str:
+        """As it is written."""
+        return "t" if self.array == "t" else f"{self.array}[{self.index}]"
+
+
+def generate(functions: Mapping[str, Entries], letters: Letters, language: str = "numpy") -> str:
+    """Source code with one function for every name.
+
+    A function takes ``q, u, p, t``: coordinates, their rates, parameters and constants as arrays in the order of the letters,
+    and time; behind them ``a`` (accelerations) and ``r`` (unknowns) if any of the functions needs those. In Python it returns a
+    number or an array of the shape of the entries, with the shape of array arguments ``q[i]`` behind it. In C it is
+    ``void name(const double *q, …, double *out)``, rows first, or returns a ``double``. ``language`` is numpy or c."""
+    if language not in LANGUAGES:
+        raise ValueError(f"language {language!r} is unknown; there are {', '.join(LANGUAGES)}")
+    spelling = LANGUAGES[language]
+    for name in functions:
+        if not re.fullmatch(r"[A-Za-z_]\w*", name) or name in _RESERVED:
+            raise ValueError(f"{name!r} cannot be the name of a function; letters, digits and underscores can")
+    flat = {name: _flatten(entries) for name, entries in functions.items()}
+    used = symbols(*(tree for trees, _ in flat.values() for tree in trees))
+    places = _places(letters, used)
+    arrays = ["q", "u", "p", "t", *(x for x in "ar" if any(places[letter].array == x for letter in used if letter in places))]
+    made = [_function(name, trees, shape, places, arrays, spelling) for name, (trees, shape) in flat.items()]
+    return spelling.file(_header(letters, arrays), made)
+
+
+def _flatten(entries: Entries) -> tuple[list[Tree], tuple[int, ...]]:
+    if not isinstance(entries, Sequence):
+        return [entries], ()
+    if not entries:
+        return [], (0,)
+    parts = [_flatten(entry) for entry in entries]
+    if len({shape for _, shape in parts}) != 1:
+        raise ValueError("the rows of a matrix must be equally long")
+    return [tree for trees, _ in parts for tree in trees], (len(parts), *parts[0][1])
+
+
+def _places(letters: Letters, used: set[Sym]) -> dict[Sym, Argument]:
+    coordinates = letters.of_kind("coordinate")
+    places = {Sym(name, dots): Argument(array, i) for dots, array in enumerate("qua") for i, name in enumerate(coordinates)}
+    places |= {Sym(name): Argument("p", i) for i, name in enumerate(_parameters(letters))}
+    places |= {Sym(name): Argument("r", i) for i, name in enumerate(letters.of_kind("unknown"))}
+    places |= {Sym(name): Argument("t", 0) for name in letters.of_kind("time")}
+    for letter in sorted(used - set(places) - {Sym(PI)}, key=str):
+        raise ValueError(f"{letter.name!r} differentiated {letter.dots} times is no argument; say what it is in the letters")
+    return places
+
+
+def _parameters(letters: Letters) -> list[str]:
+    return [name for name in letters.of_kind("parameter", "constant") if name != PI]
+
+
+def _header(letters: Letters, arrays: Sequence[str]) -> list[str]:
+    members = {"q": letters.of_kind("coordinate"), "p": _parameters(letters), "r": letters.of_kind("unknown")}
+    lines = []
+    for array in arrays:
+        lines.append(f"{array}: {_HELP[array]}")
+        for place, name in enumerate(members.get(array, ())):
+            letter = letters[name]
+            unit = f" [{letter.unit}]" if letter.unit else ""
+            lines.append(f"    {array}[{place}] {name}{unit}{f': {letter.doc}' if letter.doc else ''}")
+    return lines
+
+
+def _function(
+    name: str,
+    trees: Sequence[Tree],
+    shape: tuple[int, ...],
+    places: Mapping[Sym, Argument],
+    arrays: Sequence[str],
+    spelling: Language,
+) -> str:
+    used = sorted((s for s in symbols(*trees) if s in places), key=lambda s: (arrays.index(places[s].array), places[s].index))
+    named: dict[Sym, str] = {}
+    for letter in used:
+        named[letter] = "t" if places[letter].array == "t" else _identifier(letter, set(named.values()))
+    writer = Writer(spelling, named)
+    results = writer.write(trees)
+    loaded = [(named[s], places[s].code) for s in used if named[s] != places[s].code]
+    return spelling.function(name, arrays, loaded + writer.steps, results, shape)
+
+
+def _identifier(letter: Sym, taken: set[str]) -> str:
+    made = re.sub(r"\W", "_", ascii_name(letter.name), flags=re.ASCII) + ("", "_dot", "_ddot")[letter.dots]
+    made = f"_{made}" if made[0].isdigit() else made
+    # s1, s2 … are the names of shared subexpressions.
+    while made in taken or made in _RESERVED or re.fullmatch(r"s\d+", made):
+        made += "_"
+    return made

@@ -1,0 +1,165 @@
+"""A derivation as a document: headings, sentences, equations, tables, figures; printed in several ways."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from freebody.equations.letters import Letters
+from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
+
+
+@dataclass(frozen=True)
+class Written:
+    """Mathematics that is only written, not computed with: ``Written("ΣM/E", r"\\sum M_{/E}")``."""
+
+    text: str
+    latex: str
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A vector in named unit directions: pairs of a component and a direction, ``"i"``, ``"e_r"``."""
+
+    components: tuple[tuple[Tree, str], ...]
+
+
+Side: TypeAlias = Tree | Vector | Written
+"""One side of an equation."""
+Words: TypeAlias = str | Sequence[str | Side]
+"""A sentence; mathematics in it stands as trees: ``["The angle ", Sym("theta"), " is measured from x."]``."""
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading; level 1 is the title."""
+
+    words: Words
+    level: int = 2
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Plain sentences."""
+
+    words: Words
+
+
+@dataclass(frozen=True)
+class Equation:
+    """left = right, stated as what it is, ``AMB about the elbow for the forearm``; ``label`` is its number, ``note`` its reason."""
+
+    left: Side
+    right: Side
+    name: Words = ""
+    label: str = ""
+    note: Words = ""
+
+
+@dataclass(frozen=True)
+class MatrixEquation:
+    """A x = b: rows of trees, unknowns, right-hand side."""
+
+    matrix: Sequence[Sequence[Tree]]
+    unknowns: Sequence[Tree]
+    right: Sequence[Tree]
+    name: Words = ""
+    label: str = ""
+    note: Words = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of words under heads."""
+
+    heads: Sequence[Words]
+    rows: Sequence[Sequence[Words]]
+    caption: Words = ""
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """A list of sentences."""
+
+    items: Sequence[Words]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture as SVG. In text its caption stands for it, in LaTeX a frame with ``name``, a file that is to be put beside."""
+
+    svg: str
+    caption: Words = ""
+    name: str = "figure"
+
+
+Block: TypeAlias = Heading | Paragraph | Equation | MatrixEquation | Table | Bullets | Figure
+
+
+@dataclass(frozen=True)
+class Document:
+    """Blocks in order, and what the letters in them mean."""
+
+    blocks: Sequence[Block]
+    letters: Letters = field(default_factory=Letters)
+
+    def text(self, *, ascii: bool = False, width: int = 100) -> str:
+        """Plain text of at most ``width`` columns, as far as equations can be broken."""
+        from freebody.equations.rendering.plain import render
+
+        return render(self, ascii=ascii, width=width)
+
+    def markdown(self) -> str:
+        """Markdown with LaTeX between dollars."""
+        from freebody.equations.rendering.markup import Markdown
+
+        return Markdown(self.letters).render(self.blocks)
+
+    def latex(self) -> str:
+        """A fragment of a LaTeX article; it needs amsmath, amssymb and graphicx."""
+        from freebody.equations.rendering.markup import Latex
+
+        return Latex(self.letters).render(self.blocks)
+
+    def html(self) -> str:
+        r"""A fragment of HTML with LaTeX in ``\(…\)`` and ``\[…\]``, for MathJax or KaTeX; figures are inside."""
+        from freebody.equations.rendering.markup import Html
+
+        return Html(self.letters).render(self.blocks)
+
+    def json(self) -> str:
+        """Every block with its kind and fields, trees as JSON and printed, and the letters."""
+        from freebody.equations.rendering.data import block
+
+        made = {"letters": self.letters.write(), "blocks": [block(each, self.letters) for each in self.blocks]}
+        return json.dumps(made, ensure_ascii=False, indent=1)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def _repr_html_(self) -> str:
+        return self.html()
+
+    def _repr_latex_(self) -> str:
+        return self.latex()
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+
+def is_tree(side: Any) -> bool:
+    """Whether something is an expression."""
+    return isinstance(side, Num | Sym | Add | Mul | Pow | Fn)
+
+
+def pieces(words: Words) -> list[str | Side]:
+    """The words as a list of texts and mathematics."""
+    return [words] if isinstance(words, str) else list(words)
+
+
+def letters_table(letters: Letters) -> Table:
+    """What the letters mean, for the head of a derivation."""
+    rows = [([Sym(letter.name)], letter.doc, letter.unit) for letter in letters.values()]
+    return Table(("letter", "what it is", "unit"), rows)

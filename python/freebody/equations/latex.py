@@ -1,0 +1,121 @@
+r"""Equations as LaTeX: ``\left(\tfrac{1}{4} m_1 + m_2\right) l^2 \ddot\theta_1 = -m_2 g l \sin\theta_1``. Needs amsmath."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from freebody.equations import layout
+from freebody.equations.letters import Letters
+from freebody.equations.names import latex_name, upright
+from freebody.equations.printer import Printer, Term
+from freebody.equations.text import TextPrinter, columns
+from freebody.equations.tree import Entries, Fn, Sym, Tree
+
+WIDTH = 80
+_KNOWN = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "ln": r"\ln", "exp": r"\exp", "atan2": r"\operatorname{atan2}",
+          "sign": r"\operatorname{sign}"}  # fmt: skip
+
+
+def latex(tree: Tree, letters: Letters | None = None) -> str:
+    """The expression as LaTeX for mathematics mode, without dollars."""
+    return LatexPrinter(letters or Letters()).expression(tree)
+
+
+def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, width: int = WIDTH) -> str:
+    """``left = right`` for mathematics mode; what would print wider than ``width`` letters is ``aligned`` over lines."""
+    printer = LatexPrinter(letters or Letters())
+    plain = TextPrinter(printer.letters)
+    if columns(f"{plain.expression(left)} = {plain.expression(right)}") <= width:
+        return f"{printer.expression(left)} = {printer.expression(right)}"
+    first, second = (_lines(printer, plain, side, width) for side in (left, right))
+    rows = ["&" + first[0], *(rf"&\quad {line}" for line in first[1:])]
+    rows += ["&= " + second[0], *(rf"&\quad {line}" for line in second[1:])]
+    if len(first) == 1 and columns(plain.expression(left)) <= width // 2:
+        rows = [f"{first[0]} {rows[1]}", *rows[2:]]
+    return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+
+
+def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
+    """A vector (as a column) or a matrix of trees."""
+    printer = LatexPrinter(letters or Letters())
+    rows = [row if isinstance(row, Sequence) else [row] for row in entries]
+    body = " \\\\\n".join(" & ".join(map(printer.expression, row)) for row in rows)
+    return f"\\begin{{bmatrix}}\n{body}\n\\end{{bmatrix}}"
+
+
+def _lines(printer: LatexPrinter, plain: TextPrinter, side: Tree, width: int) -> list[str]:
+    lines: list[list[Term]] = []
+    room = 0
+    for term, shown in zip(printer.terms(side), plain.terms(side), strict=True):
+        room -= columns(shown.text) + 3
+        if not lines or room < 0:
+            lines.append([])
+            room = width - columns(shown.text)
+        lines[-1].append(term)
+    return [printer.join(line) if place == 0 or line[0].negative else "+ " + printer.join(line) for place, line in enumerate(lines)]
+
+
+@dataclass(frozen=True)
+class LatexPrinter(Printer):
+    """LaTeX with amsmath."""
+
+    minus = "-"
+
+    def name(self, letter: Sym) -> str:
+        return latex_name(letter.name, letter.dots, reaction=self.letters.kind(letter.name) == "unknown")
+
+    def number(self, value: Fraction | float | int) -> str:
+        if not isinstance(value, float):
+            value = Fraction(value)
+            return str(value) if value.denominator == 1 else rf"\tfrac{{{value.numerator}}}{{{value.denominator}}}"
+        if math.isinf(value):
+            return r"\infty"
+        mantissa, _, exponent = f"{value:.10g}".partition("e")
+        return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
+
+    def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
+        return self._factors(value, factors)
+
+    def juxtapose(self, factors: Sequence[str]) -> str:
+        made = factors[0]
+        for left, right in zip(factors, factors[1:], strict=False):
+            word = any(re.match(r"\\(mathrm|d*ot\{)", side) for side in (left, right))
+            made += (r" \, " if word else " ") + right
+        return made
+
+    def bracket(self, inner: str) -> str:
+        return rf"\left({inner}\right)" if r"frac" in inner else f"({inner})"
+
+    def numerator(self, tree: Tree) -> str:
+        return self.expression(tree)
+
+    def fraction(self, above: str, below: str, ends_bare: bool, several: bool) -> str:
+        return rf"\frac{{{above}}}{{{below}}}"
+
+    def can_stand_apart(self, number: int, below: Sequence[Tree]) -> bool:
+        return True
+
+    def apart(self, above: str, below: str) -> str:
+        return rf"\frac{{{above}}}{{{below}}}"
+
+    def raised(self, base: str, exponent: Fraction) -> str:
+        shown = str(exponent)
+        base = f"{{{base}}}" if re.match(r"\\d*ot", base) and "_" not in base else base
+        return f"{base}^{shown}" if len(shown) == 1 else f"{base}^{{{shown}}}"
+
+    def root(self, tree: Tree) -> str:
+        return rf"\sqrt{{{self.expression(tree)}}}"
+
+    def function(self, tree: Fn, exponent: Fraction) -> str:
+        inner = self.arguments(tree)
+        raised = "" if exponent == 1 else f"^{exponent}" if exponent < 10 else f"^{{{exponent}}}"
+        if tree.name == "abs":
+            return rf"\left|{inner}\right|{raised}"
+        name = _KNOWN.get(tree.name, upright(tree.name)) + raised
+        if layout.is_bare(tree):
+            return f"{name}{'' if inner.startswith(chr(92)) else ' '}{inner}"
+        return name + self.bracket(inner)

@@ -1,0 +1,117 @@
+"""The order in which a person writes sums and products, and what of a product stands above and below the line."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from freebody.equations.letters import Letters
+from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, power, symbols, walk
+
+SIMPLE_FUNCTIONS = ("sin", "cos", "tan", "ln")
+"""Functions that a person writes without brackets when what they are of is one letter."""
+_PARAMETERS, _COORDINATES, _FUNCTIONS, _RATES, _BARE = range(1, 6)
+
+
+@dataclass(frozen=True)
+class Product:
+    """A product laid out: ± number × head × tail / below.
+
+    ``head`` are the parameters, ``tail`` is what moves; the exponents below are positive. ``size`` is positive."""
+
+    negative: bool
+    size: Fraction | float
+    head: tuple[Tree, ...]
+    tail: tuple[Tree, ...]
+    below: tuple[Tree, ...]
+
+    @property
+    def above(self) -> tuple[Tree, ...]:
+        """Everything above the line but the number."""
+        return self.head + self.tail
+
+
+def is_bare(tree: Tree) -> bool:
+    """Whether a function is written without brackets: sin θ, cos 2θ, sin²θ."""
+    node = tree.base if isinstance(tree, Pow) else tree
+    return isinstance(node, Fn) and node.name in SIMPLE_FUNCTIONS and _is_plain(node.args[0])
+
+
+def product(tree: Tree, letters: Letters) -> Product:
+    """The tree as one product."""
+    factors = _factors(tree)
+    numbers = [factor.value for factor in factors if isinstance(factor, Num)]
+    size = math.prod(numbers, start=Fraction(1))
+    rest = [factor for factor in factors if not isinstance(factor, Num)]
+    below = [power(f.base, -f.exponent) for f in rest if isinstance(f, Pow) and f.exponent < 0]
+    above = _sorted((f for f in rest if not (isinstance(f, Pow) and f.exponent < 0)), letters)
+    head = tuple(factor for factor in above if _class(factor, letters) == _PARAMETERS)
+    return Product(size < 0, abs(size), head, tuple(above[len(head) :]), tuple(_sorted(below, letters)))
+
+
+def stands_apart(laid: Product, letters: Letters) -> bool:
+    """Whether the fraction is one of parameters and what moves is written behind it: (g/l) sin θ."""
+    constant = all(_class(factor, letters) == _PARAMETERS for factor in laid.below)
+    moves = any(_class(factor, letters) in (_FUNCTIONS, _BARE) for factor in laid.tail)
+    return bool(laid.head) and constant and moves
+
+
+def terms(tree: Tree, letters: Letters) -> list[Tree]:
+    """The terms of a sum: accelerations first, then rates, then the rest, each in the order of the letters.
+
+    Of the leading kind one with a plus goes first, if there is any."""
+    found = sorted(tree.terms, key=lambda term: _term_rank(term, letters)) if isinstance(tree, Add) else [tree]
+    if product(found[0], letters).negative:
+        leading = _dots(found[0])
+        first = next((t for t in found if _dots(t) == leading and not product(t, letters).negative), found[0])
+        found.remove(first)
+        found.insert(0, first)
+    return found
+
+
+def _factors(tree: Tree) -> list[Tree]:
+    if isinstance(tree, Pow) and isinstance(tree.base, Mul) and tree.exponent.denominator == 1:
+        return [power(inner, tree.exponent) for inner in tree.base.factors]
+    return [inner for factor in tree.factors for inner in _factors(factor)] if isinstance(tree, Mul) else [tree]
+
+
+def _is_plain(tree: Tree) -> bool:
+    if isinstance(tree, Mul) and len(tree.factors) == 2:
+        factor, letter = tree.factors
+        return isinstance(factor, Num) and factor.value > 0 and float(factor.value).is_integer() and isinstance(letter, Sym)
+    return isinstance(tree, Sym)
+
+
+def _sorted(factors, letters: Letters) -> list[Tree]:
+    return sorted(factors, key=lambda factor: (_class(factor, letters), *_factor_rank(factor, letters)))
+
+
+def _class(factor: Tree, letters: Letters) -> int:
+    found = symbols(factor)
+    if is_bare(factor):
+        return _BARE
+    if any(letter.dots for letter in found):
+        return _RATES
+    if any(isinstance(node, Fn) for node in walk(factor)):
+        return _FUNCTIONS
+    still = all(letters.kind(letter.name) in ("parameter", "constant") for letter in found)
+    return _PARAMETERS if still else _COORDINATES
+
+
+def _factor_rank(factor: Tree, letters: Letters) -> tuple:
+    ranks = sorted((letter.dots, *letters.rank(letter)) for letter in symbols(factor))
+    return (ranks[0] if ranks else (), isinstance(factor, Add))
+
+
+def _term_rank(term: Tree, letters: Letters) -> tuple:
+    found, dots = symbols(term), _dots(term)
+    order = {name: place for place, name in enumerate(letters)}
+    moves = any(letters.kind(letter.name) not in ("parameter", "constant") for letter in found)
+    leading = sorted(order.get(letter.name, len(order)) for letter in found if letter.dots == dots)
+    rest = sorted(order.get(letter.name, len(order)) for letter in found if letter.dots != dots)
+    return -dots, dots == 0 and moves, leading, rest
+
+
+def _dots(term: Tree) -> int:
+    return max((letter.dots for letter in symbols(term)), default=0)

@@ -1,0 +1,67 @@
+"""What the letters of equations mean: coordinate or parameter, unit, and in what order a person writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from freebody.equations.tree import Sym
+
+KINDS = ("coordinate", "parameter", "time", "unknown", "constant")
+
+
+@dataclass(frozen=True)
+class Letter:
+    """One letter: its kind (coordinate, parameter, time, unknown or constant), SI unit, and what it is."""
+
+    name: str
+    kind: str = "parameter"
+    unit: str = ""
+    doc: str = ""
+
+
+@dataclass(frozen=True)
+class Letters(Mapping[str, Letter]):
+    """The letters of some equations by name, in the order of the model. A name that is not there reads as a parameter."""
+
+    table: Mapping[str, Letter] = field(default_factory=dict)
+
+    @classmethod
+    def read(cls, data: Mapping[str, Mapping[str, Any]]) -> Letters:
+        """From JSON: ``{"theta": {"kind": "coordinate", "unit": "rad", "doc": "…"}}``."""
+        for name, entry in data.items():
+            if entry.get("kind", "parameter") not in KINDS:
+                raise ValueError(f"letter {name!r}: kind {entry['kind']!r} is none of {', '.join(KINDS)}")
+        known = ("kind", "unit", "doc")
+        return cls({name: Letter(name, **{k: entry[k] for k in known if k in entry}) for name, entry in data.items()})
+
+    def write(self) -> dict[str, dict[str, str]]:
+        """As JSON data."""
+        return {letter.name: {"kind": letter.kind, "unit": letter.unit, "doc": letter.doc} for letter in self.values()}
+
+    def __getitem__(self, name: str) -> Letter:
+        return self.table[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.table)
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def kind(self, name: str) -> str:
+        """The kind of a name."""
+        return self.table[name].kind if name in self.table else "parameter"
+
+    def of_kind(self, *kinds: str) -> list[str]:
+        """The names of some kinds, in the order of the model."""
+        return [name for name, letter in self.table.items() if letter.kind in kinds]
+
+    def rank(self, symbol: Sym) -> tuple[int, int]:
+        """Where a letter stands among the parameters of a product: masses and forces, then g, then lengths."""
+        order = {name: place for place, name in enumerate(self.table)}
+        return _weight(self.table[symbol.name].unit if symbol.name in self.table else ""), order.get(symbol.name, len(order))
+
+
+def _weight(unit: str) -> int:
+    return 0 if unit.startswith(("kg", "N")) else 1 if unit.startswith("m/s") else 2

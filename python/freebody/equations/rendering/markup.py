@@ -1,0 +1,236 @@
+"""Documents as Markdown, LaTeX and HTML: mathematics is LaTeX in all three."""
+
+from __future__ import annotations
+
+import html
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from freebody.equations.document import (
+    Block, Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Table, Vector, Words, Written, is_tree, pieces,
+)  # fmt: skip
+from freebody.equations.latex import equation_latex, latex, matrix_latex
+from freebody.equations.letters import Letters
+from freebody.equations.names import escaped
+from freebody.equations.tree import Add, Tree, is_zero
+
+
+def side_latex(side: Side, letters: Letters) -> str:
+    """One side of an equation, or mathematics in a sentence."""
+    if isinstance(side, Written):
+        return side.latex
+    if isinstance(side, Vector):
+        parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
+        return " + ".join(parts).replace("+ -", "- ") or "0"
+    return latex(side, letters)
+
+
+def _component(tree: Tree, direction: str, letters: Letters) -> str:
+    inner = latex(tree, letters)
+    stem, _, below = direction.partition("_")
+    unit = rf"\mathbf{{{escaped(stem)}}}" + (f"_{{{latex_subscript(below)}}}" if below else "")
+    if isinstance(tree, Add):
+        return rf"\left({inner}\right) {unit}"
+    return unit if inner == "1" else f"-{unit}" if inner == "-1" else rf"{inner} \, {unit}"
+
+
+def latex_subscript(text: str) -> str:
+    """A subscript: Greek words as letters."""
+    from freebody.equations.names import latex_name
+
+    return latex_name(text) if re.fullmatch(r"\w+", text) else escaped(text)
+
+
+@dataclass(frozen=True)
+class Markup(ABC):
+    """What the three have in common."""
+
+    letters: Letters
+
+    def render(self, blocks: Sequence[Block]) -> str:
+        """All blocks."""
+        return "\n\n".join(map(self.block, blocks)) + "\n"
+
+    def block(self, block: Block) -> str:
+        """One block."""
+        match block:
+            case Heading(words, level):
+                return self.heading(self.words(words), level)
+            case Paragraph(words):
+                return self.paragraph(self.words(words))
+            case Equation():
+                return self.stated(block, self.equation(block))
+            case MatrixEquation():
+                parts = [matrix_latex(part, self.letters) for part in (block.matrix, block.unknowns, block.right)]
+                return self.stated(block, f"{parts[0]} {parts[1]} = {parts[2]}")
+            case Bullets(items):
+                return self.bullets([self.words(item) for item in items])
+            case Table():
+                rows = [[self.words(cell) for cell in row] for row in (block.heads, *block.rows)]
+                return self.table(rows[0], rows[1:], self.words(block.caption))
+            case Figure():
+                return self.figure(block, self.words(block.caption))
+
+    def words(self, words: Words) -> str:
+        """A sentence with its mathematics."""
+        return "".join(
+            self.plain(piece) if isinstance(piece, str) else self.inline(side_latex(piece, self.letters)) for piece in pieces(words)
+        )
+
+    def equation(self, block: Equation) -> str:
+        """LaTeX of an equation."""
+        left, right = block.left, block.right
+        if is_tree(left) and is_tree(right):
+            return equation_latex(left, right, self.letters)
+        return f"{side_latex(left, self.letters)} = {side_latex(right, self.letters)}"
+
+    def stated(self, block: Equation | MatrixEquation, body: str) -> str:
+        """An equation between its name and its note."""
+        name, note = self.words(block.name), self.words(block.note)
+        named = name if not name or name.endswith((":", ".")) else f"{name}:"
+        parts = [self.paragraph(named) if named else "", self.display(body, block.label), self.paragraph(note) if note else ""]
+        return "\n\n".join(filter(None, parts))
+
+    @abstractmethod
+    def plain(self, text: str) -> str:
+        """Text with the signs of the markup escaped."""
+
+    @abstractmethod
+    def inline(self, math: str) -> str:
+        """Mathematics in a sentence."""
+
+    @abstractmethod
+    def display(self, math: str, label: str) -> str:
+        """Mathematics on lines of its own."""
+
+    @abstractmethod
+    def heading(self, title: str, level: int) -> str:
+        """A heading."""
+
+    @abstractmethod
+    def paragraph(self, words: str) -> str:
+        """A paragraph."""
+
+    @abstractmethod
+    def bullets(self, items: Sequence[str]) -> str:
+        """A list."""
+
+    @abstractmethod
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        """A table."""
+
+    @abstractmethod
+    def figure(self, figure: Figure, caption: str) -> str:
+        """A picture."""
+
+
+class Markdown(Markup):
+    """Markdown with dollars."""
+
+    def plain(self, text: str) -> str:
+        return re.sub(r"([\\`*_\[\]<>$#|])", r"\\\1", text)
+
+    def inline(self, math: str) -> str:
+        return f"${math}$"
+
+    def display(self, math: str, label: str) -> str:
+        return f"$$\n{math}{f' {chr(92)}tag{{{label}}}' if label else ''}\n$$"
+
+    def heading(self, title: str, level: int) -> str:
+        return f"{'#' * level} {title}"
+
+    def paragraph(self, words: str) -> str:
+        return words
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return "\n".join(f"- {item}" for item in items)
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        lines = [f"| {' | '.join(row)} |" for row in (heads, ["---"] * len(heads), *rows)]
+        return "\n".join(([caption, ""] if caption else []) + lines)
+
+    def figure(self, figure: Figure, caption: str) -> str:
+        import base64
+
+        data = base64.b64encode(figure.svg.encode()).decode()
+        return f"![{caption}](data:image/svg+xml;base64,{data})"
+
+
+class Latex(Markup):
+    """A fragment of an article."""
+
+    _SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
+
+    def plain(self, text: str) -> str:
+        return re.sub("[^\x00-\u024f]+", lambda signs: _signs(signs[0]), escaped(text))
+
+    def inline(self, math: str) -> str:
+        return f"${math}$"
+
+    def display(self, math: str, label: str) -> str:
+        tag = rf"\tag{{{label}}}" if label else r"\notag"
+        return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
+
+    def heading(self, title: str, level: int) -> str:
+        return rf"\{self._SECTIONS[min(level, 4) - 1]}*{{{title}}}"
+
+    def paragraph(self, words: str) -> str:
+        return words
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return "\n".join([r"\begin{itemize}", *(rf"\item {item}" for item in items), r"\end{itemize}"])
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        body = [" & ".join(row) + r" \\" for row in rows]
+        top = [rf"\begin{{tabular}}{{{'l' * len(heads)}}}", " & ".join(heads) + r" \\ \hline"]
+        return "\n".join([r"\begin{center}", *([caption, "", ""] if caption else []), *top, *body, r"\end{tabular}", r"\end{center}"])
+
+    def figure(self, figure: Figure, caption: str) -> str:
+        frame = rf"\IfFileExists{{{figure.name}.pdf}}{{\includegraphics{{{figure.name}.pdf}}}}{{\fbox{{{escaped(figure.name)}}}}}"
+        return "\n".join([r"\begin{center}", frame, *([r"\par " + caption] if caption else []), r"\end{center}"])
+
+
+class Html(Markup):
+    """A fragment of a page."""
+
+    def plain(self, text: str) -> str:
+        return html.escape(text)
+
+    def inline(self, math: str) -> str:
+        return rf"\({html.escape(math)}\)"
+
+    def display(self, math: str, label: str) -> str:
+        tag = rf" \tag{{{label}}}" if label else ""
+        return f'<div class="equation">\\[{html.escape(math)}{html.escape(tag)}\\]</div>'
+
+    def heading(self, title: str, level: int) -> str:
+        return f"<h{level}>{title}</h{level}>"
+
+    def paragraph(self, words: str) -> str:
+        return f"<p>{words}</p>"
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return "\n".join(["<ul>", *(f"<li>{item}</li>" for item in items), "</ul>"])
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        top = f"<caption>{caption}</caption>" if caption else ""
+        lines = ["".join(f"<th>{cell}</th>" for cell in heads), *("".join(f"<td>{cell}</td>" for cell in row) for row in rows)]
+        return "\n".join([f"<table>{top}", *(f"<tr>{line}</tr>" for line in lines), "</table>"])
+
+    def figure(self, figure: Figure, caption: str) -> str:
+        picture = re.sub(r"^\s*(<\?xml.*?\?>|<!DOCTYPE.*?>|\s)*", "", figure.svg, flags=re.DOTALL)
+        return f"<figure>{picture}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
+
+
+def _signs(signs: str) -> str:
+    """Letters that TeX does not have in text: Greek, raised and lowered digits, arrows."""
+    from freebody.equations.names import GREEK
+
+    spelt = {sign: rf"\{word}" for word, sign in GREEK.items()}
+    spelt |= {sign: f"_{digit}" for digit, sign in enumerate("₀₁₂₃₄₅₆₇₈₉")} | {"⁴": "^4", "⁻": "^-", "Σ": r"\Sigma"}
+    spelt |= {"−": "-", "×": r"\times ", "·": r"\cdot ", "→": r"\to ", "∞": r"\infty ", "≥": r"\ge ", "≤": r"\le ", "√": r"\surd "}
+    spelt |= {"\u0307": r"^{\cdot}", "\u0308": r"^{\cdot\cdot}"}
+    made = "".join(f"{spelt[sign]} " if sign in spelt else sign for sign in signs).strip()
+    return f"${made}$" if all(sign in spelt for sign in signs) else signs

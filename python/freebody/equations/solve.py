@@ -1,0 +1,137 @@
+"""Answers in letters: small linear systems solved, limits, coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from freebody.equations.letters import Letters
+from freebody.equations.simplify import PATIENCE, equal, shortest
+from freebody.equations.to_sympy import from_sympy, to_sympy
+from freebody.equations.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
+
+MOST_UNKNOWNS = 6
+"""Above it an answer in letters is too long to be read."""
+MOST_OPERATIONS = 1500
+"""Operations in all coefficients above which no answer in letters is sought."""
+
+
+class TooLarge(ValueError):
+    """An answer in letters would be too long to read; the sentence says what to do instead."""
+
+
+class Singular(ValueError):
+    """The equations do not determine the unknowns."""
+
+
+def solve(
+    matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], letters: Letters | None = None, *, patience: float = PATIENCE
+) -> list[Tree]:
+    """The solution x of A x = b in letters, each entry in the shortest form found.
+
+    ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``; a matrix that is singular for all
+    values of the letters is ``Singular``. The solution is held against the system at random values."""
+    _admit(matrix, right)
+    import sympy
+
+    a = sympy.Matrix([[to_sympy(entry) for entry in row] for row in matrix])
+    b = sympy.Matrix([to_sympy(entry) for entry in right])
+    found = [shortest(entry, letters, patience) for entry in _solved(a, b)]
+    for row, entry in zip(matrix, right, strict=True):
+        if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
+            raise ArithmeticError("the answer in letters does not satisfy the equations at random values; take the numbers instead")
+    return found
+
+
+def solve_equations(
+    equations: Sequence[tuple[Tree, Tree]], unknowns: Sequence[Sym], letters: Letters | None = None, *, patience: float = PATIENCE
+) -> dict[Sym, Tree]:
+    """The unknowns from equations left = right that are linear in them."""
+    matrix, right = linear_system(equations, unknowns)
+    return dict(zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True))
+
+
+def linear_system(equations: Sequence[tuple[Tree, Tree]], unknowns: Sequence[Sym]) -> tuple[list[list[Tree]], list[Tree]]:
+    """A and b of A x = b from equations left = right; ``ValueError`` names an equation that is not linear."""
+    rows = [coefficients(minus(left, right), unknowns) for left, right in equations]
+    return [row for row, _ in rows], [mul(MINUS_ONE, rest) for _, rest in rows]
+
+
+def coefficients(tree: Tree, unknowns: Sequence[Sym]) -> tuple[list[Tree], Tree]:
+    """The factors of the unknowns in a linear expression, and what is left without them."""
+    import sympy
+
+    letters = [to_sympy(unknown) for unknown in unknowns]
+    expanded = sympy.expand(to_sympy(tree))
+    factors = [expanded.diff(letter) for letter in letters]
+    for unknown, factor in zip(unknowns, factors, strict=True):
+        if factor.free_symbols & set(letters):
+            raise ValueError(f"the expression is not linear in {unknown.name}; ask for numbers, or linearise it first")
+    rest = expanded.subs(dict.fromkeys(letters, 0))
+    return [from_sympy(sympy.factor_terms(factor)) for factor in factors], from_sympy(rest)
+
+
+def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | None = None) -> Tree:
+    """The limit as a letter goes to a value (from above) or to infinity, the other letters being positive.
+
+    An infinite limit is the number ``inf``."""
+    import sympy
+
+    names = {symbol.name for symbol in symbols(tree) if not symbol.dots}
+    expression = to_sympy(tree, positive=names, real=True)
+    target = sympy.oo if to == float("inf") else -sympy.oo if to == -float("inf") else sympy.nsimplify(to)
+    found = sympy.limit(expression, sympy.Symbol(letter, positive=True), target, "+")
+    if isinstance(found, sympy.Limit | sympy.AccumBounds) or found.has(sympy.nan):
+        raise ValueError(f"no limit in letters was found for {letter} to {to}; put numbers for some letters")
+    return from_sympy(found) if found.is_infinite else shortest(found, letters)
+
+
+def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None = None) -> Tree:
+    """The expression at given values of letters, in the shortest form found: θ = π/4, m₂ = m₁."""
+    import sympy
+
+    chosen = {sympy.Symbol(name): to_sympy(value) for name, value in values.items()}
+    return shortest(to_sympy(tree).subs(chosen, simultaneous=True), letters)
+
+
+def _admit(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
+    n = len(right)
+    if len(matrix) != n or any(len(row) != n for row in matrix):
+        raise ValueError("A x = b needs as many equations as unknowns")
+    if n > MOST_UNKNOWNS:
+        raise TooLarge(
+            f"{n} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
+            "ask for numbers, or for a smaller set of equations"
+        )
+
+
+def _solved(a: Any, b: Any) -> list[Any]:
+    """By exact elimination over the rational functions of the letters, sines and cosines."""
+    import sympy
+    from sympy.polys.matrices import DomainMatrix
+    from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
+
+    if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
+        raise TooLarge("the equations are too long for an answer in letters; put numbers for some letters")
+    shared, (a, b) = _plain(a, b)
+    joined = DomainMatrix.from_Matrix(a.row_join(b)).to_field()
+    try:
+        solution = joined[:, :-1].lu_solve(joined[:, -1:])
+    except DMNonInvertibleMatrixError:
+        raise Singular("the equations do not determine the unknowns, whatever the letters are") from None
+    back = {new: old for old, new in shared.items()}
+    return [entry.subs(back) for entry in solution.to_Matrix()]
+
+
+def _plain(*matrices: Any) -> tuple[dict, list[Any]]:
+    """Functions and roots replaced by letters of their own, so that the entries are rational."""
+    import sympy
+
+    found = set()
+    for matrix in matrices:
+        found |= matrix.atoms(sympy.Function)
+        found |= {power for power in matrix.atoms(sympy.Pow) if not power.exp.is_Integer}
+    outer = sorted(found, key=lambda f: (-f.count_ops(), str(f)))
+    shared = {function: sympy.Symbol(f"_{place}") for place, function in enumerate(outer)}
+    return shared, [matrix.xreplace(shared) for matrix in matrices]

@@ -1,0 +1,150 @@
+"""Small matrices in letters: characteristic polynomial, eigenvalues, and when what they describe is stable."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from freebody.equations.letters import Letters
+from freebody.equations.simplify import shortest
+from freebody.equations.solve import TooLarge
+from freebody.equations.to_sympy import from_sympy, to_sympy
+from freebody.equations.tree import Mul, Pow, Tree, is_zero, mul, power
+
+_HALF = Fraction(1, 2)
+MOST_ROWS = 4
+"""Roots of polynomials of higher order have no formula in letters."""
+
+
+@dataclass(frozen=True)
+class Eigenvalue:
+    """real + i·imaginary, ``count`` times. ``imaginary`` is zero where the value is real, or where the letters decide whether
+    a root in ``real`` is of something positive."""
+
+    real: Tree
+    imaginary: Tree
+    count: int = 1
+
+
+@dataclass(frozen=True)
+class Stability:
+    """When a linear motion is stable: each of ``conditions`` is positive.
+
+    ``kind`` is ``decays`` (all eigenvalues have negative real parts), or ``oscillates`` (without damping: the eigenvalues come
+    as ±s, and are all imaginary and distinct). ``never`` if one of the conditions cannot hold."""
+
+    kind: str
+    conditions: tuple[Tree, ...]
+    never: bool = False
+
+
+def characteristic(matrix: Sequence[Sequence[Tree]], letters: Letters | None = None) -> list[Tree]:
+    """The coefficients of det(s I − A), that of the highest power, 1, first."""
+    return [shortest(factor, letters) for factor in _polynomial(matrix, ()).all_coeffs()]
+
+
+def eigenvalues(
+    matrix: Sequence[Sequence[Tree]], letters: Letters | None = None, *, positive: Collection[str] = ()
+) -> list[Eigenvalue]:
+    """The eigenvalues in letters, all letters being real and those named ``positive`` positive.
+
+    At most 4 rows, and of cubic and quartic polynomials only those that factor or have only even powers; else ``TooLarge``."""
+    import sympy
+
+    polynomial = _polynomial(matrix, positive)
+    found = sympy.roots(polynomial, cubics=False, quartics=False)
+    if sum(found.values()) != polynomial.degree():
+        raise TooLarge("these eigenvalues have no short form in letters; put numbers, or ask for the stability conditions")
+    made = [_eigenvalue(root, count, letters) for root, count in found.items()]
+    return sorted(made, key=lambda value: (str(value.imaginary), str(value.real)))
+
+
+def stability(coefficients: Sequence[Tree], letters: Letters | None = None, *, positive: Collection[str] = ()) -> Stability:
+    """When all roots of a polynomial (highest power first, its coefficient positive, order 1 to 4) lie to the left: Routh–Hurwitz.
+
+    A polynomial with only even powers has no damping; then it is when all roots are imaginary and distinct. Conditions that
+    hold because the letters named ``positive`` are so are left out. Gantmacher, *Theory of Matrices* II, XV §6."""
+    order = len(coefficients) - 1
+    if not 1 <= order <= MOST_ROWS:
+        raise TooLarge(f"stability conditions in letters are for polynomials of order 1 to {MOST_ROWS}, not {order}")
+    a = [to_sympy(factor, positive=positive, real=True) for factor in coefficients]
+    even = order % 2 == 0 and all(is_zero(factor) for factor in coefficients[1::2])
+    left = _oscillates(a) if even else _hurwitz(a)
+    kept = [found for condition in left if (found := _reduced(condition)) is not None]
+    never = any(condition.is_nonpositive for condition in kept)
+    shown = tuple(dict.fromkeys(shortest(condition, letters) for condition in kept))
+    return Stability("oscillates" if even else "decays", shown, never)
+
+
+def _hurwitz(a: Sequence[Any]) -> list[Any]:
+    match a:
+        case [a1, a0]:
+            return [a1 * a0]
+        case [a2, a1, a0]:
+            return [a1 / a2, a0 / a2]
+        case [a3, a2, a1, a0]:
+            return [a2 / a3, a0 / a3, (a2 * a1 - a3 * a0) / a3**2]
+        case [a4, a3, a2, a1, a0]:
+            return [a3 / a4, a0 / a4, (a3 * a2 - a4 * a1) / a4**2, (a1 * (a3 * a2 - a4 * a1) - a3**2 * a0) / a4**3]
+    raise AssertionError("the order was checked")
+
+
+def _oscillates(a: Sequence[Any]) -> list[Any]:
+    """Of z = s²: all roots real, negative and distinct."""
+    match a:
+        case [a2, _, a0]:
+            return [a0 / a2]
+        case [a4, _, a2, _, a0]:
+            return [a2 / a4, a0 / a4, (a2**2 - 4 * a4 * a0) / a4**2]
+    raise AssertionError("the order was checked")
+
+
+def _reduced(condition: Any) -> Any:
+    """The condition without factors that are positive; None if it holds."""
+    import sympy
+
+    factored = sympy.factor(sympy.cancel(sympy.together(condition)))
+    above, below = sympy.fraction(factored)
+    rest = sympy.Mul(*(f for f in sympy.Mul.make_args(above * below) if not _is_positive(f)))
+    rest = sympy.Mul(*(_odd(f) for f in sympy.Mul.make_args(rest)))
+    return None if rest.is_positive else rest
+
+
+def _is_positive(factor: Any) -> bool:
+    return bool(factor.is_positive)
+
+
+def _odd(factor: Any) -> Any:
+    """An odd power has the sign of its base."""
+    return factor.base if factor.is_Pow and factor.exp.is_Integer and factor.exp % 2 else factor
+
+
+def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> Any:
+    import sympy
+
+    if len(matrix) > MOST_ROWS:
+        raise TooLarge(f"eigenvalues in letters are for at most {MOST_ROWS} rows, not {len(matrix)}; put numbers")
+    entries = sympy.Matrix([[to_sympy(entry, positive=positive, real=True) for entry in row] for row in matrix])
+    polynomial = entries.charpoly(sympy.Dummy("s"))
+    return sympy.Poly([sympy.factor(factor) for factor in polynomial.all_coeffs()], polynomial.gen)
+
+
+def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
+    import sympy
+
+    real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
+    if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
+        real, imaginary = root, sympy.S.Zero
+    parts = (_one_root(shortest(sympy.radsimp(sympy.simplify(part)), letters)) for part in (real, imaginary))
+    return Eigenvalue(*parts, count)
+
+
+def _one_root(tree: Tree) -> Tree:
+    """√k/√m as √(k/m): under both roots stands something positive."""
+    if not isinstance(tree, Mul):
+        return tree
+    roots = [f for f in tree.factors if isinstance(f, Pow) and abs(f.exponent) == _HALF]
+    rest = [f for f in tree.factors if f not in roots]
+    return mul(*rest, power(mul(*(power(f.base, 2 * f.exponent) for f in roots)), _HALF)) if len(roots) > 1 else tree

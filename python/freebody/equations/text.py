@@ -1,0 +1,173 @@
+"""Equations as plain text, as a textbook prints them: ``(m₁/4 + m₂) l² θ̈₁ = −m₂ g l sin θ₁``."""
+
+from __future__ import annotations
+
+import math
+import unicodedata
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from freebody.equations import layout
+from freebody.equations.letters import Letters
+from freebody.equations.names import ascii_name, superscript, unicode_name
+from freebody.equations.printer import Printer
+from freebody.equations.tree import Add, Fn, Num, Sym, Tree
+
+WIDTH = 100
+_VULGAR = {
+    Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾",
+    Fraction(1, 5): "⅕", Fraction(1, 6): "⅙", Fraction(1, 8): "⅛", Fraction(3, 8): "⅜",
+}  # fmt: skip
+
+
+def text(tree: Tree, letters: Letters | None = None, *, ascii: bool = False) -> str:
+    """The expression on one line; ``ascii`` spells Greek letters and writes primes for dots."""
+    return _printer(letters, ascii).expression(tree)
+
+
+def equation_text(left: Tree, right: Tree, letters: Letters | None = None, *, ascii: bool = False, width: int = WIDTH) -> str:
+    """``left = right``, broken at plus and minus signs to lines of at most ``width`` columns where that is possible."""
+    printer = _printer(letters, ascii)
+    first, second = printer.expression(left), printer.expression(right)
+    if columns(whole := f"{first} = {second}") <= width:
+        return whole
+    if columns(first) <= width // 3:
+        return folded(f"{first} = ", second, width)
+    return folded("    ", first, width).removeprefix("    ") + "\n" + folded("  = ", second, width)
+
+
+def folded(lead: str, line: str, width: int = WIDTH) -> str:
+    """``lead`` and ``line``, broken before plus and minus signs, outside of brackets where that will do."""
+    room = width - columns(lead)
+    indent = " " * columns(lead)
+    made: list[str] = []
+    for piece in _pieces(line, room, 0):
+        if made and columns(made[-1] + piece) <= room:
+            made[-1] += piece
+        else:
+            made.append(piece.lstrip())
+    return lead + f"\n{indent}".join(made)
+
+
+def columns(line: str) -> int:
+    """How many columns a line takes; combining dots take none."""
+    return sum(not unicodedata.combining(sign) for sign in line)
+
+
+def _pieces(line: str, room: int, depth: int) -> Iterator[str]:
+    parts = list(_split(line, depth))
+    deepest = not any(sign in "([" for sign in line)
+    for part in parts:
+        if columns(part) <= room or (deepest and len(parts) == 1) or depth > 3:
+            yield part
+        else:
+            yield from _pieces(part, room, depth + 1)
+
+
+def _split(line: str, wanted: int) -> Iterator[str]:
+    """The parts of the line between its ` + ` and ` − ` that stand in at most ``wanted`` brackets."""
+    depth = start = 0
+    for place, sign in enumerate(line):
+        depth += (sign in "([") - (sign in ")]")
+        if depth <= wanted and place > start and line[place : place + 3] in (" + ", " − ", " - "):
+            yield line[start:place]
+            start = place
+    yield line[start:]
+
+
+def _printer(letters: Letters | None, ascii: bool) -> TextPrinter:
+    return (AsciiPrinter if ascii else TextPrinter)(letters or Letters())
+
+
+@dataclass(frozen=True)
+class TextPrinter(Printer):
+    """Unicode."""
+
+    def name(self, letter: Sym) -> str:
+        return unicode_name(letter.name, letter.dots)
+
+    def number(self, value: Fraction | float | int) -> str:
+        if not isinstance(value, float):
+            return self._vulgar(Fraction(value)) or str(value)
+        if math.isinf(value):
+            return "∞"
+        mantissa, _, exponent = f"{value:.10g}".partition("e")
+        return f"{mantissa}×10{superscript(str(int(exponent)))}" if exponent else mantissa
+
+    def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
+        vulgar = self._vulgar(value)
+        alone = value.numerator == 1 and len(factors) == 1 and isinstance(factors[0], Sym)
+        if not factors or (vulgar and not alone):
+            return self.juxtapose([vulgar or str(value), *map(self._factor, factors)])
+        ends_bare = layout.is_bare(factors[-1])
+        return self.fraction(self._factors(value.numerator, factors), str(value.denominator), ends_bare, False)
+
+    def juxtapose(self, factors: Sequence[str]) -> str:
+        return " ".join(factors)
+
+    def bracket(self, inner: str) -> str:
+        return f"({inner})"
+
+    def numerator(self, tree: Tree) -> str:
+        return self.bracket(self.expression(tree))
+
+    def fraction(self, above: str, below: str, ends_bare: bool, several: bool) -> str:
+        # Without brackets sin θ/l could be the sine of θ/l.
+        return f"{self.bracket(above) if ends_bare else above}/{self.bracket(below) if several else below}"
+
+    def can_stand_apart(self, number: int, below: Sequence[Tree]) -> bool:
+        return number == 1 and len(below) == 1 and not isinstance(below[0], Add)
+
+    def apart(self, above: str, below: str) -> str:
+        return f"({above}/{below})"
+
+    def raised(self, base: str, exponent: Fraction) -> str:
+        base = self.bracket(base) if base.endswith(("′", "'")) else base
+        return base + (self._exponent(exponent))
+
+    def root(self, tree: Tree) -> str:
+        inner = self.expression(tree)
+        return f"√{inner}" if isinstance(tree, Sym | Num) else f"√({inner})"
+
+    def function(self, tree: Fn, exponent: Fraction) -> str:
+        inner = self.arguments(tree)
+        if tree.name == "abs":
+            return f"|{inner}|" + (self._exponent(exponent) if exponent != 1 else "")
+        name = tree.name + (self._exponent(exponent) if exponent != 1 else "")
+        return f"{name}{'' if exponent != 1 else ' '}{inner}" if layout.is_bare(tree) else f"{name}({inner})"
+
+    def _exponent(self, exponent: Fraction) -> str:
+        return superscript(str(exponent)) if exponent.denominator == 1 else f"^({exponent})"
+
+    def _vulgar(self, value: Fraction) -> str:
+        return _VULGAR.get(value, "")
+
+
+@dataclass(frozen=True)
+class AsciiPrinter(TextPrinter):
+    """Letters of ASCII alone."""
+
+    minus = "-"
+
+    def name(self, letter: Sym) -> str:
+        return ascii_name(letter.name, letter.dots)
+
+    def number(self, value: Fraction | float | int) -> str:
+        return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+    def fraction(self, above: str, below: str, ends_bare: bool, several: bool) -> str:
+        return super().fraction(above, below, False, several)
+
+    def root(self, tree: Tree) -> str:
+        return f"sqrt({self.expression(tree)})"
+
+    def function(self, tree: Fn, exponent: Fraction) -> str:
+        call = f"{tree.name}({', '.join(map(self.expression, tree.args))})"
+        return call if exponent == 1 else f"{call}^{exponent}"
+
+    def _exponent(self, exponent: Fraction) -> str:
+        return f"^{exponent}" if exponent.denominator == 1 and exponent > 0 else f"^({exponent})"
+
+    def _vulgar(self, value: Fraction) -> str:
+        return ""
