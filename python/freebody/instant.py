@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from freebody import _core
+    from freebody.free_body import FreeBodies
     from freebody.grid import Motion
 
 STILL = 1e-4
@@ -237,6 +238,14 @@ class Instant:
         """What is left of each body's momentum balance: N, N, N·m."""
         names = (b["name"] for b in self._about["bodies"])
         return {name: tuple(row) for name, row in zip(names, self._solved.body_residuals.tolist(), strict=True)}
+
+    def free_bodies(self) -> FreeBodies:
+        """Every load on every body, and what it gives their mass centres."""
+        from freebody.free_body import FreeBodies
+
+        at = self.state
+        told = self.core.free_bodies(at.p, at.t, at.q, at.u) if self.motion is None else self.motion.free_bodies(at.t)
+        return FreeBodies.read(told)
 
     @property
     def freedom(self) -> int:

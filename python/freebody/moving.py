@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from freebody.balances.minimal import MinimalForm
+    from freebody.balances.smallest import SmallestSet
+    from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
     from freebody.run import Progress, Run, Source, Times
@@ -46,6 +49,39 @@ class Moving:
         state, _ = self.start(initial, t, **changes)
         with self.told():
             return Instant(self.compile(), state, route, self.source().about)
+
+    def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
+        """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
+        from freebody.free_body import FreeBodies
+
+        state, _ = self.start(initial, t, **changes)
+        with self.told():
+            return FreeBodies.read(self.compile().free_bodies(state.p, state.t, state.q, state.u))
+
+    def smallest(
+        self: Builder, wanted: str, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+    ) -> SmallestSet:
+        """The fewest balance equations that give one unknown at an instant: the acceleration of a coordinate (``theta``), a
+        component of a reaction (``A.Fx``), the force or torque of a motion (its name); ``changes`` as in ``solve``."""
+        from freebody.balances.smallest import smallest_set
+
+        return smallest_set(wanted, *self._near(initial, t, changes))
+
+    def minimal_form(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> MinimalForm:
+        """As many balance equations as degrees of freedom, without reactions where such exist; ``changes`` as in ``solve``."""
+        from freebody.balances.minimal import minimal_form
+
+        return minimal_form(*self._near(initial, t, changes))
+
+    def _near(
+        self: Builder, initial: Mapping[str, Any] | None, t: float, changes: Mapping[str, Any]
+    ) -> tuple[list[FreeBodies], dict[str, Any]]:
+        """The free bodies at a state and at others near by, and the named points."""
+        from freebody.balances.states import nearby
+
+        state, _ = self.start(initial, t, **changes)
+        with self.told():
+            return nearby(self.source(), state), json.loads(self.compile().points(state.p))
 
     def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
         """A moment of motion from the state of ``solve``: at its start the events there have happened (``changes``, ``instant``);

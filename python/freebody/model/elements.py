@@ -86,7 +86,10 @@ def _switches(card: cards.Card) -> dict[str, Any]:
     if card.rubs:
         told = "Coefficient of sliding friction, by the size of the force that the joint carries."
         words["friction"] = (Number, Field(None, description=told))
-        words["static_friction"] = (Number, Field(None, description="Coefficient of friction at rest; that of sliding by default."))
+        words["static_friction"] = (
+            Number,
+            Field(None, description="Coefficient of friction at rest; that of sliding by default."),
+        )
         if card.coordinates[0].unit == "rad":
             words["bearing_radius"] = (number_in("m"), Field(None, description="Radius at which the friction of a hinge acts."))
     return words
@@ -103,7 +106,9 @@ _ONLY_OF = {
     "for others write a stop, under `stops`",
 }
 _ONLY_OF["end_restitution"] = _ONLY_OF["ends"]
-_ONLY_OF |= dict.fromkeys(("friction", "static_friction"), "friction is for hinges, slots and sliders; for surfaces write a contact")
+_ONLY_OF |= dict.fromkeys(
+    ("friction", "static_friction"), "friction is for hinges, slots and sliders; for surfaces write a contact"
+)
 _ONLY_OF["bearing_radius"] = "only a hinge has a bearing"
 
 JOINTS = {word: _model(card, _coordinates(card) | _switches(card)) for word, card in cards.joints().items()}

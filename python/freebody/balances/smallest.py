@@ -1,0 +1,105 @@
+"""The smallest set of balance equations that gives one unknown; virtual power where no small set does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody.balances.candidates import bits, candidates
+from freebody.balances.equation import BalanceEquation, disagreement, equation, solved
+from freebody.balances.search import smallest
+from freebody.balances.system import Problem, problem
+from freebody.balances.twists import NamedPoints
+from freebody.free_body import FreeBodies
+from freebody.instant import Indeterminate
+
+DETERMINED = 1e-8
+"""What virtual power leaves of other unknowns, relative to the one that it gives, below which it leaves nothing."""
+
+
+@dataclass(frozen=True)
+class VirtualPower:
+    """The virtual motion in which, of all unknowns, only one does work: one equation, ``unknown`` = ``right`` (N, N·m, m/s² or
+    rad/s²). ``motion``: velocity x, y of the mass centre and turning rate of every body that moves."""
+
+    unknown: str
+    motion: Mapping[str, tuple[float, float, float]]
+    right: float
+
+    @property
+    def title(self) -> str:
+        """Which equation it is."""
+        return f"virtual power, in the motion in which only {self.unknown} has any"
+
+
+@dataclass(frozen=True)
+class SmallestSet:
+    """The fewest equations that give ``wanted``, and no more unknowns than they are.
+
+    ``equations`` is empty where that takes more than four; ``virtual`` then is the one equation of virtual power.
+    ``values``: all unknowns of the set, N, N·m, m/s², rad/s²; ``check``: their largest relative difference from the full
+    solve. ``exact``: every connected set of bodies was tried; ``structural``: what drops out does so at other states, too.
+    """
+
+    wanted: str
+    equations: tuple[BalanceEquation, ...]
+    virtual: VirtualPower | None
+    values: Mapping[str, float]
+    check: float
+    exact: bool
+    structural: bool
+
+    @property
+    def value(self) -> float:
+        """What was wanted, N, N·m, m/s² or rad/s²."""
+        return self.values[self.wanted]
+
+
+def smallest_set(wanted: str, states: Sequence[FreeBodies], points: NamedPoints | None = None) -> SmallestSet:
+    """The smallest set for ``wanted``: a coordinate (its acceleration), a component of a reaction (``A.Fx``), a motion (its
+    force or torque).
+
+    ``states``: the instant, and others of the same mechanism near by, to tell what vanishes always from what vanishes there;
+    ``points``: further named points. Raises ``KeyError`` for what is not unknown, ``Indeterminate``.
+    """
+    given = problem(states, prefer=wanted.removeprefix("accel(").removesuffix(")"))
+    place = given.place(wanted)
+    name = given.unknowns[place].name
+    tried = candidates(given, points or {}, counted=bits(range(len(given.unknowns))))
+    accelerations = bits(i for i, unknown in enumerate(given.unknowns) if unknown.coordinate)
+    found = smallest(tried.by_support, 1 << place, accelerations)
+    equations = tuple(equation(given, candidate) for candidate in found or ())
+    virtual = None if found else virtual_power(given, place)
+    values = {virtual.unknown: virtual.right} if virtual else solved(equations)
+    several = len(given.systems) > 1
+    return SmallestSet(name, equations, virtual, values, disagreement(given, values), tried.exact, several)
+
+
+def virtual_power(given: Problem, place: int) -> VirtualPower:
+    """The one equation that gives an unknown alone: it is released, and nothing else unknown does work.
+    Raises ``Indeterminate`` where there is no such motion."""
+    system, unknown = given.systems[0], given.unknowns[place]
+    table = system.columns.reshape(len(given.unknowns), -1)
+    sizes = np.linalg.norm(table, axis=1)
+    wanted = np.zeros(len(sizes))
+    wanted[place] = 1.0
+    motion = np.linalg.pinv(table / sizes[:, None], rcond=DETERMINED) @ wanted / sizes[place]
+    left = (table @ motion) / sizes * sizes[place] - wanted
+    if np.abs(left).max() > DETERMINED:
+        raise Indeterminate(f"{unknown.name} is not determined by the balances")
+    right = float(motion @ system.right.ravel())
+    return VirtualPower(unknown.name, _of_bodies(given, motion.reshape(-1, 3)), right)
+
+
+def _of_bodies(given: Problem, motion: np.ndarray) -> dict[str, tuple[float, float, float]]:
+    """Velocity of the mass centre and turning rate, from a motion of the origin and turn × length."""
+    found = {}
+    for name, (vx, vy, turn) in zip(given.bodies, motion, strict=True):
+        rate = turn / given.length
+        x, y = np.subtract(given.free.bodies[name].G, given.origin)
+        moves = float(vx - rate * y), float(vy + rate * x), float(rate)
+        if np.abs(moves).max() > DETERMINED * np.abs(motion).max():
+            found[name] = moves
+    return found

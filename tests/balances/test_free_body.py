@@ -1,0 +1,93 @@
+"""Free bodies as data: complete, opposite in pairs, and in balance with the motion, alone and in any group."""
+
+import sys
+from itertools import chain as flat
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import fake
+
+import freebody as fb
+from freebody.free_body import FreeBodies, Indeterminate
+
+SYSTEMS = Path(__file__).parents[2] / "systems"
+MODELS = {
+    "double pendulum": lambda rng: fake.chain(rng, 2),
+    "chain of four, driven": lambda rng: fake.driven_chain(rng, 4),
+    "four-bar": fake.four_bar,
+    "block on a slope": fake.block_on_slope,
+    "ladder": fake.ladder,
+    "slider-crank": fake.slider_crank,
+}
+
+
+FILES = ["GEN-FOURBAR/model", "GEN-SLIDER/model", "19.3.16/driven", "EX-ARM/model", "19.3.20/model"]
+
+
+@pytest.fixture(params=[*MODELS, *FILES])
+def free(request):
+    if request.param in FILES:
+        return fb.load(SYSTEMS / f"{request.param}.yaml").free_bodies()
+    return FreeBodies.read(MODELS[request.param](np.random.default_rng(7)).text())
+
+
+def groups(free):
+    return flat.from_iterable(combinations(free.bodies, k) for k in range(1, len(free.bodies) + 1))
+
+
+def test_the_loads_on_every_group_add_up_to_its_effective_side(free):
+    for group in groups(free):
+        assert free.balance_gap(*group) < 1e-12
+        for about in ((0.0, 0.0), (1.3, -0.7)):
+            np.testing.assert_allclose(free.acting(*group, about=about), free.effective(*group, about=about), atol=1e-10)
+
+
+def test_a_load_forgotten_or_turned_round_leaves_a_gap(free):
+    for load in free.loads:
+        rest = FreeBodies(free.bodies, tuple(other for other in free.loads if other is not load), free.rows)
+        bodies = [part.body for part in load.on if part.body in free.bodies]
+        acts = np.abs(load.acting(bodies[:1])).max() > 1e-9
+        assert not acts or rest.balance_gap(bodies[0]) > 1e-6
+
+
+def test_what_acts_within_a_group_is_left_out_and_adds_up_to_nothing(free):
+    for group in groups(free):
+        for load in free.inside(*group):
+            assert load not in free.on(*group)
+            np.testing.assert_allclose(load.unit(group), 0, atol=1e-12)
+        touching = {load.symbol for load in free.loads if any(part.body in group for part in load.on)}
+        assert {load.symbol for load in (*free.on(*group), *free.inside(*group))} == touching
+
+
+def test_a_weight_is_on_the_diagram_of_all_bodies_together():
+    free = FreeBodies.read(fake.chain(np.random.default_rng(1), 3).text())
+    assert sum(load.kind == "weight" for load in free.on(*free.bodies)) == 3
+    assert {load.name for load in free.on(*free.bodies) if load.kind == "joint"} == {"A"}
+
+
+def test_the_accelerations_are_affine_in_those_of_the_coordinates(free):
+    for body in free.bodies.values():
+        motion = sum(free.accelerations[name] * np.array(by) for name, by in body.by_accelerations.items()) + body.drift
+        np.testing.assert_allclose(motion, (*body.a, body.alpha), atol=1e-10)
+    for row in free.rows:
+        left = sum(c * free.accelerations[name] for name, c in row.coefficients.items())
+        assert left == pytest.approx(row.right, abs=1e-10)
+
+
+def test_what_is_not_determined_is_refused():
+    fakes = fake.ladder(np.random.default_rng(2))
+    told = fakes.text().replace('"determinate": true', '"determinate": false', 1)
+    free = FreeBodies.read(told)
+    with pytest.raises(Indeterminate, match="floor"):
+        free.acting("ladder")
+
+
+def test_a_body_that_is_not_there_is_named():
+    free = FreeBodies.read(fake.four_bar(np.random.default_rng(2)).text())
+    with pytest.raises(KeyError, match="'lever'; there are crank, coupler, rocker"):
+        free.on("lever")
