@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,8 @@ class BalanceEquation:
     ``about`` names the point or direction, ``at`` is the place in m, or the unit direction, in the fixed axes; ``constructed``
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
-    touches the bodies, but is not in the equation, each with the reason.
+    touches the bodies, but is not in the equation, each with the reason. ``ask`` is the question of ``_core.Mechanism.letters``
+    for the same equation in letters; None for a point of inertia, which has none.
     """
 
     kind: str
@@ -35,6 +37,7 @@ class BalanceEquation:
     coefficients: Mapping[str, float]
     right: float
     dropped: tuple[Dropped, ...]
+    ask: Mapping[str, Any] | None = None
 
     @property
     def unknowns(self) -> tuple[str, ...]:
@@ -70,7 +73,17 @@ def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
         {problem.unknowns[i].name: float(candidate.coefficients[i] * factor) for i in stays},
         float(candidate.right * factor),
         dropped(problem, candidate, place),
+        _question(problem, candidate, turns),
     )
+
+
+def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, Any] | None:
+    ask, pair = candidate.twist.ask, candidate.twist.pair
+    if pair:
+        loads = [problem.unknowns[i].load for i in pair]
+        known = {"about": {"meeting": loads}} if turns else {"along": {"across": loads[0]}}
+        ask = None if None in loads else known
+    return ask and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **ask}
 
 
 def solved(equations: Sequence[BalanceEquation]) -> dict[str, float]:

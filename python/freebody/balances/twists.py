@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
@@ -29,11 +30,12 @@ NamedPoints = Mapping[str, tuple[str, float, float]]
 @dataclass(frozen=True)
 class Twist:
     """A rigid motion by what makes it: a named point or direction, or two unknowns, by their places, that do no work in it.
-    ``rank`` is 0 for the plainest."""
+    ``rank`` is 0 for the plainest; ``ask`` tells the point or direction in the words of ``_core.Mechanism.letters``."""
 
     name: str = ""
     pair: tuple[int, int] | None = None
     rank: int = 0
+    ask: Mapping[str, Any] | None = None
 
 
 Twists = list[tuple[Twist, Array]]
@@ -43,13 +45,13 @@ Twists = list[tuple[Twist, Array]]
 def named_twists(problem: Problem, points: NamedPoints) -> Twists:
     """Turns about joints, mass centres and named points; shifts along x, y and along or across what a joint holds."""
     found: Twists = []
-    for name, rank, places in _named_places(problem, points):
+    for name, rank, ask, places in _named_places(problem, points):
         about = (np.array(places) - problem.origin) / problem.length
         motion = np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
         if not any(np.abs(other - motion).max() < SAME_PLACE for _, other in found):
-            found.append((Twist(name, rank=rank), motion))
+            found.append((Twist(name, rank=rank, ask={"about": ask}), motion))
     for name, e in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, 1.0, 0.0))):
-        found.append((Twist(name, rank=1), np.tile(e, (len(problem.systems), 1))))
+        found.append((Twist(name, rank=1, ask={"along": name}), np.tile(e, (len(problem.systems), 1))))
     return found + _joint_directions(problem)
 
 
@@ -57,7 +59,7 @@ def mass_centre(problem: Problem, group: Sequence[int]) -> tuple[Twist, Array]:
     """The turn about the mass centre of several bodies."""
     names = [problem.bodies[i] for i in group]
     about = (np.array([system.free.centre(*names) for system in problem.systems]) - problem.origin) / problem.length
-    return Twist(f"the mass centre of {' + '.join(names)}", rank=3), np.column_stack(
+    return Twist(f"the mass centre of {' + '.join(names)}", rank=3, ask={"about": "centre"}), np.column_stack(
         [about[:, 1], -about[:, 0], np.ones(len(about))]
     )
 
@@ -75,18 +77,18 @@ def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
     return found
 
 
-def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[str, int, list[tuple[float, float]]]]:
-    """Name, rank, and place at every state, of joints, named points and mass centres."""
+def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[str, int, dict[str, Any], list[tuple[float, float]]]]:
+    """Name, rank, how to ask for it, and place at every state, of joints, named points and mass centres."""
     joints: dict[str, int] = {}
     for i, load in enumerate(problem.free.loads):
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
-    places = [(name, 0, [_last_point(system.free, i) for system in problem.systems]) for name, i in joints.items()]
+    places = [(name, 0, {"load": i}, [_last_point(system.free, i) for system in problem.systems]) for name, i in joints.items()]
     for name in problem.bodies:
-        places.append((f"{name}.G", 2, [system.free.bodies[name].G for system in problem.systems]))
+        places.append((f"{name}.G", 2, {"point": f"{name}.G"}, [system.free.bodies[name].G for system in problem.systems]))
     for name, (body, x, y) in points.items():
         if not name.endswith(".origin"):
-            places.append((name, 2, [_placed(system.free, body, x, y) for system in problem.systems]))
+            places.append((name, 2, {"point": name}, [_placed(system.free, body, x, y) for system in problem.systems]))
     return places
 
 
@@ -116,8 +118,8 @@ def _joint_directions(problem: Problem) -> Twists:
         f = forces / size
         still = np.zeros(len(f))
         own, right_angle = _direction_words(load)
-        found.append((Twist(right_angle, rank=1), np.column_stack([f[:, 1], -f[:, 0], still])))
-        found.append((Twist(own, rank=1), np.column_stack([f, still])))
+        found.append((Twist(right_angle, rank=1, ask={"along": {"across": unknown.load}}), np.column_stack([f[:, 1], -f[:, 0], still])))
+        found.append((Twist(own, rank=1, ask={"along": {"load": unknown.load}}), np.column_stack([f, still])))
     return found
 
 
