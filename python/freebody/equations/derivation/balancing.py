@@ -10,6 +10,7 @@ import numpy as np
 from freebody.balances.reasons import Place, agree, why_absent
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.collect import collected, factored
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.tree import Tree, evaluate, is_zero, symbols
 
@@ -40,8 +41,8 @@ class Stated:
 
     @property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts."""
-        return self.balance.right, self.balance.left
+        """What is moved = what acts, each unknown with one factor."""
+        return tuple(collected(side, list(self.balance.linear.coefficients)) for side in (self.balance.right, self.balance.left))
 
 
 def blocks(subject: Subject, stated: Stated) -> list[Block]:
@@ -49,12 +50,13 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     balance = stated.balance
     made: list[Block] = [Heading(stated.title, 3)]
     if reasons := absent(subject, stated):
-        made.append(Paragraph(f"Not in it: {'; '.join(reasons)}."))
+        made.append(Paragraph(f"What drops out: {'; '.join(reasons)}."))
     what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
+    unknowns = list(balance.linear.coefficients)
     acting: list[Words] = [
-        [f"{load_words(subject.free.loads[c.load])}: ", c.tree] for c in balance.contributions if not c.absent
+        [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)] for c in balance.contributions if not c.absent
     ]
-    inertia: list[Words] = [[f"inertia of {body}: ", tree] for body, tree in balance.inertia if not is_zero(tree)]
+    inertia: list[Words] = [[f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)]
     if acting:
         made += [Paragraph(f"The {what} of what acts:"), Bullets(acting)]
     if inertia:

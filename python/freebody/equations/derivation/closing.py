@@ -17,6 +17,8 @@ _WHAT = {
     "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
 }  # fmt: skip
 
+_AGAIN = "Differentiated once more, for the accelerations"
+
 
 def section(rows: Sequence[Row], coordinates: Sequence[str], moving: str = "Loop closure and prescribed motions") -> list[Block]:
     """The rows at all levels, the derivatives as matrix equations."""
@@ -25,7 +27,7 @@ def section(rows: Sequence[Row], coordinates: Sequence[str], moving: str = "Loop
     made += _velocities(rows, coordinates)
     system = System.of([row.linear for row in rows], coordinates)
     if system.unknowns:
-        made.append(MatrixEquation(system.matrix, system.unknowns, system.right, "Differentiated once more, for the accelerations"))
+        made.append(MatrixEquation(system.matrix, system.unknowns, system.right, _AGAIN, letter="J"))
     return made
 
 
@@ -57,6 +59,6 @@ def _velocities(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
     except ValueError:
         return [Equation(row.rate, ZERO, "Their rates" if i == 0 else "") for i, row in enumerate(held)]
     name = "Differentiated, for the velocities"
-    return [MatrixEquation(system.matrix, system.unknowns, system.right, name)] if system.unknowns else []
+    return [MatrixEquation(system.matrix, system.unknowns, system.right, name, letter="J")] if system.unknowns else []
 
 

@@ -8,7 +8,9 @@ from freebody.equations.document import Block, Equation, Heading, Paragraph, Wri
 from freebody.equations.tree import Sym, Tree, add, is_zero, read, symbols
 from freebody.free_body import GROUND
 
-_KINETIC, _POTENTIAL = Written("T", "T"), Written("V", "V")
+_KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
+
+_CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
 
 
 def section(subject: Subject) -> list[Block]:
@@ -40,7 +42,7 @@ def _energy(subject: Subject) -> list[Block]:
     made: list[Block] = [Equation(_KINETIC, kinetic, "The kinetic and the potential energy"), Equation(_POTENTIAL, potential)]
     if why:
         return [*made, Paragraph(f"Their sum is not conserved: {why}.")]
-    return [*made, Paragraph("Their sum T + V is conserved: all forces have potentials, and what joints and contacts exert does no work.")]
+    return [*made, Paragraph(_CONSERVED)]
 
 
 def _momenta(subject: Subject) -> list[Block]:
@@ -70,6 +72,6 @@ def _constant(balance: Balance, where: str) -> list[Block]:
 
 
 def total(subject: Subject) -> Tree | None:
-    """T + V where it is conserved."""
+    """The energy, where it is conserved."""
     kinetic, potential, why = energy(subject)
     return None if why else add(kinetic, potential)

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from freebody.equations.derivation.balancing import Stated, named_place, numbers
 from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.tree import is_zero
 
-_STRAIGHT = 1e-12
 _ALONG = {
     "slider": "the slider {}", "slot": "the slot {}", "rollers": "the way of {}", "curved_slot": "the tangent of {}",
     "polar": "the radius of {}",
@@ -54,13 +52,13 @@ def _joint(subject: Subject, coordinate: Mapping[str, Any]) -> Mapping[str, Any]
 
 def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) -> tuple[str, str]:
     """The point or direction in words, and the word before it."""
-    joint, at = _joint(subject, coordinate), numbers(subject, balance)
+    joint = _joint(subject, coordinate)
     if balance.turns:
-        named = named_place(subject, at, balance.bodies)
+        named = f"the pin {joint['name']}" if joint["type"] == "hinge" else named_place(subject, numbers(subject, balance), balance.bodies)
         return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
     if joint["type"] == "link" or (joint["type"] == "polar" and coordinate["dimension"] == "rad"):
         return f"the {'link' if joint['type'] == 'link' else 'radius of'} {joint['name']}", "across"
-    for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-        if np.abs(np.subtract(at, direction)).max() < _STRAIGHT:
-            return axis, "along"
+    x, y = balance.place.xy
+    if is_zero(x) or is_zero(y):
+        return ("x" if is_zero(y) else "y"), "along"
     return _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"

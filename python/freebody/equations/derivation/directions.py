@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
+from freebody.equations.collect import factored
 from freebody.equations.document import Vector, Words, Written
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
@@ -63,7 +64,7 @@ class Directions:
         for part in arrow.parts:
             pair = next(pair for pair in self.pairs if pair.angle == part.angle)
             parts += [(part.along, pair.along), (part.across, pair.across)]
-        return Vector(tuple((tree, name) for tree, name in parts if not is_zero(tree)))
+        return Vector(tuple((factored(tree), name) for tree, name in parts if not is_zero(tree)))
 
     def rates(self) -> list[tuple[Written, Vector]]:
         """How the directions turn: dλ/dt = ω n, dn/dt = −ω λ."""

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Sequence
 
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.meaning import joined, plain
 from freebody.equations.derivation.told import Motion, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Table, Written
-from freebody.equations.letters import Letters
-from freebody.equations.names import latex_name
+from freebody.equations.letters import Letter, Letters
+from freebody.equations.names import latex_name, superscript
 from freebody.equations.tree import Sym, is_zero
 
 
@@ -44,20 +45,26 @@ def kinematics(subject: Subject) -> list[Block]:
 
 def letters(known: Letters, used: Collection[str]) -> list[Block]:
     """What the other letters mean, as far as they occur."""
-    shown = [letter for letter in known.values() if letter.name in used and letter.kind not in ("coordinate", "time")]
+    shown = [letter for letter in known.values() if letter.name in used]
+    given = [letter for letter in shown if letter.kind in ("parameter", "constant")]
+    unknown = [letter for letter in shown if letter.kind == "unknown"]
     made: list[Block] = []
-    for title, kinds in (("Given", ("parameter", "constant")), ("Unknown", ("unknown",))):
-        chosen = [letter for letter in shown if letter.kind in kinds]
-        if chosen and (title == "Unknown" or any(letter.doc for letter in chosen)):
-            rows = [([Sym(letter.name)], letter.doc or "parameter", letter.unit) for letter in chosen]
-            made += [Table(("letter", "what it is", "unit"), rows, f"{title}:")]
-        elif chosen:
-            made.append(Paragraph([f"{title}: ", *_listed([Sym(letter.name) for letter in chosen]), "."]))
+    if given:
+        made.append(Paragraph(["Given: ", *(piece for i, letter in enumerate(given) for piece in _given(letter, i)), "."]))
+    if unknown:
+        rows = [([Sym(letter.name)], letter.doc) for letter in unknown]
+        made.append(Table(("letter", "what it is"), rows, "Unknown:"))
     return [Heading("Letters"), *made] if made else []
 
 
-def _listed(symbols: Sequence[Sym]) -> list[str | Sym]:
-    return [piece for i, symbol in enumerate(symbols) for piece in ((", ", symbol) if i else (symbol,))]
+def _given(letter: Letter, place: int) -> list[str | Sym]:
+    said = ", ".join(filter(None, (letter.doc, unit_text(letter.unit))))
+    return [", " * bool(place), Sym(letter.name), f" ({said})" * bool(said)]
+
+
+def unit_text(unit: str) -> str:
+    """A unit as it is printed: kg·m²."""
+    return re.sub(r"\^(-?\d+)", lambda found: superscript(found[1]), unit).replace("*", "·")
 
 
 def _doc(coordinate: dict) -> str:
