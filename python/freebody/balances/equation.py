@@ -26,7 +26,7 @@ class BalanceEquation:
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
     touches the bodies, but is not in the equation, each with the reason. ``ask`` is the question of ``_core.Mechanism.letters``
-    for the same equation in letters; None for a point of inertia, which has none.
+    for the same equation in letters; None for a point of inertia, or one that depends on friction: these have none.
     """
 
     kind: str
@@ -81,8 +81,9 @@ def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, 
     ask, pair = candidate.twist.ask, candidate.twist.pair
     if pair:
         loads = [problem.unknowns[i].load for i in pair]
+        followed = {load.follows[0] for load in problem.free.loads if load.follows}
         known = {"about": {"meeting": loads}} if turns else {"along": {"across": loads[0]}}
-        ask = None if None in loads else known
+        ask = None if None in loads or followed & set(loads) else known
     return ask and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **ask}
 
 

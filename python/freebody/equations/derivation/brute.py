@@ -32,7 +32,7 @@ def _stated(subject: Subject) -> list[Stated]:
         asked += [{"ask": "equation", "bodies": [body.body], "along": axis} for axis in "xy"]
         places += [("x", "along"), ("y", "along")]
         if not body.particle:
-            asked.append({"ask": "equation", "bodies": [body.body], "about": "centre"})
+            asked.append({"ask": "equation", "bodies": [body.body], "about": {"point": f"{body.body}.G"}})
             places.append(("its mass centre", "about"))
     found = subject.balances(asked)
     return [Stated(b, *place, str(i)) for i, (b, place) in enumerate(zip(found, places, strict=True), 1)]

@@ -11,6 +11,7 @@ from freebody.equations.code import generate
 from freebody.equations.derivation import conserved, matrices, opening
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
+from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Subject
@@ -130,7 +131,8 @@ class _Writer:
         first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES[self.form]}", 1)]
         if self.form != "constraints":
             first += opening.configuration(self.subject)
-        return Document((*first, *opening.letters(self.letters, _used(body)), *body), self.letters)
+        blocks = (*first, *opening.letters(self.letters, _used(body)), *body)
+        return Document(tuple(map(readable, blocks)), self.letters)
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)

@@ -143,20 +143,21 @@ class _Writer:
         return "\n".join(lines)
 
     def entries(self, block: MatrixEquation) -> str:
-        """Every entry that is not 0, equal ones once."""
+        """Every entry that is not 0, equal ones once, behind what they are entries of."""
         found: dict[Tree, list[str]] = {}
         for i, row in enumerate(block.matrix, 1):
             for j, entry in enumerate(row, 1):
-                found.setdefault(entry, []).append(self.indexed(block.letter, f"{i}{j}"))
+                if not is_zero(entry):
+                    found.setdefault(entry, []).append(self.indexed(block.letter, f"{i}{j}"))
         lines = [
             folded(f"{' = '.join(names)} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8)
             for entry, names in found.items()
         ]
-        for letter, column in (("x", block.unknowns), ("b", block.right)):
-            for i, entry in enumerate(column, 1):
-                name = self.indexed(letter, str(i))
-                lines.append(folded(f"{name} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8))
-        return "\n".join(lines)
+        for i, entry in enumerate(block.right, 1):
+            name = self.indexed("b", str(i))
+            lines.append(folded(f"{name} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8))
+        unknowns = ", ".join(text(x, self.letters, ascii=self.ascii) for x in block.unknowns)
+        return "\n".join([f"{block.letter} x = b with x = ({unknowns}); what is not told is 0", *lines])
 
     def indexed(self, letter: str, digits: str) -> str:
         """A letter with digits below."""
