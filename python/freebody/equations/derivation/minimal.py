@@ -24,7 +24,7 @@ def minimal(subject: Subject) -> Form:
     stated = chosen or of_coordinates(subject)
     stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(stated, 1)]
     equations = [_printed(s) for s in stated]
-    form = Form.of(subject, equations + closing.printed(rows), [])
+    form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, bool(chosen), len(stated)))]
     for s in stated:
