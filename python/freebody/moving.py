@@ -59,13 +59,19 @@ class Moving:
             return FreeBodies.read(self.compile().free_bodies(state.p, state.t, state.q, state.u))
 
     def smallest(
-        self: Builder, wanted: str, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+        self: Builder,
+        wanted: str,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        known_motion: bool = False,
+        **changes: Any,
     ) -> SmallestSet:
         """The fewest balance equations that give one unknown at an instant: the acceleration of a coordinate (``theta``), a
-        component of a reaction (``A.Fx``), the force or torque of a motion (its name); ``changes`` as in ``solve``."""
+        component of a reaction (``A.Fx``), the force or torque of a motion (its name), or that of a force of the model (its
+        name). Accelerations are taken as known for the last, or where ``known_motion``; ``changes`` as in ``solve``."""
         from freebody.balances.smallest import smallest_set
 
-        return smallest_set(wanted, *self._near(initial, t, changes))
+        return smallest_set(wanted, *self._near(initial, t, changes), known_motion)
 
     def minimal_form(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> MinimalForm:
         """As many balance equations as degrees of freedom, without reactions where such exist; ``changes`` as in ``solve``."""

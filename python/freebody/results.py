@@ -20,7 +20,7 @@ ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
-_GREEK = {
+GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
     "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
     "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
@@ -49,7 +49,7 @@ def quote(name: str) -> str:
 
 def plain(name: str) -> str:
     """The name with Greek letters as such: ``phi1`` → ``φ1``, ``arm.theta`` → ``arm.θ``."""
-    return re.sub(r"[^\W\d_]+", lambda word: _GREEK.get(word[0], word[0]), name)
+    return re.sub(r"[^\W\d_]+", lambda word: GREEK.get(word[0], word[0]), name)
 
 
 def symbol(name: str, dot: str = "") -> str:
@@ -57,7 +57,7 @@ def symbol(name: str, dot: str = "") -> str:
     owner, _, last = name.rpartition(".")
     found = re.fullmatch(r"([^\W\d_]+)_?(\d*)", last)
     stem, digits = (found[1], found[2]) if found else (last, "")
-    letter = f"\\{stem}" if stem in _GREEK else stem if len(stem) == 1 else roman(stem)
+    letter = f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else roman(stem)
     letter = rf"\{dot}{{{letter}}}" if dot else letter
     below = ",".join(part for part in (digits, roman(owner)) if part)
     return f"{letter}_{{{below}}}" if below else letter

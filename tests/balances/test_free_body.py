@@ -1,28 +1,24 @@
 """Free bodies as data: complete, opposite in pairs, and in balance with the motion, alone and in any group."""
 
-import sys
 from itertools import chain as flat
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
+import planar
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
-
-import fake
 
 import freebody as fb
 from freebody.free_body import FreeBodies, Indeterminate
 
 SYSTEMS = Path(__file__).parents[2] / "systems"
 MODELS = {
-    "double pendulum": lambda rng: fake.chain(rng, 2),
-    "chain of four, driven": lambda rng: fake.driven_chain(rng, 4),
-    "four-bar": fake.four_bar,
-    "block on a slope": fake.block_on_slope,
-    "ladder": fake.ladder,
-    "slider-crank": fake.slider_crank,
+    "double pendulum": lambda rng: planar.chain(rng, 2),
+    "chain of four, driven": lambda rng: planar.driven_chain(rng, 4),
+    "four-bar": planar.four_bar,
+    "block on a slope": planar.block_on_slope,
+    "ladder": planar.ladder,
+    "slider-crank": planar.slider_crank,
 }
 
 
@@ -65,7 +61,7 @@ def test_what_acts_within_a_group_is_left_out_and_adds_up_to_nothing(free):
 
 
 def test_a_weight_is_on_the_diagram_of_all_bodies_together():
-    free = FreeBodies.read(fake.chain(np.random.default_rng(1), 3).text())
+    free = FreeBodies.read(planar.chain(np.random.default_rng(1), 3).text())
     assert sum(load.kind == "weight" for load in free.on(*free.bodies)) == 3
     assert {load.name for load in free.on(*free.bodies) if load.kind == "joint"} == {"A"}
 
@@ -80,7 +76,7 @@ def test_the_accelerations_are_affine_in_those_of_the_coordinates(free):
 
 
 def test_what_is_not_determined_is_refused():
-    fakes = fake.ladder(np.random.default_rng(2))
+    fakes = planar.ladder(np.random.default_rng(2))
     told = fakes.text().replace('"determinate": true', '"determinate": false', 1)
     free = FreeBodies.read(told)
     with pytest.raises(Indeterminate, match="floor"):
@@ -88,6 +84,6 @@ def test_what_is_not_determined_is_refused():
 
 
 def test_a_body_that_is_not_there_is_named():
-    free = FreeBodies.read(fake.four_bar(np.random.default_rng(2)).text())
+    free = FreeBodies.read(planar.four_bar(np.random.default_rng(2)).text())
     with pytest.raises(KeyError, match="'lever'; there are crank, coupler, rocker"):
         free.on("lever")

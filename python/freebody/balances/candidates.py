@@ -82,8 +82,9 @@ def _of_group(problem: Problem, group: Group, named: Twists, counted: int) -> li
     sizes = np.max([np.linalg.norm(system.columns, axis=2).max(axis=1) for system in problem.systems], axis=0)
     columns = np.where(np.linalg.norm(columns, axis=2, keepdims=True) > ABSENT * sizes[:, None], columns, 0.0)
     boundary = np.flatnonzero(np.abs(columns).max(axis=(0, 2)) > 0)
-    tried = named + pair_twists(columns, boundary) + ([mass_centre(problem, group)] if len(group) > 1 else [])
-    motions = np.array([motion for _, motion in tried])
+    tried = [named, pair_twists(columns, boundary), mass_centre(problem, group)]
+    twists = [twist for some, _ in tried for twist in some]
+    motions = np.concatenate([motions for _, motions in tried])
     work = np.einsum("csk,suk->csu", motions, columns)
     reach = np.linalg.norm(motions, axis=2)[:, :, None] * sizes
     generic = slice(1, None) if len(problem.systems) > 1 else slice(None)
@@ -92,8 +93,6 @@ def _of_group(problem: Problem, group: Group, named: Twists, counted: int) -> li
     use = stays.any(axis=1) & ((stays & asked).sum(axis=1) <= WORTH)
     right = motions[:, 0] @ problem.systems[0].right[members].sum(axis=0)
     return [
-        Candidate(
-            group, tried[c][0], motions[c, 0], bits(np.flatnonzero(stays[c])), np.where(stays[c], work[c, 0], 0.0), right[c]
-        )
+        Candidate(group, twists[c], motions[c, 0], bits(np.flatnonzero(stays[c])), np.where(stays[c], work[c, 0], 0.0), right[c])
         for c in np.flatnonzero(use)
     ]

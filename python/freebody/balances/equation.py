@@ -25,8 +25,8 @@ class BalanceEquation:
     ``about`` names the point or direction, ``at`` is the place in m, or the unit direction, in the fixed axes; ``constructed``
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
-    touches the bodies, but is not in the equation, each with the reason. ``ask`` is the question of ``_core.Mechanism.letters``
-    for the same equation in letters; None for a point of inertia, or one that depends on friction: these have none.
+    touches the bodies, but is not in the equation, each with the reason. ``question`` asks the core for the equation in
+    letters (``_core.Mechanism.letters``); None where the point has no letters, being one of inertia or of friction.
     """
 
     kind: str
@@ -37,7 +37,7 @@ class BalanceEquation:
     coefficients: Mapping[str, float]
     right: float
     dropped: tuple[Dropped, ...]
-    ask: Mapping[str, Any] | None = None
+    question: Mapping[str, Any] | None
 
     @property
     def unknowns(self) -> tuple[str, ...]:
@@ -78,13 +78,13 @@ def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
 
 
 def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, Any] | None:
-    ask, pair = candidate.twist.ask, candidate.twist.pair
-    if pair:
-        loads = [problem.unknowns[i].load for i in pair]
-        followed = {load.follows[0] for load in problem.free.loads if load.follows}
-        known = {"about": {"meeting": loads}} if turns else {"along": {"across": loads[0]}}
-        ask = None if None in loads or followed & set(loads) else known
-    return ask and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **ask}
+    place = candidate.twist.question
+    loads = [problem.unknowns[i].load for i in candidate.twist.pair or ()]
+    followed = {load.follows[0] for load in problem.free.loads if load.follows}
+    if loads and None not in loads and not followed & set(loads):
+        forces = [i for i in loads if np.hypot(*problem.free.loads[i].on[-1].force) > 0]
+        place = {"about": {"meeting": loads}} if turns else {"along": {"across": forces[0]}}
+    return place and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **place}
 
 
 def solved(equations: Sequence[BalanceEquation]) -> dict[str, float]:

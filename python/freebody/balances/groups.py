@@ -5,8 +5,8 @@ from __future__ import annotations
 from freebody.balances.system import Problem
 
 Group = tuple[int, ...]
-MOST = 2000
-"""Sets beyond which only small ones, and those that one cut leaves, are looked at; eight bodies have at most 255."""
+MOST = 255
+"""Sets beyond which only small ones, and those that one cut leaves, are looked at: all that eight bodies can have."""
 
 
 def groups(problem: Problem) -> tuple[list[Group], bool]:

@@ -25,6 +25,11 @@ class MinimalForm:
     equations: tuple[BalanceEquation, ...]
     stays: tuple[str, ...]
 
+    def __str__(self) -> str:
+        from freebody.balances.show import show
+
+        return show(self)
+
 
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None) -> MinimalForm:
     """The minimal form at ``states[0]``; the arguments are those of ``smallest_set``."""

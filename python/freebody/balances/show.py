@@ -34,6 +34,8 @@ def _smallest(found: SmallestSet) -> str:
             lines += ["", *_equation(i, equation)]
     lines += ["", *(f"{name} = {figure(value)}" for name, value in found.values.items())]
     lines.append(f"differs from the full solve by {found.check:.1e}")
+    if found.known_motion:
+        lines.append("the accelerations are taken as known")
     if not found.exact:
         lines.append("not every set of bodies was tried: there are too many")
     if not found.structural:
@@ -46,7 +48,7 @@ def _minimal(found: MinimalForm) -> str:
     if not names:
         return "Motions and loops prescribe every acceleration: there is no equation of motion."
     if not found.equations:
-        return f"No small set of balance equations for {names} keeps the reactions out."
+        return f"No set in {names} alone: more than four reactions cannot be kept out."
     head = f"Minimal form in {names}, without reactions:"
     if found.stays:
         head = f"No set in {names} alone: {', '.join(found.stays)} cannot be kept out."

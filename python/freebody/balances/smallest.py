@@ -10,7 +10,7 @@ import numpy as np
 from freebody.balances.candidates import bits, candidates
 from freebody.balances.equation import BalanceEquation, disagreement, equation, solved
 from freebody.balances.search import smallest
-from freebody.balances.system import Problem, problem
+from freebody.balances.system import Problem, problem, released
 from freebody.balances.twists import NamedPoints
 from freebody.free_body import FreeBodies
 from freebody.instant import Indeterminate
@@ -40,7 +40,8 @@ class SmallestSet:
 
     ``equations`` is empty where that takes more than four; ``virtual`` then is the one equation of virtual power.
     ``values``: all unknowns of the set, N, N·m, m/s², rad/s²; ``check``: their largest relative difference from the full
-    solve. ``exact``: every connected set of bodies was tried; ``structural``: what drops out does so at other states, too.
+    solve. ``exact``: every connected set of bodies was tried; ``structural``: what drops out does so at other states, too;
+    ``known_motion``: the accelerations are taken as they are.
     """
 
     wanted: str
@@ -50,6 +51,12 @@ class SmallestSet:
     check: float
     exact: bool
     structural: bool
+    known_motion: bool = False
+
+    def __str__(self) -> str:
+        from freebody.balances.show import show
+
+        return show(self)
 
     @property
     def value(self) -> float:
@@ -57,14 +64,19 @@ class SmallestSet:
         return self.values[self.wanted]
 
 
-def smallest_set(wanted: str, states: Sequence[FreeBodies], points: NamedPoints | None = None) -> SmallestSet:
+def smallest_set(
+    wanted: str, states: Sequence[FreeBodies], points: NamedPoints | None = None, known_motion: bool = False
+) -> SmallestSet:
     """The smallest set for ``wanted``: a coordinate (its acceleration), a component of a reaction (``A.Fx``), a motion (its
-    force or torque).
+    force or torque); or a force of the model by its name, the one that makes the accelerations what they are
+    (``known_motion`` then).
 
     ``states``: the instant, and others of the same mechanism near by, to tell what vanishes always from what vanishes there;
     ``points``: further named points. Raises ``KeyError`` for what is not unknown, ``Indeterminate``.
     """
-    given = problem(states, prefer=wanted.removeprefix("accel(").removesuffix(")"))
+    if any(load.name == wanted and load.kind == "force" and not load.unknown for load in states[0].loads):
+        states, known_motion = [released(state, wanted) for state in states], True
+    given = problem(states, wanted.removeprefix("accel(").removesuffix(")"), known_motion)
     place = given.place(wanted)
     name = given.unknowns[place].name
     tried = candidates(given, points or {}, counted=bits(range(len(given.unknowns))))
@@ -74,7 +86,7 @@ def smallest_set(wanted: str, states: Sequence[FreeBodies], points: NamedPoints 
     virtual = None if found else virtual_power(given, place)
     values = {virtual.unknown: virtual.right} if virtual else solved(equations)
     several = len(given.systems) > 1
-    return SmallestSet(name, equations, virtual, values, disagreement(given, values), tried.exact, several)
+    return SmallestSet(name, equations, virtual, values, disagreement(given, values), tried.exact, several, known_motion)
 
 
 def virtual_power(given: Problem, place: int) -> VirtualPower:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.free_body import GROUND, FreeBodies, Load
+from freebody.free_body import GROUND, FreeBodies, Load, Part
 from freebody.instant import Indeterminate
 from freebody.results import Array
 
@@ -53,11 +53,6 @@ class Problem:
     length: float
 
     @property
-    def generic(self) -> tuple[System, ...]:
-        """The states that tell what is zero by structure from what is so here only."""
-        return self.systems[1:] or self.systems
-
-    @property
     def free(self) -> FreeBodies:
         """Bodies and loads at the state asked for."""
         return self.systems[0].free
@@ -77,6 +72,10 @@ class Problem:
             return self._determined(named[0])
         if wanted in self.free.accelerations or wanted.removeprefix("accel(").removesuffix(")") in self.free.accelerations:
             raise KeyError(f"the acceleration of {wanted} follows from motions and loops without any balance")
+        for load in self.free.loads:
+            if load.follows and load.symbol == wanted:
+                leader = self.free.loads[load.follows[0]].symbol
+                raise KeyError(f"{wanted} is {load.follows[1]:g} times {leader}, by the law of friction; ask for that")
         raise KeyError(f"nothing unknown is called {wanted!r}; there are {', '.join(u.name for u in self.unknowns)}")
 
     def _determined(self, i: int) -> int:
@@ -86,17 +85,38 @@ class Problem:
         return i
 
 
-def problem(states: Sequence[FreeBodies], prefer: str | None = None) -> Problem:
+def problem(states: Sequence[FreeBodies], prefer: str | None = None, known_motion: bool = False) -> Problem:
     """The problem at ``states[0]``; the others tell structure from chance, where they have the same loads.
-    ``prefer``: a coordinate whose acceleration is kept as an unknown if loops leave a choice."""
+    ``prefer``: a coordinate whose acceleration is kept as an unknown if loops leave a choice; ``known_motion``: the
+    accelerations are given, as they are."""
     first = states[0]
-    alike = [state for state in states if [load.symbol for load in state.loads] == [load.symbol for load in first.loads]]
+    same = [state for state in states if alike(state, first)]
     origin, length = _extent(first)
-    accelerations = [Unknown(f"accel({name})", coordinate=name) for name in _free_coordinates(alike, prefer)]
+    unprescribed = [] if known_motion else _free_coordinates(same, prefer)
+    accelerations = [Unknown(f"accel({name})", coordinate=name) for name in unprescribed]
     loads = [Unknown(load.symbol, load=i) for i, load in enumerate(first.loads) if load.unknown and not load.follows]
     unknowns = (*loads, *accelerations)
-    systems = tuple(_system(state, unknowns, origin, length) for state in alike)
+    systems = tuple(_system(state, unknowns, origin, length, known_motion) for state in same)
     return Problem(tuple(first.bodies), unknowns, systems, origin, length)
+
+
+def alike(one: FreeBodies, other: FreeBodies) -> bool:
+    """Whether the same things act, and hold, in both."""
+    (first, second) = ([(load.symbol, load.unknown, load.follows is None) for load in free.loads] for free in (one, other))
+    return first == second and [row.name for row in one.rows] == [row.name for row in other.rows]
+
+
+def released(free: FreeBodies, name: str) -> FreeBodies:
+    """The same, but for a force of the model by that name, whose size is taken as unknown: that along its force, or its couple
+    on its second body. Raises ``ValueError`` where it is 0, and so has no direction."""
+    (i, load), *_ = ((i, load) for i, load in enumerate(free.loads) if load.name == name and load.kind == "force")
+    forces = [np.hypot(*part.force) for part in load.on]
+    size = max(forces) or next((part.couple for part in load.on if part.body == load.of[-1]), 0.0)
+    if size == 0:
+        raise ValueError(f"{name} is 0 at this instant, so the direction in which it could act is not known; give it a value")
+    parts = tuple(Part(p.body, p.point, (p.force[0] / size, p.force[1] / size), p.couple / size) for p in load.on)
+    freed = replace(load, unknown=True, value=float(size), on=parts)
+    return replace(free, loads=(*free.loads[:i], freed, *free.loads[i + 1 :]))
 
 
 def _extent(free: FreeBodies) -> tuple[Array, float]:
@@ -128,7 +148,7 @@ def _adds(table: Array, found: list[int], column: int) -> bool:
     return bool(np.linalg.norm(new) > DEPENDENT * np.abs(table).max())
 
 
-def _system(free: FreeBodies, unknowns: Sequence[Unknown], origin: Array, length: float) -> System:
+def _system(free: FreeBodies, unknowns: Sequence[Unknown], origin: Array, length: float, known_motion: bool) -> System:
     about, names = (origin[0], origin[1]), list(free.bodies)
     scale = np.array([1.0, 1.0, 1.0 / length])
     loads = np.array([[load.unit([name], about) for name in names] for load in free.loads]).reshape(-1, len(names), 3)
@@ -136,7 +156,8 @@ def _system(free: FreeBodies, unknowns: Sequence[Unknown], origin: Array, length
         if load.follows:
             loads[load.follows[0]] += load.follows[1] * loads[i]
     open_to = [u.coordinate for u in unknowns if u.coordinate]
-    by_free, drift = _motions(free, open_to)
+    found = [(*body.a, body.alpha) for body in free.bodies.values()]
+    by_free, drift = ([], found) if known_motion else _motions(free, open_to)
     right = np.array([free.bodies[name].effective(about, drift[i]) for i, name in enumerate(names)])
     right -= sum((loads[i] for i, load in enumerate(free.loads) if not load.unknown), np.zeros_like(right))
     columns = [loads[u.load] for u in unknowns if u.load is not None]

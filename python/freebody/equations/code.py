@@ -15,11 +15,12 @@ from freebody.equations.letters import Letters
 from freebody.equations.names import ascii_name
 from freebody.equations.tree import PI, Entries, Sym, Tree, symbols
 
-_RESERVED = frozenset(
+_WORDS_OF_C = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
-    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while "
-    "np _array q u p t a r out sin cos tan exp log atan2 fabs sign sqrt pow".split()
-) | frozenset(keyword.kwlist)
+    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while"
+)
+_USED = "np _array q u p t a r out sin cos tan exp log atan2 fabs sign sqrt pow"
+_RESERVED = frozenset([*_WORDS_OF_C.split(), *_USED.split(), *keyword.kwlist])
 _HELP = {
     "q": "coordinates", "u": "rates of the coordinates", "p": "parameters", "t": "time in s",
     "a": "accelerations of the coordinates", "r": "unknowns: reactions and motors",

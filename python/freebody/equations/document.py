@@ -130,6 +130,14 @@ class Document:
 
         return Html(self.letters).render(self.blocks)
 
+    def sympy(self, *, time: bool = True) -> list[Any]:
+        """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
+
+        With ``time`` coordinates are functions of t, else letters, rates and accelerations are symbols."""
+        from freebody.equations.to_sympy import equations
+
+        return equations(self.blocks, self.letters, time=time)
+
     def json(self) -> str:
         """Every block with its kind and fields, trees as JSON and printed, and the letters."""
         from freebody.equations.rendering.data import block

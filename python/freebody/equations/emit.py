@@ -7,6 +7,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from typing import ClassVar
 
 from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, children
 
@@ -19,7 +20,7 @@ Step = tuple[str, str]
 class Language(ABC):
     """Spelling of numbers, functions and files."""
 
-    functions: Mapping[str, str]
+    functions: ClassVar[Mapping[str, str]]
 
     def call(self, name: str, args: Sequence[str]) -> str:
         """A function of printed arguments."""
@@ -41,20 +42,22 @@ class Language(ABC):
 class NumPy(Language):
     """Python with NumPy."""
 
-    functions = {
+    functions: ClassVar[Mapping[str, str]] = {
         "sin": "np.sin({})", "cos": "np.cos({})", "tan": "np.tan({})", "exp": "np.exp({})", "ln": "np.log({})",
         "atan2": "np.arctan2({}, {})", "abs": "np.abs({})", "sign": "np.sign({})",
         "sqrt": "np.sqrt({})", "power": "np.power({}, {})",
     }  # fmt: skip
 
-    def function(self, name, arrays, steps, results, shape):
+    def function(
+        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
+    ) -> str:
         lines = [f"def {name}({', '.join(arrays)}):", *(f"    {step} = {value}" for step, value in steps)]
         if shape == ():
             return "\n".join([*lines, f"    return {results[0]}"])
         entries = [f"        {result}," for result in results]
         return "\n".join([*lines, "    return _array([", *entries, f"    ], {shape!r})"])
 
-    def file(self, header, functions):
+    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
         safe = [line.replace("\\", "\\\\").replace('"', "'") for line in header]
         top = ['"""Generated from the equations of a freebody model, in SI units and radians.', "", *safe, '"""']
         top += ["", "import numpy as np", "", "", "def _array(entries, shape):"]
@@ -65,12 +68,14 @@ class NumPy(Language):
 class C99(Language):
     """C, ISO/IEC 9899:1999."""
 
-    functions = {
+    functions: ClassVar[Mapping[str, str]] = {
         "sin": "sin({})", "cos": "cos({})", "tan": "tan({})", "exp": "exp({})", "ln": "log({})",
         "atan2": "atan2({}, {})", "abs": "fabs({})", "sign": "sign({})", "sqrt": "sqrt({})", "power": "pow({}, {})",
     }  # fmt: skip
 
-    def function(self, name, arrays, steps, results, shape):
+    def function(
+        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
+    ) -> str:
         taken = ", ".join(f"double {x}" if x == "t" else f"const double *{x}" for x in arrays)
         used = " ".join(value for _, value in steps) + " ".join(results)
         idle = [x for x in arrays if f"{x}[" not in used and (x != "t" or not _mentions(used, "t"))]
@@ -80,7 +85,7 @@ class C99(Language):
         body += [f"    out[{place}] = {result};" for place, result in enumerate(results)]
         return "\n".join([f"/* out: {' × '.join(map(str, shape))} */", f"void {name}({taken}, double *out)", "{", *body, "}"])
 
-    def file(self, header, functions):
+    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
         safe = [line.replace("*/", "* /") for line in header]
         top = ["/* Generated from the equations of a freebody model, in SI units and radians.", "", *safe, "*/"]
         top += ["", "#include <math.h>"]
@@ -98,11 +103,11 @@ class Writer:
     def __init__(self, spelling: Language, named: Mapping[Sym, str]) -> None:
         self.spelling, self.named = spelling, named
         self.steps: list[Step] = []
-        self._numbers: dict[tuple, int] = {}
         self._nodes: list[Tree] = []
-        self._below: list[tuple[int, ...]] = []
-        self._seen: dict[int, int] = {}
-        self._code: dict[int, tuple[str, int]] = {}
+        self._below: list[tuple[int, ...]] = []  # the nodes that a node is made of
+        self._numbers: dict[tuple, int] = {}  # of a node, by what it is made of
+        self._seen: dict[int, int] = {}  # of a node, by its identity
+        self._code: dict[int, tuple[str, int]] = {}  # what is written for a node, and how strongly it binds
 
     def write(self, trees: Sequence[Tree]) -> list[str]:
         """The expressions of the trees; ``steps`` are what has to be computed before."""

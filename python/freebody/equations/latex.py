@@ -2,6 +2,7 @@ r"""Equations as LaTeX: ``\left(\tfrac{1}{4} m_1 + m_2\right) l^2 \ddot\theta_1 
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Sequence
@@ -32,11 +33,22 @@ def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, w
     if columns(f"{plain.expression(left)} = {plain.expression(right)}") <= width:
         return f"{printer.expression(left)} = {printer.expression(right)}"
     first, second = (_lines(printer, plain, side, width) for side in (left, right))
-    rows = ["&" + first[0], *(rf"&\quad {line}" for line in first[1:])]
-    rows += ["&= " + second[0], *(rf"&\quad {line}" for line in second[1:])]
-    if len(first) == 1 and columns(plain.expression(left)) <= width // 2:
-        rows = [f"{first[0]} {rows[1]}", *rows[2:]]
+    return aligned(first, second, beside=columns(plain.expression(left)) <= width // 2)
+
+
+def aligned(left: Sequence[str], right: Sequence[str], *, beside: bool) -> str:
+    """An equation over several lines, its sides being given line by line; ``beside``: ``= …`` may stand beside a left side."""
+    rows = ["&" + left[0], *(rf"&\quad {line}" for line in left[1:])]
+    rows += ["&= " + right[0], *(rf"&\quad {line}" for line in right[1:])]
+    if len(left) == 1 and beside:
+        rows = [f"{left[0]} {rows[1]}", *rows[2:]]
     return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+
+
+def latex_lines(tree: Tree, letters: Letters | None = None, *, width: int = WIDTH) -> list[str]:
+    """The expression over as many lines as it needs, each after the first beginning with its sign."""
+    printer = LatexPrinter(letters or Letters())
+    return _lines(printer, TextPrinter(printer.letters), tree, width)
 
 
 def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
@@ -56,7 +68,9 @@ def _lines(printer: LatexPrinter, plain: TextPrinter, side: Tree, width: int) ->
             lines.append([])
             room = width - columns(shown.text)
         lines[-1].append(term)
-    return [printer.join(line) if place == 0 or line[0].negative else "+ " + printer.join(line) for place, line in enumerate(lines)]
+    return [
+        printer.join(line) if place == 0 or line[0].negative else "+ " + printer.join(line) for place, line in enumerate(lines)
+    ]
 
 
 @dataclass(frozen=True)
@@ -82,9 +96,9 @@ class LatexPrinter(Printer):
 
     def juxtapose(self, factors: Sequence[str]) -> str:
         made = factors[0]
-        for left, right in zip(factors, factors[1:], strict=False):
+        for left, right in itertools.pairwise(factors):
             word = any(re.match(r"\\(mathrm|d*ot\{)", side) for side in (left, right))
-            made += (r" \, " if word else " ") + right
+            made += (r" \cdot " if right[0].isdecimal() else r" \, " if word else " ") + right
         return made
 
     def bracket(self, inner: str) -> str:
@@ -104,7 +118,6 @@ class LatexPrinter(Printer):
 
     def raised(self, base: str, exponent: Fraction) -> str:
         shown = str(exponent)
-        base = f"{{{base}}}" if re.match(r"\\d*ot", base) and "_" not in base else base
         return f"{base}^{shown}" if len(shown) == 1 else f"{base}^{{{shown}}}"
 
     def root(self, tree: Tree) -> str:

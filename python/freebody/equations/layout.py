@@ -60,11 +60,12 @@ def stands_apart(laid: Product, letters: Letters) -> bool:
 def terms(tree: Tree, letters: Letters) -> list[Tree]:
     """The terms of a sum: accelerations first, then rates, then the rest, each in the order of the letters.
 
-    Of the leading kind one with a plus goes first, if there is any."""
+    One with a plus goes first, if there is any, but none before an acceleration."""
     found = sorted(tree.terms, key=lambda term: _term_rank(term, letters)) if isinstance(tree, Add) else [tree]
     if product(found[0], letters).negative:
-        leading = _dots(found[0])
-        first = next((t for t in found if _dots(t) == leading and not product(t, letters).negative), found[0])
+        accelerates = _dots(found[0]) == 2
+        rivals = (t for t in found if not accelerates or _dots(t) == 2)
+        first = next((t for t in rivals if not product(t, letters).negative), found[0])
         found.remove(first)
         found.insert(0, first)
     return found
@@ -106,10 +107,9 @@ def _factor_rank(factor: Tree, letters: Letters) -> tuple:
 
 def _term_rank(term: Tree, letters: Letters) -> tuple:
     found, dots = symbols(term), _dots(term)
-    order = {name: place for place, name in enumerate(letters)}
     moves = any(letters.kind(letter.name) not in ("parameter", "constant") for letter in found)
-    leading = sorted(order.get(letter.name, len(order)) for letter in found if letter.dots == dots)
-    rest = sorted(order.get(letter.name, len(order)) for letter in found if letter.dots != dots)
+    leading = sorted(letters.place(letter.name) for letter in found if letter.dots == dots)
+    rest = sorted(letters.place(letter.name) for letter in found if letter.dots != dots)
     return -dots, dots == 0 and moves, leading, rest
 
 

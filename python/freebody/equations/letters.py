@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from freebody.equations.tree import Sym
@@ -58,10 +59,23 @@ class Letters(Mapping[str, Letter]):
         return [name for name, letter in self.table.items() if letter.kind in kinds]
 
     def rank(self, symbol: Sym) -> tuple[int, int]:
-        """Where a letter stands among the parameters of a product: masses and forces, then g, then lengths."""
-        order = {name: place for place, name in enumerate(self.table)}
-        return _weight(self.table[symbol.name].unit if symbol.name in self.table else ""), order.get(symbol.name, len(order))
+        """Where a letter stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
+        weight = _weight(self.table[symbol.name].unit) if symbol.name in self.table else _OTHER
+        return weight, self.place(symbol.name)
+
+    def place(self, name: str) -> int:
+        """The place of a name in the order of the model; names that are not there come last."""
+        return self._places.get(name, len(self._places))
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self.table)}
+
+
+_PURE, _HEAVY, _GRAVITY, _OTHER = range(4)
 
 
 def _weight(unit: str) -> int:
-    return 0 if unit.startswith(("kg", "N")) else 1 if unit.startswith("m/s") else 2
+    if unit in ("", "1"):
+        return _PURE
+    return _HEAVY if unit.startswith(("kg", "N")) else _GRAVITY if unit.startswith("m/s") else _OTHER

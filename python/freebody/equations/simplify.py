@@ -18,7 +18,9 @@ PATIENCE = 5.0
 """Seconds after which no further form of an answer is tried."""
 _MULTIPLE_ANGLE = 6  # printed signs that a person would rather read than sin 2θ
 _LARGE = 60  # operations above which SymPy's search for trigonometric identities takes too long
+_FEW_TERMS = 4  # of a numerator that may be better taken apart: g/l + 2 k/m
 _SAMPLES = 4
+_MOST_WAYS = 8  # of choosing sin² or cos² angle by angle
 _AGREEMENT = 1e-8  # relative difference of two forms that are equal
 
 
@@ -82,22 +84,27 @@ def _forms(expression: Any, letters: Letters | None) -> Iterator[Any]:
     together = sympy.factor(sympy.cancel(sympy.together(expression)))
     yield together
     ways = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in sympy.fraction(together)]
-    above, below = (min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), letters), default=0) for forms in ways)
+    above, below = (
+        min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), letters), default=0) for forms in ways
+    )
     if below != 0:
         yield above / below
-    if expression.count_ops() < _LARGE:
+    if len(sympy.Add.make_args(sympy.expand(above))) <= _FEW_TERMS:
+        yield sympy.expand(together)
+    if together.count_ops() < _LARGE:
         yield sympy.trigsimp(together)
         yield sympy.factor_terms(sympy.trigsimp(ways[0][0])) / sympy.factor_terms(sympy.trigsimp(ways[1][0]))
         yield sympy.factor(sympy.trigsimp(sympy.expand_trig(together)))
 
 
 def _ways(part: Any) -> list[Callable[[Any], Any]]:
-    """As it is; and for every angle, all even powers of the cosine, or of the sine, replaced."""
+    """As it is; and for every angle that is in a square, all even powers of its cosine, or of its sine, replaced."""
     import sympy
 
-    angles = sorted({f.args[0] for f in part.atoms(sympy.sin, sympy.cos)}, key=str)
+    squares = {p.base for p in sympy.expand(part).atoms(sympy.Pow) if isinstance(p.base, sympy.sin | sympy.cos)}
+    angles = sorted({function.args[0] for function in squares}, key=str)
     ways: list[Callable[[Any], Any]] = [lambda x: x]
-    for kept in itertools.islice(itertools.product((sympy.sin, sympy.cos), repeat=len(angles)), 16):
+    for kept in itertools.islice(itertools.product((sympy.sin, sympy.cos), repeat=len(angles)), _MOST_WAYS):
         if angles:
             rules = [(_other(kind)(angle), kind(angle)) for kind, angle in zip(kept, angles, strict=True)]
             ways.append(lambda x, rules=rules: _without_squares(x, rules))
@@ -125,5 +132,6 @@ def _collected(part: Any) -> list[Any]:
 
     moving = [*part.atoms(sympy.sin, sympy.cos), *(letter for letter in part.free_symbols if letter.name.endswith("'"))]
     spread = sympy.expand(part)
-    collected = sympy.collect(spread, sorted(moving, key=str), sympy.factor)
+    order = sorted(moving, key=str)
+    collected = sympy.collect(spread, order, lambda factor: sympy.collect(factor, order, sympy.factor))
     return [sympy.factor_terms(part), sympy.factor_terms(collected), sympy.factor_terms(spread)]

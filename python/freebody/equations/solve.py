@@ -40,7 +40,9 @@ def solve(
     found = [shortest(entry, letters, patience) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
-            raise ArithmeticError("the answer in letters does not satisfy the equations at random values; take the numbers instead")
+            raise ArithmeticError(
+                "the answer in letters does not satisfy the equations at random values; take the numbers instead"
+            )
     return found
 
 
@@ -108,7 +110,6 @@ def _admit(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
 
 def _solved(a: Any, b: Any) -> list[Any]:
     """By exact elimination over the rational functions of the letters, sines and cosines."""
-    import sympy
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 

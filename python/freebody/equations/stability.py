@@ -10,7 +10,7 @@ from typing import Any
 from freebody.equations.letters import Letters
 from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge
-from freebody.equations.to_sympy import from_sympy, to_sympy
+from freebody.equations.to_sympy import to_sympy
 from freebody.equations.tree import Mul, Pow, Tree, is_zero, mul, power
 
 _HALF = Fraction(1, 2)

@@ -15,10 +15,7 @@ from freebody.equations.printer import Printer
 from freebody.equations.tree import Add, Fn, Num, Sym, Tree
 
 WIDTH = 100
-_VULGAR = {
-    Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾",
-    Fraction(1, 5): "⅕", Fraction(1, 6): "⅙", Fraction(1, 8): "⅛", Fraction(3, 8): "⅜",
-}  # fmt: skip
+_VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}
 
 
 def text(tree: Tree, letters: Letters | None = None, *, ascii: bool = False) -> str:
@@ -84,6 +81,9 @@ def _printer(letters: Letters | None, ascii: bool) -> TextPrinter:
 class TextPrinter(Printer):
     """Unicode."""
 
+    times = "·"
+    """The sign of multiplication, where one is needed."""
+
     def name(self, letter: Sym) -> str:
         return unicode_name(letter.name, letter.dots)
 
@@ -104,7 +104,8 @@ class TextPrinter(Printer):
         return self.fraction(self._factors(value.numerator, factors), str(value.denominator), ends_bare, False)
 
     def juxtapose(self, factors: Sequence[str]) -> str:
-        return " ".join(factors)
+        # Behind a factor a number would be taken for a part of it.
+        return factors[0] + "".join(f"{self.times if factor[0].isdecimal() else ' '}{factor}" for factor in factors[1:])
 
     def bracket(self, inner: str) -> str:
         return f"({inner})"
@@ -132,7 +133,7 @@ class TextPrinter(Printer):
 
     def function(self, tree: Fn, exponent: Fraction) -> str:
         inner = self.arguments(tree)
-        if tree.name == "abs":
+        if tree.name == "abs" and "|" not in inner:
             return f"|{inner}|" + (self._exponent(exponent) if exponent != 1 else "")
         name = tree.name + (self._exponent(exponent) if exponent != 1 else "")
         return f"{name}{'' if exponent != 1 else ' '}{inner}" if layout.is_bare(tree) else f"{name}({inner})"
@@ -149,6 +150,7 @@ class AsciiPrinter(TextPrinter):
     """Letters of ASCII alone."""
 
     minus = "-"
+    times = "*"
 
     def name(self, letter: Sym) -> str:
         return ascii_name(letter.name, letter.dots)

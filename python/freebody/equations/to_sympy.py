@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from freebody.equations.document import Equation, MatrixEquation, is_tree
 from freebody.equations.letters import Letters
 from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree
 
@@ -52,6 +53,21 @@ def from_sympy(expression: sympy.Expr) -> Tree:
             return _special(expression)
 
 
+def equations(blocks: Iterable[Any], letters: Letters | None = None, *, time: bool = True) -> list[Any]:
+    """The equations among the blocks of a document, as SymPy ``Eq``."""
+    import sympy
+
+    made = []
+    for block in blocks:
+        if isinstance(block, Equation) and is_tree(block.left) and is_tree(block.right):
+            made.append(sympy.Eq(*(to_sympy(side, letters, time=time) for side in (block.left, block.right)), evaluate=False))
+        elif isinstance(block, MatrixEquation):
+            matrix = sympy.Matrix([[to_sympy(entry, letters, time=time) for entry in row] for row in block.matrix])
+            x, b = (sympy.Matrix([to_sympy(e, letters, time=time) for e in side]) for side in (block.unknowns, block.right))
+            made.append(sympy.Eq(sympy.MatMul(matrix, x, evaluate=False), b, evaluate=False))
+    return made
+
+
 def _special(expression: sympy.Expr) -> Tree:
     import sympy
 
@@ -68,7 +84,9 @@ def _special(expression: sympy.Expr) -> Tree:
         known = name in _SAME or name in _FROM or isinstance(expression, sympy.core.function.AppliedUndef)
         if known:
             return Fn(_FROM.get(name, name), tuple(map(from_sympy, expression.args)))
-    raise ValueError(f"{expression} has no form here; sums, products, rational powers, sin, cos, tan, exp, log, atan2, Abs, sign do")
+    raise ValueError(
+        f"{expression} has no form here; sums, products, rational powers, sin, cos, tan, exp, log, atan2, Abs, sign do"
+    )
 
 
 def _ordered(expression: Any) -> list[Any]:
@@ -86,7 +104,9 @@ class _Maker:
     def expression(self, tree: Tree) -> Any:
         match tree:
             case Num(value):
-                return self.sympy.Rational(value.numerator, value.denominator) if isinstance(value, Fraction) else self._float(value)
+                return (
+                    self.sympy.Rational(value.numerator, value.denominator) if isinstance(value, Fraction) else self._float(value)
+                )
             case Sym():
                 return self._letter(tree)
             case Add(terms):

@@ -139,7 +139,15 @@ def walk(tree: Tree) -> Iterator[Tree]:
 
 def symbols(*trees: Tree) -> set[Sym]:
     """All letters that occur, rates and accelerations for themselves."""
-    return {node for tree in trees for node in walk(tree) if isinstance(node, Sym)}
+    found, seen, waiting = set(), set(), list(trees)
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Sym):
+            found.add(node)
+        elif id(node) not in seen:  # a part may be shared by many
+            seen.add(id(node))
+            waiting.extend(children(node))
+    return found
 
 
 def replace(tree: Tree, new: Mapping[Sym, Tree]) -> Tree:

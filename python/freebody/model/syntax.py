@@ -82,6 +82,8 @@ _READINGS = {
     "N*m*s": "angular_momentum",
 }
 _READS = {word: unit for unit, words in _READINGS.items() for word in words.split()}
+READINGS = frozenset(_READS)
+"""Functions that read places, motions and sums of the whole."""
 _PARTS = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "Fs": FORCE, "Fn": FORCE, "F1": FORCE, "F2": None, "tension": FORCE, "M": ENERGY}
 _PARTS |= {"N": FORCE, "T": FORCE, "gap": LENGTH, "slack": LENGTH, "slip": LENGTH.times(TIME, -1)}
 _PARTS |= {"power": ENERGY.times(TIME, -1), "work": ENERGY}

@@ -83,6 +83,11 @@ pub(super) fn joined(a: &[Factor], b: &[Factor]) -> Option<Vec<Factor>> {
     Some(all)
 }
 
+/// One over the factors.
+pub(super) fn inverted(factors: &[Factor]) -> Vec<Factor> {
+    factors.iter().map(|factor| (factor.0, factor.1.negated())).collect()
+}
+
 /// The same factors with the exponent of one of them changed.
 pub(super) fn with_exponent(factors: &[Factor], at: usize, exponent: Ratio) -> Vec<Factor> {
     let mut changed = factors.to_vec();

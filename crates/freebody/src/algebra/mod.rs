@@ -16,6 +16,7 @@ mod calculus;
 mod coefficient;
 mod functions;
 mod harmonics;
+mod linear;
 mod power;
 mod pretty;
 mod ratio;

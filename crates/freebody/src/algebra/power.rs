@@ -2,7 +2,7 @@
 //! equal denominators meet.
 
 use super::arena::{raised, Arena, Lead, MonomialId, SumId, Term};
-use super::atom::{Atom, AtomId, Factor};
+use super::atom::{inverted, Atom, AtomId, Factor};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
 
@@ -36,19 +36,22 @@ impl Arena {
         match *terms {
             [] if r.signum() < 0 => self.constant(Coefficient::UNDEFINED),
             [] => SumId::ZERO,
-            [(monomial, coefficient)] => self.power_of_term(monomial, coefficient, r),
+            [(monomial, coefficient)] => self.power_of_term(&self.factors(monomial), coefficient, r),
             _ => self.power_of_sum(a, r),
         }
     }
 
     fn power_of_sum(&mut self, a: SumId, r: Ratio) -> SumId {
-        let (content, primitive) = self.primitive(a);
-        let inner = match self.terms(primitive).len() {
+        let (contents, primitive) = self.primitive(a);
+        let mut result = match self.terms(primitive).len() {
             1 => self.power(primitive, r),
             _ => self.power_of_primitive(primitive, r),
         };
-        let outer = self.power(content, r);
-        self.multiply(outer, inner)
+        for (factors, number) in contents {
+            let power = self.power_of_term(&factors, number, r);
+            result = self.multiply(result, power);
+        }
+        result
     }
     fn power_of_primitive(&mut self, a: SumId, r: Ratio) -> SumId {
         if let Some(root) = self.half_angle(a) {
@@ -80,14 +83,14 @@ impl Arena {
 
     /// The power of a single term: of each factor that is positive at the witness or has an even
     /// exponent; of the rest together.
-    fn power_of_term(&mut self, monomial: MonomialId, coefficient: Coefficient, r: Ratio) -> SumId {
+    fn power_of_term(&mut self, factors: &[Factor], coefficient: Coefficient, r: Ratio) -> SumId {
         let mut result = match r.is_whole() || !coefficient.is_negative() {
             true => self.power_of_number(coefficient, r),
             false => self.power_of_number(coefficient.negated(), r),
         };
         let odd_sign = !r.is_whole() && coefficient.is_negative();
         let mut rest: Vec<Factor> = Vec::new();
-        for &(atom, e) in self.factors(monomial).iter() {
+        for &(atom, e) in factors {
             let (value, Some(raised)) = (self.atom_value(atom), e.times(r)) else { continue };
             let power = match self.atom(atom) {
                 _ if value > 0.0 || r.is_whole() => self.product(&[(atom, raised)]),
@@ -147,24 +150,23 @@ impl Arena {
         result
     }
 
-    /// Content and primitive part: the sum is their product, the content a single term, the primitive
-    /// part has whole coefficients without common factor and is positive at the witness.
-    pub(super) fn primitive(&mut self, a: SumId) -> (SumId, SumId) {
-        let (mut content, mut left) = (SumId::ONE, a);
+    /// Contents and primitive part: the sum is their product, each content a single term, the
+    /// primitive part has whole coefficients without common factor and is positive at the witness.
+    fn primitive(&mut self, a: SumId) -> (Vec<(Vec<Factor>, Coefficient)>, SumId) {
+        let (mut contents, mut left) = (Vec::new(), a);
         // Pulling out a denominator can bring forth a common factor; twice is rare.
         for _ in 0..4 {
             let (factors, number) = self.content(left);
-            let part = self.product_of(factors, number);
-            if part == SumId::ONE {
+            if factors.is_empty() && number.is_one() {
                 break;
             }
-            let inverse = self.power(part, Ratio::whole(-1));
-            content = self.multiply(content, part);
-            left = self.multiply(left, inverse);
+            left = self.multiply_factors(left, &inverted(&factors));
+            left = self.scale(left, Coefficient::ONE.over(number));
+            contents.push((factors, number));
         }
-        (content, left)
+        (contents, left)
     }
-    fn content(&self, a: SumId) -> (Vec<Factor>, Coefficient) {
+    pub(super) fn content(&self, a: SumId) -> (Vec<Factor>, Coefficient) {
         let terms = self.terms(a);
         let mut common: Vec<Factor> = self.factors(terms[0].0).to_vec();
         for &(monomial, _) in &terms[..] {

@@ -1,7 +1,7 @@
 //! Adding and multiplying, and the rules that make a product canonical.
 
 use super::arena::{Arena, MonomialId, SumId, Term};
-use super::atom::{joined, with_exponent, Atom, Factor, Function};
+use super::atom::{inverted, joined, with_exponent, Atom, Factor, Function};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
 
@@ -40,6 +40,9 @@ impl Arena {
         if by.is_one() {
             return a;
         }
+        if !by.value().is_finite() {
+            return self.constant(Coefficient::UNDEFINED);
+        }
         let scaled = self.terms(a).iter().map(|&(m, c)| (m, c.times(by))).collect();
         self.sorted_sum(scaled)
     }
@@ -64,6 +67,18 @@ impl Arena {
                 let by = c.times(d);
                 all.extend(self.terms(product).iter().map(|&(p, e)| (p, e.times(by))));
             }
+        }
+        self.sum(all)
+    }
+    /// The product with factors, exponents added before anything is multiplied out.
+    pub(super) fn multiply_factors(&mut self, a: SumId, by: &[Factor]) -> SumId {
+        let mut all = Vec::new();
+        for &(monomial, c) in self.terms(a).iter() {
+            let Some(factors) = joined(&self.factors(monomial), by) else {
+                return self.constant(Coefficient::UNDEFINED);
+            };
+            let product = self.product(&factors);
+            all.extend(self.terms(product).iter().map(|&(m, d)| (m, c.times(d))));
         }
         self.sum(all)
     }
@@ -166,6 +181,5 @@ fn without(factors: &[Factor], divisor: &[Factor]) -> Option<Vec<Factor>> {
     if !divisor.iter().all(enough) {
         return None;
     }
-    let inverse: Vec<Factor> = divisor.iter().map(|&(id, e)| (id, e.negated())).collect();
-    joined(factors, &inverse)
+    joined(factors, &inverted(divisor))
 }

@@ -1,6 +1,6 @@
 //! Sines and cosines, kept as a Fourier sum: at most one to a term.
 
-use super::arena::{Arena, SumId};
+use super::arena::{Arena, SumId, Term};
 use super::atom::{with_exponent, Atom, Factor, Function};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
@@ -108,12 +108,11 @@ impl Arena {
 
     /// Whether its first term that varies (else the angle itself) is negative.
     fn points_backwards(&self, angle: SumId) -> bool {
-        let terms = self.terms(angle);
+        self.first_varying(angle).map_or(self.value(angle) < 0.0, |first| first.1.is_negative())
+    }
+    fn first_varying(&self, angle: SumId) -> Option<Term> {
         let varies = |factors: &[Factor]| factors.iter().any(|f| !matches!(self.atom(f.0), Atom::Pi | Atom::Prime(_)));
-        match terms.iter().find(|term| varies(&self.factors(term.0))) {
-            Some(first) => first.1.is_negative(),
-            None => self.value(angle) < 0.0,
-        }
+        self.terms(angle).iter().copied().find(|term| varies(&self.factors(term.0)))
     }
 
     /// The angle without its multiple of π, and that multiple as quarter turns and a rest in (−1/4, 1/4].
@@ -236,7 +235,7 @@ impl Arena {
     /// B turned so that what is not along A is forward, the sign that this costs, and the sign of
     /// the step by 2A; `None` when B is within (−A, A] already.
     fn step_towards(&mut self, kind: Trig, b: SumId, a: SumId) -> Option<(SumId, i64, i64)> {
-        let lead = *self.terms(a).first()?;
+        let lead = self.first_varying(a)?;
         let over = self.terms(b).iter().find(|term| term.0 == lead.0).map(|term| term.1)?;
         let ratio = over.exact()?.over(lead.1.exact()?)?;
         let along = self.scale(a, Coefficient::Exact(ratio));

@@ -6,7 +6,7 @@
 use super::question::{About, Along, Group};
 use super::vectors::{tell, tree, tree_by};
 use super::Letters;
-use crate::algebra::Tree;
+use crate::algebra::{Letter, Tree};
 use crate::balance::Trouble;
 use crate::free_bodies::{Load, Part};
 use crate::plane::{vec2, Vec2};
@@ -97,7 +97,10 @@ impl Letters<'_> {
             mass += self.n.mass[b];
             moment += self.centre(b) * self.n.mass[b];
         }
-        moment * (Symbol::one() / mass)
+        match mass.is_zero() {
+            true => self.centre(bodies[0]),
+            false => moment * (Symbol::one() / mass),
+        }
     }
 
     fn along(&self, along: &Along, bodies: &[usize]) -> Result<Vec2<Symbol>, Trouble> {
@@ -216,15 +219,10 @@ impl Letters<'_> {
     /// An expression as coefficients of what is unknown, and the rest.
     pub(super) fn linear(&self, of: Symbol) -> Value {
         let unknowns = self.unknowns();
-        let mut coefficients = vec![];
-        let mut rest = of;
-        for letter in &unknowns {
-            let Some(c) = of.coefficient_of(letter) else { continue };
-            if !c.is_zero() {
-                coefficients.push(json!({"letter": Tree::letter(&letter.name, letter.dots), "tree": tree(c)}));
-            }
-            rest = rest.without(std::slice::from_ref(letter));
-        }
+        let (factors, rest) = of.linear_in(&unknowns);
+        let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
+        let told = |(l, c): (&Letter, Symbol)| json!({"letter": Tree::letter(&l.name, l.dots), "tree": tree(c)});
+        let coefficients: Vec<Value> = found.map(told).collect();
         json!({"coefficients": coefficients, "rest": tree(rest)})
     }
 

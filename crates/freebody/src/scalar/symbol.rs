@@ -77,6 +77,14 @@ impl Symbol {
         let slope = self.derivative(letter);
         (!slope.letters().contains(letter)).then_some(slope)
     }
+    /// The factor of each letter, and the rest, of an expression that is linear in them all together.
+    pub fn linear_in(self, letters: &[Letter]) -> (Vec<Self>, Self) {
+        let (factors, rest) = with(|arena| {
+            let ids: Vec<_> = letters.iter().map(|letter| arena.letter_id(letter)).collect();
+            arena.linear(self.id, &ids)
+        });
+        (factors.into_iter().map(Symbol::valued).collect(), Symbol::valued(rest))
+    }
     /// What is left when the letters are zero.
     pub fn without(self, letters: &[Letter]) -> Self {
         let zeros: Vec<(Letter, Symbol)> = letters.iter().map(|l| (l.clone(), Symbol::zero())).collect();

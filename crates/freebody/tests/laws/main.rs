@@ -7,6 +7,7 @@ mod cords;
 mod free_bodies;
 mod gauges;
 mod joints;
+mod letters;
 mod metamorphic;
 mod model;
 mod random;

@@ -22,7 +22,7 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
     equations = [_balance(each, unknowns) for each in told["balances"]]
     made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names))]
     if rows:
-        made += closing.section(rows, names, "Constraints")
+        made += closing.section(rows, names, everywhere=True)
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
     letters = _letters(names, subject.letters)

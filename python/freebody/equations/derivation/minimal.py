@@ -34,7 +34,7 @@ def minimal(subject: Subject) -> Form:
 
 def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stated] | None:
     """Equations that a search found, in letters; None if one of them has no question."""
-    asked = [equation.ask for equation in equations]
+    asked = [equation.question for equation in equations]
     if None in asked:
         return None
     found = subject.balances([question for question in asked if question])

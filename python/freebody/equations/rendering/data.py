@@ -15,7 +15,9 @@ from freebody.equations.tree import write
 
 def block(made: Block, letters: Letters) -> dict[str, Any]:
     """The kind of the block and its fields; every expression is ``{"tree": …, "text": …, "latex": …}``."""
-    return {"kind": type(made).__name__.lower()} | {field.name: _value(getattr(made, field.name), letters) for field in fields(made)}
+    return {"kind": type(made).__name__.lower()} | {
+        field.name: _value(getattr(made, field.name), letters) for field in fields(made)
+    }
 
 
 def _value(value: Any, letters: Letters) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import re
 from abc import ABC, abstractmethod
@@ -9,11 +10,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from freebody.equations.document import (
-    Block, Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Table, Vector, Words, Written, is_tree, pieces,
-)  # fmt: skip
-from freebody.equations.latex import equation_latex, latex, matrix_latex
+    Block,
+    Bullets,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Side,
+    Table,
+    Vector,
+    Words,
+    Written,
+    is_tree,
+    pieces,
+)
+from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
-from freebody.equations.names import escaped
+from freebody.equations.names import GREEK, escaped, latex_name
+from freebody.equations.rendering.plain import side_text
+from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
 
 
@@ -27,19 +43,27 @@ def side_latex(side: Side, letters: Letters) -> str:
     return latex(side, letters)
 
 
+def side_lines(side: Side, letters: Letters) -> list[str]:
+    """One side over as many lines as it needs: a vector that is long, a component a line."""
+    if is_tree(side):
+        return latex_lines(side, letters)
+    if isinstance(side, Vector) and columns(side_text(side, letters)) > WIDTH:
+        parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
+        return [parts[0], *(part if part.startswith("-") else f"+ {part}" for part in parts[1:])]
+    return [side_latex(side, letters)]
+
+
 def _component(tree: Tree, direction: str, letters: Letters) -> str:
     inner = latex(tree, letters)
     stem, _, below = direction.partition("_")
     unit = rf"\mathbf{{{escaped(stem)}}}" + (f"_{{{latex_subscript(below)}}}" if below else "")
     if isinstance(tree, Add):
-        return rf"\left({inner}\right) {unit}"
+        return f"{LatexPrinter(letters).bracket(inner)} {unit}"
     return unit if inner == "1" else f"-{unit}" if inner == "-1" else rf"{inner} \, {unit}"
 
 
 def latex_subscript(text: str) -> str:
     """A subscript: Greek words as letters."""
-    from freebody.equations.names import latex_name
-
     return latex_name(text) if re.fullmatch(r"\w+", text) else escaped(text)
 
 
@@ -76,7 +100,8 @@ class Markup(ABC):
     def words(self, words: Words) -> str:
         """A sentence with its mathematics."""
         return "".join(
-            self.plain(piece) if isinstance(piece, str) else self.inline(side_latex(piece, self.letters)) for piece in pieces(words)
+            self.plain(piece) if isinstance(piece, str) else self.inline(side_latex(piece, self.letters))
+            for piece in pieces(words)
         )
 
     def equation(self, block: Equation) -> str:
@@ -84,7 +109,10 @@ class Markup(ABC):
         left, right = block.left, block.right
         if is_tree(left) and is_tree(right):
             return equation_latex(left, right, self.letters)
-        return f"{side_latex(left, self.letters)} = {side_latex(right, self.letters)}"
+        sides = [side_lines(side, self.letters) for side in (left, right)]
+        if all(len(lines) == 1 for lines in sides):
+            return f"{sides[0][0]} = {sides[1][0]}"
+        return aligned(*sides, beside=isinstance(left, Written))
 
     def stated(self, block: Equation | MatrixEquation, body: str) -> str:
         """An equation between its name and its note."""
@@ -152,8 +180,6 @@ class Markdown(Markup):
         return "\n".join(([caption, ""] if caption else []) + lines)
 
     def figure(self, figure: Figure, caption: str) -> str:
-        import base64
-
         data = base64.b64encode(figure.svg.encode()).decode()
         return f"![{caption}](data:image/svg+xml;base64,{data})"
 
@@ -185,7 +211,9 @@ class Latex(Markup):
     def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
         body = [" & ".join(row) + r" \\" for row in rows]
         top = [rf"\begin{{tabular}}{{{'l' * len(heads)}}}", " & ".join(heads) + r" \\ \hline"]
-        return "\n".join([r"\begin{center}", *([caption, "", ""] if caption else []), *top, *body, r"\end{tabular}", r"\end{center}"])
+        return "\n".join(
+            [r"\begin{center}", *([caption, "", ""] if caption else []), *top, *body, r"\end{tabular}", r"\end{center}"]
+        )
 
     def figure(self, figure: Figure, caption: str) -> str:
         frame = rf"\IfFileExists{{{figure.name}.pdf}}{{\includegraphics{{{figure.name}.pdf}}}}{{\fbox{{{escaped(figure.name)}}}}}"
@@ -226,11 +254,18 @@ class Html(Markup):
 
 def _signs(signs: str) -> str:
     """Letters that TeX does not have in text: Greek, raised and lowered digits, arrows."""
-    from freebody.equations.names import GREEK
-
     spelt = {sign: rf"\{word}" for word, sign in GREEK.items()}
     spelt |= {sign: f"_{digit}" for digit, sign in enumerate("₀₁₂₃₄₅₆₇₈₉")} | {"⁴": "^4", "⁻": "^-", "Σ": r"\Sigma"}
-    spelt |= {"−": "-", "×": r"\times ", "·": r"\cdot ", "→": r"\to ", "∞": r"\infty ", "≥": r"\ge ", "≤": r"\le ", "√": r"\surd "}
+    spelt |= {
+        "−": "-",
+        "×": r"\times ",
+        "·": r"\cdot ",
+        "→": r"\to ",
+        "∞": r"\infty ",
+        "≥": r"\ge ",
+        "≤": r"\le ",
+        "√": r"\surd ",
+    }
     spelt |= {"\u0307": r"^{\cdot}", "\u0308": r"^{\cdot\cdot}"}
     made = "".join(f"{spelt[sign]} " if sign in spelt else sign for sign in signs).strip()
     return f"${made}$" if all(sign in spelt for sign in signs) else signs

@@ -214,3 +214,44 @@ def slider_crank(rng, driven=True):
     if driven:
         fake.motor("T", "ground", "crank", rng.normal())
     return fake
+
+
+def branched(rng, driven=True):
+    """A rod on a pin, two more hung from its far end and one from its middle."""
+    fake = Fake(rng)
+    far = turned(rng.normal(), [1.0, 0.0])
+    fake.rod("beam", (0, 0), far, 2.0)
+    fake.hinge("O", "ground", "beam", (0, 0))
+    for name, at in (("left", far), ("right", far), ("middle", 0.4 * far)):
+        fake.rod(name, at, at + turned(rng.normal() - 1.5, [0.8, 0.0]), 1.0)
+        fake.hinge(f"pin of {name}", "beam", name, at)
+    if driven:
+        fake.motor("T", "ground", "beam", rng.normal())
+        fake.motor("S", "beam", "left", rng.normal())
+    return fake
+
+
+def watt(rng, driven=True):
+    """A four-bar and a dyad from its coupler to ground."""
+    fake = four_bar(rng, driven)
+    coupler = fake.bodies["coupler"]
+    D = coupler["G"] + turned(coupler["angle"], [0.1, 0.4])
+    F = np.array([2.5, 0.2])
+    E = np.array([2.2, 1.6]) + rng.normal(scale=0.1, size=2)
+    fake.rod("arm", D, E, 1.0)
+    fake.rod("lever", F, E, 1.2)
+    fake.hinge("D", "coupler", "arm", D)
+    fake.hinge("E", "arm", "lever", E)
+    fake.hinge("F", "ground", "lever", F)
+    return fake
+
+
+def car_on_slope(rng):
+    """A block that slides on a slope and carries a rod on a pin."""
+    fake, s = Fake(rng), rng.normal()
+    at = turned(0.4, [s, 0.3])
+    fake.body("block", at, 0.4, 2.0, 0.2)
+    fake.slider("slope", "ground", "block", turned(0.4, [s, 0.0]), turned(0.4, [1.0, 0.0]))
+    fake.rod("rod", at, at + turned(rng.normal(), [1.0, 0.0]), 1.0)
+    fake.hinge("pin", "block", "rod", at)
+    return fake

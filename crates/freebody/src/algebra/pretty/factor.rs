@@ -1,0 +1,279 @@
+//! Factoring by collecting: the same terms, grouped by what they share, in the way that leaves the
+//! least to read.
+
+use super::super::arena::Arena;
+use super::super::atom::{inverted, joined, Atom, AtomId, Factor};
+use super::super::coefficient::Coefficient;
+use super::super::ratio::Ratio;
+use super::form::{number_cost, Form, Poly, Product};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::rc::Rc;
+
+/// Up to this number of terms every letter is tried as what to collect by.
+const FEW: usize = 12;
+/// Up to this number of terms every pair of kinds is tried.
+const MANY: usize = 400;
+
+/// What kind of thing an atom is to a reader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    Parameter,
+    Function,
+    Rate,
+}
+
+pub(super) struct Writer<'a> {
+    pub(super) arena: &'a mut Arena,
+    known: HashMap<Poly, Rc<Product>>,
+    costs: HashMap<AtomId, usize>,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(arena: &'a mut Arena) -> Self {
+        Writer { arena, known: HashMap::new(), costs: HashMap::new() }
+    }
+
+    pub(super) fn kind(&self, id: AtomId) -> Kind {
+        match self.arena.atom(id) {
+            Atom::Letter(letter) if letter.dots > 0 => Kind::Rate,
+            Atom::Cos(_) | Atom::Sin(_) | Atom::Call(..) => Kind::Function,
+            _ => Kind::Parameter,
+        }
+    }
+
+    /// The factored form of a sum.
+    pub(super) fn factor(&mut self, poly: &Poly) -> Rc<Product> {
+        if let Some(known) = self.known.get(poly) {
+            return known.clone();
+        }
+        let (content, number, rest) = Self::pulled(poly);
+        let outer = self.single(&content, number);
+        let product = match rest.len() {
+            1 => outer,
+            _ => outer.times(self.best(&rest)),
+        };
+        let product = Rc::new(product);
+        self.known.insert(poly.clone(), product.clone());
+        product
+    }
+
+    /// A single term.
+    pub(super) fn single(&mut self, factors: &[Factor], number: Coefficient) -> Product {
+        let mut product = Product { number, factors: vec![], cost: number_cost(number) };
+        for &(id, e) in factors {
+            product = match *self.arena.atom(id) {
+                Atom::Group(of) if e.is_whole() => product.times(self.whole(of).raised(e)),
+                _ => {
+                    product.factors.push((Form::Atom(id), e));
+                    product.cost += self.atom_cost(id) + usize::from(e != Ratio::ONE);
+                    product
+                }
+            };
+        }
+        product
+    }
+    fn atom_cost(&mut self, id: AtomId) -> usize {
+        if let Some(&cost) = self.costs.get(&id) {
+            return cost;
+        }
+        let inside = match self.arena.atom(id) {
+            Atom::Group(of) | Atom::Cos(of) | Atom::Sin(of) => vec![*of],
+            Atom::Call(_, of) => of.clone(),
+            _ => vec![],
+        };
+        let mut cost = 1;
+        for of in inside {
+            let terms = self.arena.terms(of);
+            let factors =
+                terms.iter().map(|term| (self.arena.factors(term.0), number_cost(term.1))).collect::<Vec<_>>();
+            cost += terms.len() - 1;
+            for (factors, number) in factors {
+                cost += number + factors.iter().map(|f| self.atom_cost(f.0)).sum::<usize>();
+            }
+        }
+        self.costs.insert(id, cost);
+        cost
+    }
+
+    /// What all terms share: factors, the number that is best pulled out, and what is left.
+    fn pulled(poly: &Poly) -> (Vec<Factor>, Coefficient, Poly) {
+        let common = common_factors(poly);
+        let number = best_number(poly);
+        let rest = divided(poly, &common, number);
+        (common, number, rest)
+    }
+
+    /// The cheapest of the ways to write a sum of several terms without common factor.
+    fn best(&mut self, poly: &Poly) -> Product {
+        if let Some(square) = self.square(poly) {
+            return square;
+        }
+        let terms = poly.iter().map(|(factors, c)| self.single(factors, *c)).collect();
+        let mut best = Product::of_sum(terms);
+        for keys in self.groupings(poly) {
+            if let Some(collected) = self.collected(poly, &keys) {
+                if collected.cost < best.cost {
+                    best = collected;
+                }
+            }
+        }
+        best
+    }
+
+    /// The sets of atoms to collect by.
+    fn groupings(&self, poly: &Poly) -> Vec<BTreeSet<AtomId>> {
+        use Kind::{Function, Parameter, Rate};
+        let atoms: BTreeSet<AtomId> = poly.iter().flat_map(|term| term.0.iter().map(|f| f.0)).collect();
+        let sets: &[&[Kind]] = match poly.len() {
+            0..=MANY => {
+                &[&[Rate], &[Rate, Function], &[Function], &[Parameter], &[Parameter, Function], &[Parameter, Rate]]
+            }
+            _ => &[&[Rate], &[Rate, Function]],
+        };
+        let of_kinds = |kinds: &&[Kind]| atoms.iter().copied().filter(|&id| kinds.contains(&self.kind(id))).collect();
+        let mut all: Vec<BTreeSet<AtomId>> = sets.iter().map(of_kinds).collect();
+        if poly.len() <= FEW {
+            for &atom in &atoms {
+                all.push(BTreeSet::from([atom]));
+                all.push(atoms.iter().copied().filter(|&other| other != atom).collect());
+            }
+        }
+        all.retain(|keys| !keys.is_empty() && keys.len() < atoms.len());
+        all.sort();
+        all.dedup();
+        all
+    }
+
+    /// The sum as Σ (Σ numbers · keys) · rest; `None` when nothing meets.
+    fn collected(&mut self, poly: &Poly, keys: &BTreeSet<AtomId>) -> Option<Product> {
+        let mut by_key: BTreeMap<Vec<Factor>, Poly> = BTreeMap::new();
+        for (factors, c) in poly {
+            let (key, rest): (Vec<Factor>, Vec<Factor>) = factors.iter().partition(|f| keys.contains(&f.0));
+            by_key.entry(key).or_default().push((rest, *c));
+        }
+        let mut by_rest: BTreeMap<Vec<Vec<Factor>>, Vec<(Poly, Poly)>> = BTreeMap::new();
+        let mut count = 0;
+        for (mut key, mut rest) in by_key {
+            rest.sort_by(|a, b| a.0.cmp(&b.0));
+            let common = if rest.len() > 1 { common_factors(&rest) } else { vec![] };
+            let lead = rest[0].1;
+            rest = divided(&rest, &common, lead);
+            key = joined(&key, &common)?;
+            let same = by_rest.entry(rest.iter().map(|term| term.0.clone()).collect()).or_default();
+            match same.iter_mut().find(|(_, other)| proportional(other, &rest)) {
+                Some((sum, _)) => sum.push((key, lead)),
+                None => {
+                    count += 1;
+                    same.push((vec![(key, lead)], rest));
+                }
+            }
+        }
+        if count == poly.len() {
+            return None;
+        }
+        let mut terms = Vec::new();
+        for (sum, rest) in by_rest.into_values().flatten() {
+            let product = (*self.factor(&rest)).clone().times((*self.factor(&sum)).clone());
+            terms.extend(product.into_terms());
+        }
+        Some(Product::of_sum(terms))
+    }
+
+    /// a² + 2ab + b² = (a + b)², with any number of letters.
+    fn square(&mut self, poly: &Poly) -> Option<Product> {
+        let root_of = |c: Coefficient| {
+            let (n, d) = c.exact()?.parts();
+            let root = |x: i64| Some((x as f64).sqrt().round() as i64).filter(|r| r.checked_mul(*r) == Some(x));
+            Ratio::new(root(n)?.into(), root(d)?.into())
+        };
+        let mut root: Poly = Vec::new();
+        for (factors, c) in poly {
+            if factors.iter().all(|f| f.1.is_even()) {
+                let halves = factors.iter().map(|f| Some((f.0, f.1.times(Ratio::HALF)?))).collect::<Option<_>>()?;
+                root.push((halves, Coefficient::Exact(root_of(*c)?)));
+            }
+        }
+        if root.len() < 2 || root.len() * (root.len() + 1) / 2 != poly.len() {
+            return None;
+        }
+        let cross = |a: &[Factor], b: &[Factor]| {
+            let product = joined(a, b)?;
+            poly.iter().find(|term| term.0 == product).map(|term| term.1)
+        };
+        for i in 1..root.len() {
+            if cross(&root[0].0, &root[i].0)?.is_negative() {
+                root[i].1 = root[i].1.negated();
+            }
+        }
+        let two = Coefficient::whole(2);
+        for i in 0..root.len() {
+            for j in i + 1..root.len() {
+                if cross(&root[i].0, &root[j].0)? != root[i].1.times(root[j].1).times(two) {
+                    return None;
+                }
+            }
+        }
+        let inner = (*self.factor(&root)).clone();
+        let cost = inner.cost + 1;
+        Some(Product {
+            number: Coefficient::ONE,
+            factors: vec![(Form::Sum(inner.into_terms()), Ratio::whole(2))],
+            cost,
+        })
+    }
+}
+
+fn common_factors(poly: &Poly) -> Vec<Factor> {
+    let mut common = poly[0].0.clone();
+    for (factors, _) in poly {
+        let exponent = |id| factors.iter().find(|f| f.0 == id).map_or(Ratio::ZERO, |f| f.1);
+        common.iter_mut().for_each(|f| f.1 = shared(f.1, exponent(f.0)));
+    }
+    common.retain(|f| !f.1.is_zero());
+    common
+}
+
+/// The sum over a single term.
+fn divided(poly: &Poly, factors: &[Factor], number: Coefficient) -> Poly {
+    let inverse = inverted(factors);
+    let less = |factors: &[Factor]| joined(factors, &inverse).unwrap_or_default();
+    let mut rest: Poly = poly.iter().map(|(f, c)| (less(f), c.over(number))).collect();
+    rest.sort_by(|a, b| a.0.cmp(&b.0));
+    rest
+}
+
+/// The exponent that can be pulled out of two.
+fn shared(a: Ratio, b: Ratio) -> Ratio {
+    match (a.signum(), b.signum()) {
+        (1, 1) => a.min(b),
+        (-1, -1) => a.max(b),
+        _ => Ratio::ZERO,
+    }
+}
+
+fn proportional(a: &Poly, b: &Poly) -> bool {
+    let near = |x: Coefficient, y: Coefficient| x == y || (x.value() - y.value()).abs() <= 1e-14 * x.value().abs();
+    a.iter().zip(b).all(|(x, y)| near(x.1, y.1))
+}
+
+/// The number that, pulled out, leaves the least to read; negative where all terms are.
+fn best_number(poly: &Poly) -> Coefficient {
+    if let [only] = &poly[..] {
+        return only.1;
+    }
+    let sign = if poly.iter().all(|term| term.1.is_negative()) { -1 } else { 1 };
+    let mut candidates = vec![Coefficient::ONE];
+    let exact: Option<Vec<Ratio>> = poly.iter().map(|term| term.1.exact().map(Ratio::abs)).collect();
+    let common = exact.and_then(|all| all.into_iter().try_fold(Ratio::ZERO, Ratio::common));
+    candidates.extend(common.map(Coefficient::Exact));
+    for (_, c) in poly {
+        if candidates.len() < 10 && !candidates.contains(&c.abs()) {
+            candidates.push(c.abs());
+        }
+    }
+    let cost = |by: &Coefficient| {
+        number_cost(*by) + poly.iter().map(|term| number_cost(term.1.abs().over(*by))).sum::<usize>()
+    };
+    let best = candidates.into_iter().min_by_key(cost).unwrap_or(Coefficient::ONE);
+    best.times(Coefficient::whole(sign))
+}

@@ -1,0 +1,1 @@
+"""Is my equation right? Statements of a person against the mechanics of a model."""

@@ -1,0 +1,257 @@
+"""The characters of a statement, plain or LaTeX, as one row of glyphs."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from ...model.names import nearest
+from .alphabet import LATEX_WORDS, NAMES, dots, folded, plain
+from .errors import Span, StatementError
+
+
+class Kind(Enum):
+    """What a glyph is."""
+
+    WORD = "a letter"
+    DIGIT = "a digit"
+    LOW = "a piece of a name that cannot stand alone: an underscore, a subscript"
+    PRIME = "a prime"
+    RAISED = "an exponent, as in R²"
+    SIGN = "a sign"
+    SPACE = "a blank"
+    LINE = "the end of a line"
+
+
+@dataclass(frozen=True)
+class Glyph:
+    """A character or LaTeX command: its plain spelling, its place, the dots above it, and whether it is Greek."""
+
+    kind: Kind
+    text: str
+    span: Span
+    dots: int = 0
+    greek: bool = False
+
+
+_SAME = {
+    **dict.fromkeys("−–‐‒﹣", "-"),
+    **dict.fromkeys("⋅∙•", "·"),
+    **{"∗": "*", "⨯": "×", "∧": "×", "÷": "/", "⁄": "/", "≤": "<=", "≥": ">=", "√": "sqrt", "|": "|", "≔": "="},
+}
+_FRACTIONS = {"½": "(1/2)", "¼": "(1/4)", "¾": "(3/4)", "⅓": "(1/3)", "⅔": "(2/3)", "⅛": "(1/8)"}
+_COMMANDS = {
+    **{
+        "cdot": "·",
+        "times": "×",
+        "wedge": "×",
+        "ast": "*",
+        "le": "<=",
+        "leq": "<=",
+        "ge": ">=",
+        "geq": ">=",
+        "lt": "<",
+        "gt": ">",
+    },
+    **{"frac": "frac", "tfrac": "frac", "dfrac": "frac", "sqrt": "sqrt", "{": "(", "}": ")", "lbrack": "[", "rbrack": "]"},
+    **{"circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
+}
+_DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
+_CLOTHES = {
+    *(
+        "vec",
+        "hat",
+        "mathbf",
+        "boldsymbol",
+        "bm",
+        "mathrm",
+        "bar",
+        "underline",
+        "overrightarrow",
+        "mathit",
+        "operatorname",
+        "text",
+    ),
+    *("widehat", "mathsf", "textbf", "overline", "tilde", "pmb"),
+}
+_NOTHING = {
+    *[",", "!", ";", ":", "(", ")", "[", "]", ">"],
+    "left",
+    "right",
+    "big",
+    "Big",
+    "bigl",
+    "bigr",
+    "Bigl",
+    "Bigr",
+    "displaystyle",
+    "limits",
+}
+_FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "log", "arcsin", "arccos", "arctan"}
+_COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
+_ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
+_NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
+_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)")
+
+
+def glyphs(text: str) -> list[Glyph]:
+    """All glyphs of a statement. Comments and labels in front of a colon read as blanks. Raises ``StatementError``."""
+    bare = _LABEL.sub(_blank, _COMMENT.sub(_blank, text))
+    try:
+        return _Reader(bare).all()
+    except StatementError as error:
+        raise error.within(text) from None
+
+
+def _blank(found: re.Match[str]) -> str:
+    return " " * len(found[0])
+
+
+class _Reader:
+    def __init__(self, text: str) -> None:
+        self.text, self.at, self.matrices = text, 0, 0
+
+    def all(self) -> list[Glyph]:
+        out: list[Glyph] = []
+        while self.at < len(self.text):
+            found = self.next()
+            if out and out[-1].text == "sum" and [g.kind for g in found] == [Kind.SPACE]:
+                continue  # Σ F is one letter
+            out.extend(found)
+        return out
+
+    def next(self) -> list[Glyph]:
+        """The glyphs of what begins here; none where it is only dress."""
+        start, char = self.at, self.text[self.at]
+        if char == "\\":
+            return self.command()
+        if number := _NUMBER.match(self.text, start):
+            # A number at once behind a letter is the index of the letter; the tokens decide.
+            self.at = number.end()
+            return [Glyph(Kind.DIGIT, number[0], (start, self.at))]
+        self.at += 1
+        while self.at < len(self.text) and unicodedata.combining(self.text[self.at]):
+            self.at += 1
+        whole = self.text[start : self.at]
+        if char == "_":
+            return self.low(start)
+        if char == "&" and not self.matrices:
+            return []
+        return [_plain_glyph(whole, (start, self.at))]
+
+    def low(self, start: int) -> list[Glyph]:
+        """A subscript: what stands in braces is one piece of the name."""
+        if self.text[self.at : self.at + 1] != "{":
+            return [Glyph(Kind.LOW, "", (start, self.at))]
+        inner = "".join(g.text for g in self.group() if g.kind is not Kind.SPACE)
+        span = (start, self.at)
+        return [Glyph(Kind.LOW, "", span), Glyph(Kind.LOW, folded(inner), span)]
+
+    def group(self) -> list[Glyph]:
+        """The glyphs of a braced group, or of the one thing that stands here."""
+        self.skip()
+        if self.at >= len(self.text):
+            raise StatementError(
+                "something is missing at the end", (self.at - 1, self.at), "LaTeX commands want `{…}` behind them"
+            )
+        if self.text[self.at] != "{":
+            return self.one()
+        open_, out = self.at, []
+        self.at += 1
+        while self.text[self.at : self.at + 1] != "}":
+            if self.at >= len(self.text):
+                raise StatementError("a `{` is never closed", (open_, open_ + 1))
+            if self.text[self.at] == "{":
+                out += self.braced()
+            else:
+                out += self.next()
+        self.at += 1
+        return out
+
+    def one(self) -> list[Glyph]:
+        """One thing that is an argument without braces: of 12 only the 1."""
+        if self.text[self.at].isdecimal():
+            self.at += 1
+            return [Glyph(Kind.DIGIT, self.text[self.at - 1], (self.at - 1, self.at))]
+        return self.next()
+
+    def braced(self) -> list[Glyph]:
+        """A group or one thing, with its braces."""
+        self.skip()
+        start = self.at
+        inner = self.group()
+        return [Glyph(Kind.SIGN, "{", (start, start + 1)), *inner, Glyph(Kind.SIGN, "}", (self.at - 1, self.at))]
+
+    def skip(self) -> None:
+        while self.text[self.at : self.at + 1].isspace():
+            self.at += 1
+
+    def command(self) -> list[Glyph]:
+        start = self.at
+        if found := _ENVIRONMENT.match(self.text, start):
+            return self.environment(found)
+        found = _COMMAND.match(self.text, start)
+        if not found:
+            raise StatementError("a `\\` with nothing behind it", (start, start + 1))
+        self.at = found.end()
+        word, span = found[0][1:], (start, found.end())
+        if word in _DOTS:
+            return _dotted(self.group(), _DOTS[word])
+        if word in _CLOTHES:
+            return self.group()
+        if word in LATEX_WORDS:
+            greek = word not in ("ell", "imath", "jmath", "sum", "prime")
+            return [Glyph(Kind.PRIME if word == "prime" else Kind.WORD, LATEX_WORDS[word], span, greek=greek)]
+        return self.sign(word, span)
+
+    def sign(self, word: str, span: Span) -> list[Glyph]:
+        if word == "\\":
+            return [Glyph(Kind.SIGN, ";", span) if self.matrices else Glyph(Kind.LINE, "\n", span)]
+        if word in _FUNCTIONS:
+            return [Glyph(Kind.SIGN, "function:" + word, span)]
+        if word in _NOTHING or word.isspace():
+            return [Glyph(Kind.SPACE, " ", span)]
+        if word not in _COMMANDS:
+            near = nearest(word, [*_COMMANDS, *LATEX_WORDS, *_FUNCTIONS, *_DOTS])
+            hint = f"did you mean `\\{near}`?" if near else "Greek letters, \\frac, \\sqrt, \\dot, \\cdot, \\times … are"
+            raise StatementError(f"`\\{word}` is not known here", span, hint)
+        sign = Glyph(Kind.SPACE if _COMMANDS[word] == " " else Kind.SIGN, _COMMANDS[word], span)
+        return [sign, *self.braced(), *self.braced()] if sign.text == "frac" else [sign]
+
+    def environment(self, found: re.Match[str]) -> list[Glyph]:
+        self.at = found.end()
+        if not found[2].endswith("matrix") and found[2] != "array":
+            return [Glyph(Kind.SPACE, " ", found.span())]
+        begins = found[1] == "begin"
+        self.matrices += 1 if begins else -1
+        return [Glyph(Kind.SIGN, "matrix[" if begins else "]", found.span())]
+
+
+def _dotted(inner: list[Glyph], count: int) -> list[Glyph]:
+    """The group with the dots on its first letter."""
+    first = next((i for i, g in enumerate(inner) if g.kind is Kind.WORD), None)
+    return [replace(g, dots=g.dots + count) if i == first else g for i, g in enumerate(inner)]
+
+
+def _plain_glyph(char: str, span: Span) -> Glyph:
+    """The glyph of one character with its marks."""
+    base = unicodedata.normalize("NFD", char)[0]
+    form = unicodedata.decomposition(base)
+    if char in "\n\r":
+        return Glyph(Kind.LINE, "\n", span)
+    if char.isspace() or char in "~$":
+        return Glyph(Kind.SPACE, " ", span)
+    if char in _FRACTIONS:
+        return Glyph(Kind.SIGN, _FRACTIONS[char], span)
+    if form.startswith("<super>"):
+        return Glyph(Kind.RAISED, _SAME.get(raised := chr(int(form.split()[1], 16)), raised), span)
+    if form.startswith("<sub>"):
+        return Glyph(Kind.LOW, plain(base), span)
+    if base in "'’′″":
+        return Glyph(Kind.PRIME, NAMES.get(base, base), span)
+    if (base.isalpha() and char not in _SAME) or base == "∑":
+        return Glyph(Kind.WORD, plain(base), span, dots(char), base in NAMES and base not in "ℓıȷΣ∑")
+    return Glyph(Kind.SIGN, _SAME.get(char, char), span)

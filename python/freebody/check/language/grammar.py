@@ -1,0 +1,385 @@
+"""One line of tokens as a tree: sums, products, functions, columns and matrices; see ``parser`` for the rules."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Sequence
+
+from ...model import units
+from ...model.errors import Complaint
+from .alphabet import folded
+from .errors import Span, StatementError
+from .evaluate import ARGUMENTS
+from .nodes import (
+    Call,
+    Column,
+    Cross,
+    Dot,
+    Equation,
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Unit,
+)
+from .tokens import Names, Token
+
+RELATIONS = ("=", "<=", ">=", "<", ">")
+_ADDS = ("+", "-")
+SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
+_BEGINS = ("number", "letter", "function", "(", "[", "{", "frac", "matrix[", "|")
+CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
+_UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
+_UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_]+|°)(?:\^-?\d|[²³])?")
+
+
+class Line:
+    """One line of tokens; each method reads what its name says and leaves ``at`` behind it."""
+
+    def __init__(self, row: Sequence[Token], names: Names, text: str) -> None:
+        self.row, self.names, self.text, self.at = row, names, text, 0
+
+    @property
+    def now(self) -> Token:
+        return self.row[self.at]
+
+    def take(self) -> Token:
+        self.at += 1
+        return self.row[self.at - 1]
+
+    def expect(self, kind: str) -> Token:
+        if self.now.kind == kind:
+            return self.now if kind == "end" else self.take()
+        if self.now.kind == "end":
+            raise StatementError(f"it ends where a `{kind}` is missing", self.end())
+        if kind == "end" and self.now.kind in (")", "]", "}"):
+            raise StatementError(f"a `{self.now.text}` that was never opened", self.now.span)
+        expected = "the end" if kind == "end" else f"`{kind}`"
+        raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span)
+
+    def end(self) -> Span:
+        """The last character of the line."""
+        last = self.row[max(self.at - 1, 0)].span[1]
+        return (max(last - 1, 0), last)
+
+    def span(self, first: Node | Token) -> Span:
+        """From a node to where the reading stands."""
+        return (first.span[0], self.row[max(self.at - 1, 0)].span[1])
+
+    # --- lines ---------------------------------------------------------------------------------
+
+    def line(self) -> list[Equation]:
+        """The equations of a line; a = b = c is two."""
+        left, out = self.sum(), []
+        while self.now.kind in RELATIONS:
+            relation = self.take().kind
+            right = self.sum()
+            out.append(Equation(left, right, relation, span=(left.span[0], right.span[1])))
+            left = right
+        self.expect("end")
+        if not out:
+            raise StatementError("this is no equation: it has no `=`", left.span, "write both sides, like `m*a = F`")
+        return out
+
+    # --- levels, loose to tight ----------------------------------------------------------------
+
+    def sum(self) -> Node:
+        first = self.term()
+        found = [first]
+        while self.now.kind in _ADDS:
+            found.append(self.term())
+        return first if len(found) == 1 else Sum(tuple(found), span=self.span(first))
+
+    def term(self) -> Node:
+        """A term with its sign."""
+        return self.signed(lambda: self.chain("·", Dot, lambda: self.chain("×", Cross, self.product)))
+
+    def signed(self, inner: Callable[[], Node]) -> Node:
+        if self.now.kind not in _ADDS:
+            return inner()
+        sign = self.take()
+        of = self.signed(inner)
+        return Negative(of, span=self.span(sign)) if sign.kind == "-" else of
+
+    def chain(self, sign: str, node: type[Dot] | type[Cross], inner: Callable[[], Node]) -> Node:
+        left = inner()
+        while self.now.kind == sign or (sign == "·" and self.now.kind == "."):
+            self.take()
+            left = node(left, self.signed(inner), span=self.span(left))
+        return left
+
+    def product(self) -> Node:
+        """Factors side by side, with ``*`` and ``/``, from left to right."""
+        factors = [self.factor()]
+        while True:
+            if unit := self.unit(factors[-1]):
+                factors.append(unit)
+            elif self.now.kind == "/":
+                self.take()
+                bottom = self.signed(self.factor)
+                top = _product(factors)
+                factors = [Quotient(top, bottom, span=self.span(top))]
+            elif self.now.kind == "*":
+                self.take()
+                factors.append(self.signed(self.factor))
+            elif self.now.kind in _BEGINS and not self.closes_bars():
+                if self.now.kind == "number":
+                    hint = "write `*` between them, or `,` between the entries of a matrix"
+                    raise StatementError(f"the number {self.now.text} stands behind a factor", self.now.span, hint)
+                factors.append(self.factor())
+            else:
+                return _product(factors)
+
+    def closes_bars(self) -> bool:
+        """Whether a bar here is the second one of |a|."""
+        return self.now.kind == "|" and sum(t.kind == "|" for t in self.row[: self.at]) % 2 == 1
+
+    def factor(self) -> Node:
+        base = self.primary()
+        while True:
+            if self.now.kind == "raised":
+                token = self.take()
+                base = self.power(base, self.raised(token))
+            elif self.now.kind == "^":
+                self.take()
+                base = self.power(base, self.exponent())
+            else:
+                return base
+
+    def power(self, base: Node, exponent: Node) -> Node:
+        if isinstance(base, Matrix | Column) and exponent in (Letter("T"), Letter("⊤")):
+            return _transposed(base)
+        return Power(base, exponent, span=self.span(base))
+
+    def raised(self, token: Token) -> Node:
+        """The exponent that small figures are."""
+        text = token.text
+        if text.lstrip("-").isdecimal():
+            number = Number(float(text.lstrip("-")), text.lstrip("-"), span=token.span)
+            return Negative(number, span=token.span) if text.startswith("-") else number
+        return Letter(text, span=token.span)
+
+    def exponent(self) -> Node:
+        return self.signed(self.factor)
+
+    # --- the smallest pieces -------------------------------------------------------------------
+
+    def primary(self) -> Node:
+        token = self.now
+        if token.kind == "number":
+            self.take()
+            return Number(float(token.text), token.text, span=token.span)
+        if token.kind == "letter":
+            self.take()
+            return self.letter(token)
+        if token.kind == "function":
+            return self.call()
+        if token.kind in ("(", "{"):
+            return self.group()
+        if token.kind in ("[", "matrix["):
+            return self.matrix()
+        if token.kind == "frac":
+            self.take()
+            top, bottom = self.group(), self.group()
+            return Quotient(top, bottom, span=self.span(token))
+        if token.kind == "|":
+            self.take()
+            inside = self.sum()
+            self.expect("|")
+            return Call("abs", (inside,), span=self.span(token))
+        raise self.misplaced(token)
+
+    def misplaced(self, token: Token) -> StatementError:
+        if token.kind == "end":
+            return StatementError("something is missing at the end", self.end(), "a number, a letter or a bracket is expected")
+        if token.kind in (*SIGNED, ")", "]", "}", ",", ";", "^"):
+            return StatementError(f"something is missing before `{token.text}`", token.span)
+        return StatementError(f"`{token.text}` has no place in an equation", token.span)
+
+    def letter(self, token: Token) -> Node:
+        """A letter; written as a function of time, θ(t), it is the same."""
+        if [t.text for t in self.row[self.at : self.at + 3]] == ["(", "t", ")"] and self.now.attached:
+            self.at += 3
+        if token.text == "pi" and not self.names.find("pi"):
+            return Number(math.pi, "pi", span=token.span)
+        return Letter(token.text, token.dots, span=self.span(token))
+
+    def group(self) -> Node:
+        """What is in brackets: an expression, or a column."""
+        open_ = self.take()
+        items = [self.sum()]
+        while self.now.kind in (",", ";"):
+            self.take()
+            items.append(self.sum())
+        self.expect(CLOSES[open_.kind])
+        return items[0] if len(items) == 1 else Column(tuple(items), span=self.span(open_))
+
+    def matrix(self) -> Node:
+        """[a, b; c, d], [[a, b], [c, d]], or an expression in square brackets."""
+        open_, start = self.take(), self.at
+        rows = self.nested() or self.rows(start, "&" if open_.kind == "matrix[" else ",")
+        self.expect("]")
+        span = self.span(open_)
+        if len({len(row) for row in rows}) > 1:
+            raise StatementError("the rows of this matrix have different lengths", span, "put `;` between the rows")
+        if rows == [(rows[0][0],)]:
+            return rows[0][0]
+        if len(rows[0]) == 1:
+            return Column(tuple(row[0] for row in rows), span=span)
+        return Matrix(tuple(rows), span=span)
+
+    def rows(self, start: int, comma: str) -> list[tuple[Node, ...]]:
+        self.at = start
+        rows: list[tuple[Node, ...]] = []
+        while not rows or self.now.kind == ";":
+            if rows:
+                self.take()
+            if rows and self.now.kind == "]":
+                break
+            row = [self.sum()]
+            while self.now.kind == comma:
+                self.take()
+                row.append(self.sum())
+            rows.append(tuple(row))
+        return rows
+
+    def nested(self) -> list[tuple[Node, ...]]:
+        """Rows that have brackets of their own; empty where they have none."""
+        rows: list[tuple[Node, ...]] = []
+        while self.now.kind == "[":
+            self.take()
+            row = [self.sum()]
+            while self.now.kind == ",":
+                self.take()
+                row.append(self.sum())
+            if self.now.kind != "]" or self.row[self.at + 1].kind not in (",", ";", "]"):
+                return []
+            self.take()
+            rows.append(tuple(row))
+            if self.now.kind in (",", ";"):
+                self.take()
+        return rows
+
+    # --- functions -----------------------------------------------------------------------------
+
+    def call(self) -> Node:
+        token = self.take()
+        power = self.function_power(token)
+        arguments = self.arguments(token)
+        span = self.span(token)
+        if token.text in ("cross", "dot"):
+            return (Cross if token.text == "cross" else Dot)(*arguments, span=span)
+        if token.text == "diff":
+            return self.derived(arguments, span)
+        found = Call(token.text, arguments, span=span)
+        return Power(found, power, span=span) if power else found
+
+    def function_power(self, token: Token) -> Node | None:
+        """The 2 of sin²θ, sin^2 θ."""
+        if self.now.kind not in ("raised", "^"):
+            return None
+        sign = self.take()
+        power = self.raised(sign) if sign.kind == "raised" else self.exponent()
+        if isinstance(power, Negative):
+            hint = f"write `a{token.text}(…)` or `1/{token.text}(…)`"
+            raise StatementError(f"`{token.text}` to a negative power has two meanings", self.span(token), hint)
+        return power
+
+    def arguments(self, token: Token) -> tuple[Node, ...]:
+        found = self.bracketed() if self.now.kind in ("(", "[", "{") else [self.bare_argument(token)]
+        wanted = {"cross": (2,), "dot": (2,), "diff": (2, 3)}.get(token.text, (ARGUMENTS.get(token.text, 1),))
+        if len(found) not in wanted:
+            count = " or ".join(map(str, wanted))
+            raise StatementError(f"`{token.text}` takes {count} in its brackets, not {len(found)}", self.span(token))
+        return tuple(found)
+
+    def bracketed(self) -> list[Node]:
+        open_ = self.take()
+        items = [self.sum()]
+        while self.now.kind == ",":
+            self.take()
+            items.append(self.sum())
+        self.expect(CLOSES[open_.kind])
+        return items
+
+    def bare_argument(self, token: Token) -> Node:
+        """One letter, a number before it and a ``t`` directly behind it."""
+        sign = self.take() if self.now.kind == "-" else None
+        if self.now.kind not in ("number", "letter", "frac", "function"):
+            raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
+        factors = [self.primary()]
+        if isinstance(factors[0], Number):
+            if unit := self.unit(factors[0]):
+                factors.append(unit)
+            elif self.now.kind == "letter" and token.text != "sqrt":
+                factors.append(self.primary())
+        if self.now.kind == "letter" and self.now.text == "t" and self.now.attached:
+            factors.append(self.primary())
+        found = _product(factors)
+        return Negative(found, span=self.span(sign)) if sign else found
+
+    def derived(self, arguments: tuple[Node, ...], span: Span) -> Node:
+        """diff(θ, t) and diff(θ, t, 2) of a letter."""
+        letter, time, *rest = arguments
+        count = int(rest[0].value) if rest and isinstance(rest[0], Number) else 1
+        if not isinstance(letter, Letter) or time != Letter("t"):
+            raise StatementError("only letters are differentiated here, by t", span, "like `diff(theta, t, 2)`")
+        return Letter(letter.name, letter.dots + count, span=span)
+
+    # --- units ---------------------------------------------------------------------------------
+
+    def unit(self, before: Node) -> Unit | None:
+        """A unit behind a number or a bracket: words that are units, not all of them letters that are known."""
+        after_bracket = self.row[self.at - 1].kind in (")", "]")
+        if not (isinstance(before, Number) or after_bracket) or not (self.names.known or self.now.text == "°"):
+            return None
+        start = self.row[self.at - 1].span[1]
+        if upright := _UPRIGHT.match(self.text, start):
+            return self.unit_of(upright[1].replace(r"\cdot", "·"), start, upright.end())
+        for end in reversed(self.unit_ends(start)):
+            if found := self.unit_of(self.text[start:end], start, end):
+                return found
+        return None
+
+    def unit_ends(self, start: int) -> list[int]:
+        """Where a unit that starts here can end: where tokens do, and some word of it is no letter that is known.
+
+        A known letter goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``.
+        """
+        ends, at, some_unknown = [], start, False
+        stops = {t.span[1] for t in self.row}
+        while found := _UNIT_PIECE.match(self.text, at):
+            known = self.names.find(folded(found["word"])) is not None
+            if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
+                break
+            at, some_unknown = found.end(), some_unknown or not known
+            ends += [at] if at in stops and some_unknown else []
+        return ends
+
+    def unit_of(self, written: str, start: int, end: int) -> Unit | None:
+        """The unit that a text is, read up to ``end``; None where it is none."""
+        try:
+            size = float(units.unit(written).size)
+        except Complaint:
+            return None
+        self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
+        return Unit(size, written.strip(), span=(start + len(written) - len(written.lstrip()), end))
+
+
+def _product(factors: Sequence[Node]) -> Node:
+    if len(factors) == 1:
+        return factors[0]
+    return Product(tuple(factors), span=(factors[0].span[0], factors[-1].span[1]))
+
+
+def _transposed(node: Matrix | Column) -> Node:
+    if isinstance(node, Column):
+        return Matrix((node.items,), span=node.span)
+    rows = tuple(zip(*node.rows, strict=True))
+    return Column(tuple(r[0] for r in rows), span=node.span) if len(rows[0]) == 1 else Matrix(rows, span=node.span)

@@ -1,0 +1,224 @@
+"""Trees back to text: plain text that reads back as the same tree, and LaTeX."""
+
+from __future__ import annotations
+
+import itertools
+import re
+import unicodedata
+from collections.abc import Callable, Sequence
+
+from .alphabet import SIGNS
+from .nodes import (
+    Assignment,
+    Call,
+    Column,
+    Cross,
+    Dot,
+    Equation,
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Program,
+    Quotient,
+    Sum,
+    Unit,
+)
+
+_SUM, _DOT, _CROSS, _PRODUCT, _FACTOR, _ATOM = range(6)
+_RELATIONS = {"=": "=", "<=": r"\le", ">=": r"\ge", "<": "<", ">": ">"}
+_MARKS = ("", "\u0307", "\u0308", "\u20db")
+_LATEX_DOTS = ("", r"\dot", r"\ddot", r"\dddot")
+_LATEX_FUNCTIONS = {"asin": r"\arcsin", "acos": r"\arccos", "atan": r"\arctan"}
+_NAMED = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "min", "max"}
+_NAME = re.compile(r"([A-Za-z]+?)(?:_(.*?)|(\d.*?))?('*)")
+
+
+def spell(node: Node) -> str:
+    """Plain text: ``l*thetaddot = -g*sin(theta)``. ``parse`` reads it back as the same tree."""
+    match node:
+        case Program(lines=lines):
+            return "\n".join(spell(line) for line in lines)
+        case Assignment(name=left, expression=right):
+            return f"{spell(left)} = {spell(right)}"
+        case Equation(left=left, right=right, relation=relation):
+            return f"{spell(left)} {relation} {spell(right)}"
+    return _plain(node, _SUM)
+
+
+def latex(node: Node) -> str:
+    """LaTeX, without dollar signs: ``l\\,\\ddot{\\theta} = -g\\,\\sin\\theta``."""
+    match node:
+        case Program(lines=lines):
+            return r" \\ ".join(latex(line) for line in lines)
+        case Assignment(name=left, expression=right):
+            return f"{latex(left)} = {latex(right)}"
+        case Equation(left=left, right=right, relation=relation):
+            return f"{latex(left)} {_RELATIONS[relation]} {latex(right)}"
+    return _tex(node, _SUM)
+
+
+def level(node: Node) -> int:
+    """How tightly a node holds together; looser ones need brackets inside tighter ones."""
+    match node:
+        case Sum() | Negative():
+            return _SUM
+        case Dot():
+            return _DOT
+        case Cross():
+            return _CROSS
+        case Product() | Quotient():
+            return _PRODUCT
+        case Power():
+            return _FACTOR
+        case Number(value=value) if value < 0:
+            return _SUM
+    return _ATOM
+
+
+def _plain(node: Node, least: int) -> str:
+    text = _plain_inside(node)
+    return f"({text})" if level(node) < least else text
+
+
+def _plain_inside(node: Node) -> str:
+    match node:
+        case Number(value=value, text=text):
+            return text or f"{value:.12g}"
+        case Unit(text=text):
+            return text
+        case Letter():
+            return _letter(node)
+        case Sum(terms=terms):
+            return _signed(terms, lambda term: _plain(term, _DOT))
+        case Negative(of=of):
+            return "-" + _plain(of, _DOT)
+        case Dot(left=left, right=right):
+            return f"{_plain(left, _DOT)} · {_plain(right, _CROSS)}"
+        case Cross(left=left, right=right):
+            return f"{_plain(left, _CROSS)} × {_plain(right, _PRODUCT)}"
+        case Product(factors=factors):
+            return _times(factors)
+        case Quotient(top=top, bottom=bottom):
+            return f"{_plain(top, _PRODUCT)}/{_plain(bottom, _FACTOR)}"
+        case Power(base=base, exponent=exponent):
+            return f"{_plain(base, _ATOM)}^{_plain(exponent, _ATOM)}"
+        case Call(function=function, arguments=arguments):
+            return f"{function}({_row(arguments)})"
+        case Column(items=items):
+            return f"({_row(items)})"
+        case Matrix(rows=rows):
+            return "[" + "; ".join(_row(row) for row in rows) + "]"
+    raise TypeError(f"{type(node).__name__} has no spelling")
+
+
+def _row(items: Sequence[Node]) -> str:
+    return ", ".join(_plain(item, _SUM) for item in items)
+
+
+def _signed(terms: Sequence[Node], spelled: Callable[[Node], str]) -> str:
+    """Terms with their signs between them."""
+    out = ""
+    for term in terms:
+        minus = isinstance(term, Negative)
+        sign = ("-" if minus else "") if not out else (" - " if minus else " + ")
+        out += sign + spelled(term.of if minus else term)
+    return out
+
+
+def _times(factors: Sequence[Node]) -> str:
+    first = factors[0]
+    out = _plain(first, _FACTOR if isinstance(first, Product) else _PRODUCT)
+    for factor in factors[1:]:
+        out += " " + factor.text if isinstance(factor, Unit) else "*" + _plain(factor, _FACTOR)
+    return out
+
+
+def _letter(letter: Letter) -> str:
+    """``thetaddot``; a name with signs in it has its dots on top: Ḣ/E."""
+    if re.fullmatch(r"\w+'*", letter.name):
+        return letter.key
+    return unicodedata.normalize("NFC", letter.name[0] + _MARKS[letter.dots] + letter.name[1:])
+
+
+# --- LaTeX ---------------------------------------------------------------------------------------
+
+
+def _tex(node: Node, least: int) -> str:
+    text = _tex_inside(node)
+    return rf"\left({text}\right)" if level(node) < least and not isinstance(node, Quotient) else text
+
+
+def _tex_inside(node: Node) -> str:
+    match node:
+        case Number(text="pi"):
+            return r"\pi"
+        case Unit(text=text):
+            return rf"\mathrm{{{text}}}"
+        case Letter():
+            return _tex_letter(node)
+        case Sum(terms=terms):
+            return _signed(terms, lambda term: _tex(term, _DOT))
+        case Negative(of=of):
+            return "-" + _tex(of, _DOT)
+        case Dot(left=left, right=right):
+            return rf"{_tex(left, _DOT)} \cdot {_tex(right, _CROSS)}"
+        case Cross(left=left, right=right):
+            return rf"{_tex(left, _CROSS)} \times {_tex(right, _PRODUCT)}"
+        case Product(factors=factors):
+            return _tex_times(factors)
+        case Quotient(top=top, bottom=bottom):
+            return rf"\frac{{{_tex(top, _SUM)}}}{{{_tex(bottom, _SUM)}}}"
+        case Power(base=Call(function=function, arguments=arguments), exponent=exponent) if function in _NAMED and not isinstance(
+            exponent, Negative
+        ):
+            return rf"\{function}^{{{_tex(exponent, _SUM)}}}{_tex_arguments(arguments)}"
+        case Power(base=base, exponent=exponent):
+            inside = _tex(base, _ATOM)
+            inside = rf"\left({inside}\right)" if isinstance(base, Quotient | Call) else inside
+            return rf"{inside}^{{{_tex(exponent, _SUM)}}}"
+        case Call(function="sqrt", arguments=(of,)):
+            return rf"\sqrt{{{_tex(of, _SUM)}}}"
+        case Call(function=function, arguments=arguments):
+            name = rf"\{function}" if function in _NAMED else _LATEX_FUNCTIONS.get(function, rf"\operatorname{{{function}}}")
+            return name + _tex_arguments(arguments)
+        case Column(items=items):
+            return _tex_matrix([(item,) for item in items])
+        case Matrix(rows=rows):
+            return _tex_matrix(rows)
+    return _plain_inside(node)
+
+
+def _tex_arguments(arguments: Sequence[Node]) -> str:
+    if len(arguments) == 1 and isinstance(arguments[0], Letter):
+        return "{" + _tex(arguments[0], _ATOM) + "}"
+    return r"\left(" + ", ".join(_tex(a, _SUM) for a in arguments) + r"\right)"
+
+
+def _tex_times(factors: Sequence[Node]) -> str:
+    """Factors with thin spaces; a dot between figures."""
+    out = _tex(factors[0], _FACTOR if isinstance(factors[0], Product) else _PRODUCT)
+    for before, factor in itertools.pairwise(factors):
+        figures = isinstance(factor, Number) or (isinstance(factor, Power) and isinstance(factor.base, Number))
+        between = r" \cdot " if figures and isinstance(before, Number) else r"\,"
+        out += between + _tex(factor, _FACTOR)
+    return out
+
+
+def _tex_matrix(rows: Sequence[Sequence[Node]]) -> str:
+    inside = r" \\ ".join(" & ".join(_tex(item, _SUM) for item in row) for row in rows)
+    return rf"\begin{{bmatrix}} {inside} \end{{bmatrix}}"
+
+
+def _tex_letter(letter: Letter) -> str:
+    """A letter with Greek, index and dots: ``theta_1`` → ``\\theta_{1}``."""
+    found = _NAME.fullmatch(letter.name)
+    if not found:
+        return rf"\mathrm{{{letter.name}}}" if not letter.dots else rf"{_LATEX_DOTS[letter.dots]}{{\mathrm{{{letter.name}}}}}"
+    base = "\\" + found[1] if found[1] in SIGNS else found[1] if len(found[1]) == 1 else rf"\mathrm{{{found[1]}}}"
+    index = found[2] or found[3]
+    dotted = rf"{_LATEX_DOTS[letter.dots]}{{{base}}}" if letter.dots else base
+    return dotted + (f"_{{{index}}}" if index else "") + found[4]

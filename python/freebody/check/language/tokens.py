@@ -1,0 +1,346 @@
+"""From glyphs to tokens: which rows of characters are names, which are several names side by side."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from .alphabet import folded
+from .errors import Span, StatementError
+from .evaluate import FUNCTIONS
+from .glyphs import Glyph, Kind, glyphs
+
+ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}
+CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
+_SUFFIXES = ("dddot", "ddot", "dot", "")
+_ONLY_LETTERS, _WRITE_OUT = "only letters are differentiated here, by t", "write the derivative out, like `m*vdot`"
+_WORDS = {"with", "where", "and"}
+_OPERANDS = {"letter", "number", "raised", ")", "]"}
+_IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
+# r_G1/O, ΣM/O, H_123/A: a label after a stroke that is part of a name, where no declared name decides
+_RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
+# {d^2 θ}{dt^2}
+_FRACTION = re.compile(r"\{d(?:\^\{?(\d)\}?)?([A-Za-z][\w']*)\}\{dt(?:\^\{?\1\}?)?\}")
+
+
+@dataclass(frozen=True)
+class Token:
+    """A piece of a statement. ``kind``: number, letter, function, raised, line, end, or the sign itself.
+
+    ``text``: the name, digits or sign; ``dots``: time derivatives of a letter; ``attached``: no blank before it.
+    """
+
+    kind: str
+    text: str
+    span: Span
+    dots: int = 0
+    attached: bool = False
+
+
+@dataclass(frozen=True)
+class Names:
+    """The letters that are known, by which rows of characters are read: ``mg`` is m·g where m and g are known."""
+
+    known: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, names: Iterable[str]) -> Names:
+        """Known letters, each once."""
+        return cls(tuple(dict.fromkeys(names)))
+
+    def also(self, names: Iterable[str]) -> Names:
+        """These and more."""
+        return Names.of([*self.known, *names])
+
+    @cached_property
+    def by_spelling(self) -> dict[str, str]:
+        """The declared name of each folded spelling; a name that is spelled just so goes first."""
+        return {**{folded(n): n for n in reversed(self.known)}, **{n: n for n in self.known}}
+
+    @cached_property
+    def odd(self) -> list[str]:
+        """Folded names with strokes, points and brackets in them, long ones first."""
+        return sorted((s for s in self.by_spelling if not re.fullmatch(r"[\w']+", s)), key=len, reverse=True)
+
+    @cached_property
+    def primed(self) -> bool:
+        """Whether a prime is part of a name here; otherwise it is a derivative."""
+        return not self.known or any(n.endswith("'") for n in self.known)
+
+    def find(self, spelling: str) -> tuple[str, int] | None:
+        """The name and its number of time derivatives, e.g. of ``thetaddot``; None where it is not known."""
+        for count, suffix in zip((3, 2, 1, 0), _SUFFIXES, strict=True):
+            if spelling in self.by_spelling:
+                return self.by_spelling[spelling], 0
+            stem = spelling.removesuffix(suffix)
+            if suffix and stem != spelling and stem in self.by_spelling:
+                return self.by_spelling[stem], count
+        if not self.primed and (stem := spelling.rstrip("'")) != spelling and stem in self.by_spelling:
+            return self.by_spelling[stem], len(spelling) - len(stem)
+        return None
+
+
+def tokens(text: str, names: Names = Names()) -> list[Token]:
+    """The tokens of a statement, plain or LaTeX, closed by one of kind ``end``. Raises ``StatementError``."""
+    row = glyphs(text)
+    try:
+        return [*_Reader(row, names).all(), Token("end", "", (len(text), len(text)))]
+    except StatementError as error:
+        raise error.within(text) from None
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A name or function in a row of glyphs, up to the glyph ``end``."""
+
+    kind: str
+    name: str
+    dots: int
+    end: int
+
+
+class _Reader:
+    def __init__(self, row: list[Glyph], names: Names) -> None:
+        self.row, self.names, self.at = row, names, 0
+        self.out: list[Token] = []
+        self.blank = True
+        self.best = lru_cache(None)(self._best)
+
+    def all(self) -> list[Token]:
+        while self.at < len(self.row):
+            glyph = self.row[self.at]
+            if glyph.kind is Kind.SPACE:
+                self.at += 1
+                self.blank = True
+            elif glyph.kind in (Kind.WORD, Kind.LOW, Kind.PRIME):
+                self.run()
+            elif glyph.kind is Kind.RAISED:
+                self.raised()
+            else:
+                self.sign(glyph)
+        return self.out
+
+    def put(self, kind: str, text: str, start: int, dots: int = 0) -> None:
+        """A token from the glyph ``start`` to where the reading stands."""
+        span = (self.row[start].span[0], self.row[self.at - 1].span[1])
+        self.out.append(Token(kind, text, span, dots, not self.blank))
+        self.blank = False
+
+    def raised(self) -> None:
+        start = self.at
+        while self.at < len(self.row) and self.row[self.at].kind is Kind.RAISED:
+            self.at += 1
+        self.put("raised", "".join(g.text for g in self.row[start : self.at]), start)
+
+    def sign(self, glyph: Glyph) -> None:
+        start, kind, text = self.at, glyph.text, glyph.text
+        if text == "frac" and (found := self.fraction_derivative()):
+            return self.take([found])
+        self.at += 1
+        if glyph.kind is Kind.DIGIT:
+            kind = "number"
+        elif glyph.kind is Kind.LINE:
+            kind = "line"
+        elif text.startswith("function:"):
+            kind, text = "function", CALLS[text.removeprefix("function:")]
+        elif text == "sqrt":
+            kind = "function"
+        elif text in "<>" and self.row[self.at : self.at + 1] and self.row[self.at].text == "=":
+            self.at += 1
+            kind = text = text + "="
+        elif text == "*" and self.row[self.at : self.at + 1] and self.row[self.at].text == "*":
+            self.at += 1
+            kind = text = "^"
+        elif text.startswith("(") and len(text) > 1:
+            return self.fraction(text, start)
+        self.put(kind, text, start)
+
+    def fraction(self, text: str, start: int) -> None:
+        """A sign like ½ as a quotient in brackets."""
+        for piece in text:
+            self.put("number" if piece.isdecimal() else piece, piece, start)
+
+    # --- names ---------------------------------------------------------------------------------
+
+    def run(self) -> None:
+        """The names that stand side by side from here."""
+        if found := self.derivative():
+            return self.take([found])
+        end = self.run_end(self.at)
+        if self.spelling(self.at, end) in _WORDS and not self.names.find(self.spelling(self.at, end)):
+            return self.take([_Piece("line", "\n", 0, end)])
+        if (end - self.at == 1 and self.row[self.at].text == "x") and self.crosses(end):
+            return self.take([_Piece("×", "×", 0, end)])
+        self.take((self.best(self.at, end) or (0, self.unknown(self.at, end)))[1])
+
+    def take(self, pieces: Iterable[_Piece]) -> None:
+        for piece in pieces:
+            start, self.at = self.at, piece.end
+            self.put(piece.kind, piece.name, start, piece.dots)
+
+    def run_end(self, start: int) -> int:
+        end = start
+        while end < len(self.row) and self.row[end].kind in _IN_NAMES:
+            end += 1
+        return end
+
+    def spelling(self, start: int, end: int) -> str:
+        return "".join(g.text for g in self.row[start:end])
+
+    def marks(self, start: int, end: int) -> int:
+        return sum(g.dots for g in self.row[start:end])
+
+    def crosses(self, end: int) -> bool:
+        """Whether an x between blanks is the sign of a cross product: only where no letter x is known."""
+        if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind not in _OPERANDS:
+            return False
+        after = self.row[end : end + 1]
+        return self.blank and bool(after) and after[0].kind is Kind.SPACE
+
+    def _best(self, start: int, end: int) -> tuple[int, tuple[_Piece, ...]] | None:
+        """The fewest known names that the glyphs from ``start`` to ``end`` are; None where there is no way."""
+        if start >= end:
+            return 0, ()
+        found: list[tuple[int, tuple[_Piece, ...]]] = []
+        for piece in self.pieces(start, end):
+            after = self.best(piece.end, end)
+            if after is not None:
+                found.append((after[0] + 1, (piece, *after[1])))
+        if not found:
+            return None
+        least = min(found, key=lambda f: f[0])
+        rivals = [f for f in found if f[0] == least[0] and f[1][0].end <= end]
+        if len(rivals) > 1 and start == self.at and least[1][0].end <= end:
+            ways = " or ".join("`" + " ".join(p.name for p in way) + "`" for _, way in rivals)
+            span = (self.row[start].span[0], self.row[end - 1].span[1])
+            raise StatementError(f"this can be read as {ways}", span, "put blanks between the letters")
+        return least
+
+    def pieces(self, start: int, end: int) -> list[_Piece]:
+        """The known names and functions that begin at a glyph; one with a stroke in it can reach beyond ``end``."""
+        for name in self.names.odd:
+            if (after := self.matches(start, name)) is not None:
+                return [_Piece("letter", self.names.by_spelling[name], self.marks(start, after), after)]
+        out = []
+        for stop in range(start + 1, end + 1):
+            if (stop < end and self.row[stop].kind in (Kind.LOW, Kind.PRIME)) or self.row[stop - 1].text == "":
+                continue
+            spelling = self.spelling(start, stop)
+            if known := self.names.find(spelling):
+                out.append(_Piece("letter", known[0], known[1] + self.marks(start, stop), stop))
+            elif spelling in CALLS and not self.marks(start, stop) and self.row[start].kind is Kind.WORD:
+                out.append(_Piece("function", CALLS[spelling], 0, stop))
+        return out
+
+    def matches(self, start: int, name: str) -> int | None:
+        """The glyph behind a name with signs in it, where it stands here."""
+        at, left = start, name
+        while left:
+            glyph = self.row[at] if at < len(self.row) else Glyph(Kind.LINE, "\n", (0, 0))
+            text = "" if glyph.kind is Kind.SPACE and ("'" in name or "(" in name) else glyph.text
+            if not left.startswith(text) or not (text or at > start):
+                return None
+            at, left = at + 1, left.removeprefix(text)
+        behind = self.row[at : at + 1]
+        if behind and (behind[0].kind in (Kind.LOW, Kind.PRIME) or (behind[0].kind in _IN_NAMES and name[-1].isalnum())):
+            return None
+        return at
+
+    def unknown(self, start: int, end: int) -> list[_Piece]:
+        """Names that nobody declared: Latin and Greek letters part, and a label after a stroke belongs to the name."""
+        if (after := self.relative(start, end)) is not None:
+            return [_Piece("letter", self.written(start, after), self.marks(start, after), after)]
+        out: list[_Piece] = []
+        for stop in self.parts(start, end):
+            known = self.best(start, stop) if (start, stop) != (self.at, end) else None
+            out += known[1] if known else [self.bare(start, stop)]
+            start = stop
+        return out
+
+    def parts(self, start: int, end: int) -> list[int]:
+        """Where a row of unknown letters changes between Latin and Greek, and its end."""
+        ends, greek = [], self.row[start].greek
+        for i in range(start + 1, end):
+            if self.row[i].kind is Kind.WORD and self.row[i].greek != greek:
+                ends.append(i)
+                greek = self.row[i].greek
+        return [*ends, end]
+
+    def bare(self, start: int, end: int) -> _Piece:
+        """An unknown letter; the word ``dot`` behind it is still a derivative."""
+        spelling, count = self.spelling(start, end), self.marks(start, end)
+        if not spelling.strip("'"):
+            raise StatementError("a mark without a letter before it", self.row[start].span)
+        if spelling in CALLS and not count:
+            return _Piece("function", CALLS[spelling], 0, end)
+        for dots, suffix in zip((3, 2, 1), _SUFFIXES, strict=False):
+            if spelling.endswith(suffix) and spelling != suffix:
+                return _Piece("letter", spelling.removesuffix(suffix), dots + count, end)
+        return _Piece("letter", self.written(start, end), count, end)
+
+    def written(self, start: int, end: int) -> str:
+        """An unknown name as a person would write it plainly: with its underscores."""
+        text = "".join("_" if g.kind is Kind.LOW and not g.text else g.text for g in self.row[start:end])
+        return re.sub("^sum(?=.)", "Σ", text.replace("_/", "/"))
+
+    def relative(self, start: int, end: int) -> int | None:
+        """The glyph behind a name like ``r_G1/O``, or None."""
+        if self.row[end : end + 1] and self.row[end].text == "/":
+            after = self.run_end(end + 1)
+            base = self.spelling(start, end)
+            low = any(g.kind is Kind.LOW for g in self.row[start:end]) or base.removeprefix("sum") in ("H", "M", "L")
+            if low and not self.best(end + 1, after) and _RELATIVE.fullmatch(self.spelling(start, after)):
+                return after
+        elif "/" in self.spelling(start, end):
+            return end
+        return None
+
+    # --- derivatives ---------------------------------------------------------------------------
+
+    def derivative(self) -> _Piece | None:
+        """dθ/dt and d²θ/dt², from a d on."""
+        row, at = self.row, self.at
+        if row[at].text != "d" or row[at].dots:
+            return None
+        order, at = self.order(at + 1)
+        while at < len(row) and row[at].kind is Kind.SPACE:
+            at += 1
+        stroke = next((i for i in range(at, len(row)) if row[i].kind not in _IN_NAMES), len(row))
+        if self.spelling(stroke, stroke + 3) != "/dt":
+            return None
+        again, end = self.order(stroke + 3)
+        if stroke == at:
+            span = (row[self.at].span[0], row[end - 1].span[1])
+            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
+        if again != order or (end < len(row) and row[end].kind in _IN_NAMES):
+            return None
+        spelling = self.spelling(at, stroke)
+        name, dots = self.names.find(spelling) or (spelling, 0)
+        return _Piece("letter", name, dots + order + self.marks(at, stroke), end)
+
+    def fraction_derivative(self) -> _Piece | None:
+        """The same written as a LaTeX fraction, from there on."""
+        inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
+        text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside)
+        if text.startswith("{d}{dt}"):
+            span = (self.row[self.at].span[0], self.row[inside[6]].span[1])
+            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
+        found = _FRACTION.match(text)
+        if not found:
+            return None
+        ends = {0: inside[0]}
+        for i in inside:
+            ends[max(ends) + len(self.row[i].text)] = i + 1
+        name, dots = self.names.find(folded(found[2])) or (found[2], 0)
+        marks = self.marks(self.at, ends[found.end()])
+        return _Piece("letter", name, dots + int(found[1] or 1) + marks, ends[found.end()])
+
+    def order(self, at: int) -> tuple[int, int]:
+        """The order of a derivative written here (1 where nothing is), and the glyph behind it."""
+        written = "".join("^" * (g.kind is Kind.RAISED) + g.text for g in self.row[at : at + 4])
+        if not (found := re.match(r"\^(\d)|\^\{(\d)\}", written)):
+            return 1, at
+        raised = self.row[at].kind is Kind.RAISED
+        return int(found[1] or found[2]), at + found.end() - raised

@@ -1,0 +1,88 @@
+"""The minimal form: as many equations as degrees of freedom, without reactions where a tree or a ladder has such."""
+
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import planar
+import pytest
+from test_smallest import MODELS, connected, null_space, states
+
+import freebody as fb
+from freebody.balances.minimal import minimal_form
+from freebody.balances.show import show
+from freebody.balances.system import problem
+
+SYSTEMS = Path(__file__).parents[2] / "systems"
+KEPT_OUT = {
+    "free four-bar": 2,
+    "free slider-crank": 2,
+}
+"""Reactions that stay in a model that moves; the others need none."""
+
+
+def free_models():
+    return [
+        name for name in MODELS if not any(driven in name for driven in ("driven", "four-bar", "slider", "six")) or "free" in name
+    ]
+
+
+def solved(form, coordinates):
+    unknowns = [*(f"accel({name})" for name in coordinates), *form.stays]
+    rows = np.array([[equation.coefficients.get(name, 0.0) for name in unknowns] for equation in form.equations])
+    return dict(zip(unknowns, np.linalg.solve(rows, [equation.right for equation in form.equations]), strict=True))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", [name for name in free_models() if name != "branched"])
+def test_the_form_gives_the_accelerations_of_the_full_solve(name, seed):
+    given = states(MODELS[name], seed)
+    form = minimal_form(given)
+    assert len(form.stays) == KEPT_OUT.get(name, 0)
+    assert len(form.equations) == len(form.coordinates) + len(form.stays)
+    values = solved(form, form.coordinates)
+    for coordinate in form.coordinates:
+        assert values[f"accel({coordinate})"] == pytest.approx(given[0].accelerations[coordinate], rel=1e-8)
+
+
+@pytest.mark.parametrize("name", ["free four-bar", "free slider-crank"])
+def test_what_is_said_not_to_be_kept_out_is_in_every_set(name):
+    """Fewer loads do not do, whichever they are and whatever the motions of connected sets."""
+    given = problem(states(MODELS[name]))
+    loads = [i for i, unknown in enumerate(given.unknowns) if unknown.load is not None]
+    rest = [i for i, unknown in enumerate(given.unknowns) if unknown.load is None]
+    sums = np.array([given.systems[0].columns[:, list(group)].sum(axis=1) for group in connected(given)])
+    for k in range(KEPT_OUT[name]):
+        for stays in combinations(loads, k):
+            kept, out = [*rest, *stays], [i for i in loads if i not in stays]
+            rows = np.vstack([null_space(group[out]) @ group[kept].T for group in sums])
+            assert np.linalg.matrix_rank(rows, tol=1e-9) < len(kept)
+
+
+def titles(form):
+    return [equation.title for equation in form.equations]
+
+
+def test_textbook_forms_have_their_textbook_names():
+    assert titles(minimal_form(states(lambda rng: planar.chain(rng, 2)))) == [
+        "AMB about B for rod2",
+        "AMB about A for rod1 + rod2",
+    ]
+    assert titles(minimal_form(states(planar.car_on_slope))) == ["AMB about pin for rod", "LMB along slope for block + rod"]
+    assert titles(minimal_form(states(planar.block_on_slope))) == ["LMB along slope for block"]
+    (ladder,) = titles(minimal_form(states(planar.ladder)))
+    assert ladder == "AMB about the point where the lines of floor.Fn and wall.Fn meet for ladder"
+
+
+def test_an_arm_from_a_file_and_how_it_is_told():
+    form = fb.load(SYSTEMS / "EX-ARM" / "model.yaml").minimal_form()
+    assert titles(form) == ["AMB about elbow for forearm", "AMB about shoulder for upper + forearm"]
+    told = show(form)
+    assert "elbow.Fx, elbow.Fy: they act at elbow" in told
+    assert "they are internal to upper + forearm" in told
+
+
+def test_a_mechanism_that_motions_move_has_no_equation_of_motion():
+    form = minimal_form(states(planar.four_bar))
+    assert (form.coordinates, form.equations, form.stays) == ((), (), ())
+    assert "prescribe every acceleration" in show(form)

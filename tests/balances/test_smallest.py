@@ -1,0 +1,236 @@
+"""The smallest set: never beaten by brute force, equal to the full solve, and what a textbook would choose."""
+
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import planar
+import pytest
+
+import freebody as fb
+from freebody.balances.smallest import smallest_set, virtual_power
+from freebody.balances.system import problem
+from freebody.free_body import FreeBodies, Indeterminate
+
+MODELS = {
+    "block on a slope": planar.block_on_slope,
+    "block with a rod": planar.car_on_slope,
+    "ladder": planar.ladder,
+    "double pendulum": lambda rng: planar.chain(rng, 2),
+    "chain of three": lambda rng: planar.chain(rng, 3),
+    "chain of five": lambda rng: planar.chain(rng, 5),
+    "driven chain of three": lambda rng: planar.driven_chain(rng, 3),
+    "driven chain of five": lambda rng: planar.driven_chain(rng, 5),
+    "four-bar": planar.four_bar,
+    "free four-bar": lambda rng: planar.four_bar(rng, driven=False),
+    "slider-crank": planar.slider_crank,
+    "free slider-crank": lambda rng: planar.slider_crank(rng, driven=False),
+    "branched": planar.branched,
+    "free branched": lambda rng: planar.branched(rng, driven=False),
+    "six-bar": planar.watt,
+}
+SYSTEMS = Path(__file__).parents[2] / "systems"
+
+
+def states(make, seed=0, number=4):
+    return [FreeBodies.read(make(np.random.default_rng([seed, k])).text()) for k in range(number)]
+
+
+def connected(problem):
+    """All connected sets of bodies, by trying every set."""
+    touched = [{b for b, column in enumerate(columns) if np.abs(column).max() > 0} for columns in problem.systems[0].columns]
+    pairs = [bodies for unknown, bodies in zip(problem.unknowns, touched, strict=True) if unknown.load is not None]
+    for k in range(1, len(problem.bodies) + 1):
+        for group in combinations(range(len(problem.bodies)), k):
+            reached = {group[0]}
+            for _ in group:
+                reached |= {b for pair in pairs if pair & reached for b in pair if b in group}
+            if len(reached) == k:
+                yield group
+
+
+def null_space(rows):
+    _, sizes, turn = np.linalg.svd(rows)
+    return turn[(sizes > 1e-9).sum() :]
+
+
+def brute(problem, wanted, most):
+    """The least number of unknowns, ``wanted`` among them and no more than ``most``, that are held by as many equations of
+    rigid virtual motions of connected sets, whatever the motions; None if there are no so few."""
+    columns = problem.systems[1].columns
+    columns = columns / np.linalg.norm(columns, axis=(1, 2), keepdims=True)
+    sums = np.array([columns[:, list(group)].sum(axis=1) for group in connected(problem)])
+    others = [i for i in range(len(problem.unknowns)) if i != wanted]
+    for k in range(1, most + 1):
+        for more in combinations(others, k - 1):
+            kept = [wanted, *more]
+            rest = [i for i in others if i not in more]
+            rows = [motion @ group[kept].T for group in sums for motion in null_space(group[rest].reshape(-1, 3))]
+            if rows and np.linalg.matrix_rank(np.array(rows), tol=1e-7) == k:
+                return k
+    return None
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_brute_force_over_all_motions_of_all_sets_never_beats_the_search(name):
+    given = states(MODELS[name])
+    free = problem(given)
+    chosen = range(len(free.unknowns)) if len(free.bodies) < 4 else range(0, len(free.unknowns), 4)
+    for i in chosen:
+        unknown = free.unknowns[i]
+        found = smallest_set(unknown.name, given)
+        number = len(found.equations)
+        assert brute(problem(given, unknown.coordinate), i, number - 1 if number else 3) is None, unknown.name
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("name", MODELS)
+def test_every_set_solved_again_gives_what_the_full_solve_gives(name, seed):
+    given = states(MODELS[name], seed)
+    for unknown in problem(given).unknowns:
+        found = smallest_set(unknown.name, given)
+        assert found.check < 1e-9, unknown.name
+        names = {name for equation in found.equations for name in equation.unknowns}
+        assert len(names) == len(found.equations)
+        assert found.wanted in found.values
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_an_equation_and_its_reasons_name_every_unknown_that_touches_its_bodies_once(name):
+    given = states(MODELS[name])
+    free = given[0]
+    for unknown in problem(given).unknowns:
+        for equation in smallest_set(unknown.name, given).equations:
+            touching = {
+                load.symbol for load in free.loads if load.unknown and any(part.body in equation.bodies for part in load.on)
+            }
+            dropped = [name for item in equation.dropped for name in item.unknowns]
+            told = [name for name in (*equation.unknowns, *dropped) if not name.startswith("accel(")]
+            assert len(told) == len(set(told))
+            assert set(told) == touching
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_an_equation_is_the_balance_of_its_bodies_about_its_point(name):
+    given = states(MODELS[name])
+    free = given[0]
+    for unknown in problem(given).unknowns:
+        for equation in smallest_set(unknown.name, given).equations:
+            names = {load.symbol: load for load in free.loads}
+            for name, coefficient in equation.coefficients.items():
+                if name in names:
+                    unit = names[name].unit(equation.bodies, equation.at if equation.kind == "AMB" else (0.0, 0.0))
+                    told = unit[2] if equation.kind == "AMB" else np.dot(unit[:2], equation.at)
+                    assert coefficient == pytest.approx(told, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_virtual_power_gives_every_unknown_alone(name):
+    given = problem(states(MODELS[name]))
+    full = given.systems[0].values(given.unknowns)
+    for i, value in enumerate(full):
+        assert virtual_power(given, i).right == pytest.approx(value, rel=1e-9, abs=1e-9)
+
+
+def titles(found):
+    return {equation.title for equation in found.equations}
+
+
+def test_the_torque_of_a_four_bar_takes_three_equations_in_it_and_one_pin():
+    found = smallest_set("T", states(planar.four_bar))
+    assert titles(found) == {"AMB about A for coupler", "AMB about C for rocker", "AMB about O for crank + coupler"}
+    assert set(found.values) == {"T.force", "B.Fx", "B.Fy"}
+
+
+def pushed(rng):
+    """A four-bar that a given couple turns."""
+    made = planar.four_bar(rng, driven=False)
+    parts = [("crank", (0, 0), (0.0, 0.0), -3.0), ("ground", (0, 0), (0.0, 0.0), 3.0)]
+    made.load("motor", ("ground", "crank"), parts)
+    return made
+
+
+def test_a_torque_that_is_given_is_found_from_the_motion_that_it_makes():
+    found = smallest_set("motor", states(pushed))
+    assert titles(found) == titles(smallest_set("T", states(planar.four_bar)))
+    assert found.value == pytest.approx(-3.0, rel=1e-12)
+    assert found.known_motion
+
+
+def test_with_the_motion_known_a_reaction_takes_no_acceleration():
+    pendulum = states(lambda rng: planar.chain(rng, 2))
+    found = smallest_set("B.Fx", pendulum, known_motion=True)
+    assert titles(found) == {"LMB along x for rod2"}
+    assert found.check < 1e-9
+
+
+def test_the_torque_at_the_base_of_a_chain_takes_one():
+    found = smallest_set("T1", states(lambda rng: planar.driven_chain(rng, 6)))
+    assert titles(found) == {"AMB about A for rod1 + rod2 + rod3 + rod4 + rod5 + rod6"}
+
+
+def test_a_ladder_turns_by_one_equation_about_the_point_where_its_forces_meet():
+    (equation,) = smallest_set("ladder.angle", states(planar.ladder)).equations
+    free = states(planar.ladder)[0]
+    points = {load.name: load.on[0].point for load in free.loads}
+    np.testing.assert_allclose(equation.at, (points["floor"][0], points["wall"][1]), atol=1e-12)
+    assert equation.constructed
+    assert equation.dropped[0].why == "their lines of action pass through that point"
+
+
+def test_along_a_slope_what_holds_the_block_drops_out():
+    (equation,) = smallest_set("block.x", states(planar.block_on_slope)).equations
+    assert equation.title == "LMB along slope for block"
+    assert {item.unknowns: item.why for item in equation.dropped} == {
+        ("slope.Fn",): "it is perpendicular to slope",
+        ("slope.M",): "it is a couple, which has no part in a force balance",
+    }
+
+
+def test_what_is_zero_here_by_chance_is_not_taken_to_drop_out():
+    """A four-bar with crank and coupler in one line, along x: here A.Fx has no moment about O, but only here."""
+
+    def stretched(rng):
+        made = planar.Fake(rng)
+        made.rod("crank", (0, 0), (0.5, 0), 1.0)
+        made.rod("coupler", (0.5, 0), (1.7, 0), 2.0)
+        made.rod("rocker", (1.5, -1.0), (1.7, 0), 1.5)
+        for name, first, second, at in (
+            ("O", "ground", "crank", (0, 0)),
+            ("A", "crank", "coupler", (0.5, 0)),
+            ("B", "coupler", "rocker", (1.7, 0)),
+            ("C", "ground", "rocker", (1.5, -1.0)),
+        ):
+            made.hinge(name, first, second, at)
+        made.motor("T", "ground", "crank", 1.0)
+        return FreeBodies.read(made.text())
+
+    here = stretched(np.random.default_rng(0))
+    alone, among = smallest_set("T", [here]), smallest_set("T", [here, *states(planar.four_bar)])
+    assert (len(alone.equations), alone.structural) == (2, False)
+    assert (len(among.equations), among.structural) == (3, True)
+    assert among.check < 1e-9
+
+
+def test_the_files_of_the_catalogue_agree_with_the_full_solve():
+    for file, wanted, number in (
+        ("GEN-FOURBAR/model", "drive", 3),
+        ("19.3.16/driven", "push", 1),
+        ("EX-ARM/model", "theta1", 2),
+        ("EX-ARM/model", "shoulder.Fy", 3),
+    ):
+        found = fb.load(SYSTEMS / f"{file}.yaml").smallest(wanted)
+        assert len(found.equations) == number
+        assert found.check < 1e-9
+        assert found.structural
+
+
+def test_what_is_not_unknown_or_not_determined_is_refused():
+    given = states(planar.four_bar)
+    with pytest.raises(KeyError, match=r"'Q'; there are O\.Fx, O\.Fy"):
+        smallest_set("Q", given)
+    with pytest.raises(KeyError, match="follows from motions and loops"):
+        smallest_set("crank.angle", given)
+    told = planar.ladder(np.random.default_rng(2)).text().replace('"determinate": true', '"determinate": false', 1)
+    with pytest.raises(Indeterminate, match=r"floor\.Fn"):
+        smallest_set("floor.Fn", [FreeBodies.read(told)])

@@ -1,0 +1,128 @@
+"""Derivations as documents: every renderer shows every block, and its output is well formed."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+import pytest
+from material import LETTERS, cos, half, product, sin, square, sym
+
+from freebody.equations import (
+    Bullets,
+    Document,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Table,
+    Vector,
+    Written,
+    latex,
+    letters_table,
+    read,
+)
+from freebody.equations.text import columns
+from freebody.equations.tree import MINUS_ONE, ZERO, add, mul
+
+TH1, A1, A2 = sym("theta1"), sym("theta1", 2), sym("theta2", 2)
+M1, L = sym("m1"), sym("l")
+LONG = add(*(mul(sym(f"k{n}"), A2, sin(TH1)) for n in range(14)))
+DOCUMENT = Document(
+    [
+        Heading("A pendulum & 100 % of it", 1),
+        Paragraph(["The angle ", TH1, " is measured from the vertical; it costs $5_0 <here>."]),
+        Equation(Written("a_G", r"\mathbf{a}_G"), Vector(((mul(L, A1, cos(TH1)), "i"), (add(L, M1), "j"), (MINUS_ONE, "e_r"), (ZERO, "k")))),
+        Equation(mul(M1, square(L), A1), product(-1, M1, "g", L, sin(TH1)), "AMB about the pivot", "1", "The pin has no moment."),
+        Equation(LONG, ZERO, "A long one"),
+        MatrixEquation([[M1, half(M1, L)], [ZERO, L]], [A1, A2], [product("g", M1), ZERO], "Both", "2"),
+        MatrixEquation([[LONG, ZERO], [ZERO, LONG]], [A1, A2], [ZERO, L], "Too wide for brackets"),
+        Bullets(["energy", ["the mass ", M1]]),
+        Table(("a", "b"), [("1|2", [TH1])], "Some numbers"),
+        letters_table(LETTERS),
+        Figure('<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg"></svg>', "A sketch", "sketch"),
+    ],
+    LETTERS,
+)  # fmt: skip
+
+
+def test_text():
+    shown = DOCUMENT.text()
+    assert shown.startswith("A pendulum & 100 % of it\n========")
+    assert "The angle θ₁ is measured" in shown
+    assert "    a_G = l θ̈₁ cos θ₁ i + (m₁ + l) j − e_r\n" in shown
+    assert re.search(r"AMB about the pivot:\n    m₁ l² θ̈₁ = −m₁ g l sin θ₁ +\(1\)\nThe pin has no moment\.", shown)
+    assert "    ⎡ m₁  ½ m₁ l ⎤ ⎡ θ̈₁ ⎤ = ⎡ m₁ g ⎤\n" in shown
+    assert "- the mass m₁" in shown and "[Figure: A sketch]" in shown
+    assert max(map(columns, shown.split("\n"))) <= 100
+    assert max(map(columns, DOCUMENT.text(width=72).split("\n"))) <= 72
+
+
+def test_ascii_text_is_ascii():
+    DOCUMENT.text(ascii=True).encode("ascii")
+
+
+def test_markdown():
+    shown = DOCUMENT.markdown()
+    assert shown.startswith("# A pendulum & 100 % of it\n")
+    assert r"The angle $\theta_1$ is measured from the vertical; it costs \$5\_0 \<here\>." in shown
+    assert shown.count("$$") == 2 * 5
+    assert r"= -m_1 g l \sin\theta_1 \tag{1}" in shown
+    assert r"| 1\|2 | $\theta_1$ |" in shown
+
+
+def test_latex_is_balanced():
+    shown = DOCUMENT.latex()
+    assert sorted(re.findall(r"\\begin\{(\w+)\}", shown)) == sorted(re.findall(r"\\end\{(\w+)\}", shown))
+    assert shown.count("{") - shown.count(r"\{") == shown.count("}") - shown.count(r"\}")
+    assert r"\section*{A pendulum \& 100 \% of it}" in shown and r"costs \$5\_0" in shown
+    assert r"\mathbf{a}_G = l \ddot\theta_1 \cos\theta_1 \, \mathbf{i} + (m_1 + l) \mathbf{j} - \mathbf{e}_{r}" in shown
+
+
+@pytest.mark.skipif(not shutil.which("pdflatex"), reason="no LaTeX")
+def test_latex_compiles(tmp_path):
+    head = r"\documentclass{article}\usepackage[utf8]{inputenc}\usepackage{amsmath,amssymb,graphicx}\begin{document}"
+    (tmp_path / "made.tex").write_text(head + DOCUMENT.latex() + r"\end{document}")
+    subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "made.tex"], cwd=tmp_path, check=True)
+
+
+def test_html_is_well_formed():
+    class Nesting(HTMLParser):
+        open: list[str]
+
+        def handle_starttag(self, tag, attrs):
+            self.open.append(tag)
+
+        def handle_endtag(self, tag):
+            assert self.open.pop() == tag
+
+    shown = DOCUMENT._repr_html_()
+    parser = Nesting()
+    parser.open = []
+    parser.feed(shown)
+    assert parser.open == []
+    assert r"The angle \(\theta_1\) is" in shown and "&lt;here&gt;" in shown and "<figure><svg" in shown
+
+
+def test_json_has_trees_and_what_is_printed():
+    made = json.loads(DOCUMENT.json())
+    assert [block["kind"] for block in made["blocks"]][:4] == ["heading", "paragraph", "equation", "equation"]
+    equation = made["blocks"][3]
+    assert read(equation["left"]["tree"]) == DOCUMENT.blocks[3].left
+    assert equation["right"]["text"] == "−m₁ g l sin θ₁"
+    assert equation["left"]["latex"] == latex(DOCUMENT.blocks[3].left, LETTERS)
+    assert made["letters"]["theta1"] == {"kind": "coordinate", "unit": "rad", "doc": "angle of the upper rod"}
+
+
+def test_sympy_solves_the_equations_of_a_document():
+    import sympy
+    from sympy.physics.mechanics import dynamicsymbols
+
+    equations = DOCUMENT.sympy()
+    assert len(equations) == 4
+    theta, g, l = dynamicsymbols("theta1"), *sympy.symbols("g l")
+    assert sympy.solve(equations[0], theta.diff("t", 2)) == [-g * sympy.sin(theta) / l]
