@@ -154,6 +154,12 @@ class Subject:
     at_rest: bool = False
     numbers: Mapping[str, float] | None = None
 
+    def with_numbers(self, names: Sequence[str]) -> Subject:
+        """The same with some coordinates and parameters as the numbers that they are at the state."""
+        places = {c["name"]: float(x) for c, x in zip(self.coordinates, self.state.q, strict=True)}
+        places |= {p["name"]: float(x) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)}
+        return replace(self, numbers={name: places[name] for name in names})
+
     def ask(self, questions: Sequence[Question]) -> list[Any]:
         """The answers of the core, as data. Raises ``_core.MotionError``."""
         return self._told(questions)["answers"]
