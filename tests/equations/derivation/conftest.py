@@ -24,6 +24,8 @@ def states(source, start, count=2):
     """The start and states near by, in motion, on closed loops, in which the same loads act."""
     found, rng = [Subject(source, start)], np.random.default_rng(3)
     acting = [load.symbol for load in found[0].free.loads]
+    if any(load.component == "tooth force" for load in found[0].free.loads):
+        return found  # another flank may carry there
     names = [c["name"] for c in source.about["coordinates"]]
     for attempt in range(TRIES):
         step = MOVED / (attempt + 1)
