@@ -144,7 +144,9 @@ def systems(
     identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
     as_json: AsJson = False,
-    in_letters: Annotated[bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")] = False,
+    in_letters: Annotated[
+        bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
+    ] = False,
 ) -> None:
     """The worked catalogue: list it, or run systems and print their answers."""
     from freebody import catalogue

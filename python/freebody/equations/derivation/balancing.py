@@ -56,7 +56,9 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     acting: list[Words] = [
         [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)] for c in balance.contributions if not c.absent
     ]
-    inertia: list[Words] = [[f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)]
+    inertia: list[Words] = [
+        [f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)
+    ]
     if acting:
         made += [Paragraph(f"The {what} of what acts:"), Bullets(acting)]
     if inertia:

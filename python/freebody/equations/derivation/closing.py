@@ -62,5 +62,3 @@ def _velocities(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
         return [Equation(row.rate, ZERO, "Their rates" if i == 0 else "") for i, row in enumerate(held)]
     name = "Differentiated, for the velocities"
     return [MatrixEquation(system.matrix, system.unknowns, system.right, name, letter="J")] if system.unknowns else []
-
-

@@ -54,7 +54,11 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
     """The point or direction in words, and the word before it."""
     joint = _joint(subject, coordinate)
     if balance.turns:
-        named = f"the pin {joint['name']}" if joint["type"] == "hinge" else named_place(subject, numbers(subject, balance), balance.bodies)
+        named = (
+            f"the pin {joint['name']}"
+            if joint["type"] == "hinge"
+            else named_place(subject, numbers(subject, balance), balance.bodies)
+        )
         return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
     if joint["type"] == "link" or (joint["type"] == "polar" and coordinate["dimension"] == "rad"):
         return f"the {'link' if joint['type'] == 'link' else 'radius of'} {joint['name']}", "across"

@@ -117,7 +117,9 @@ def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``_core.MotionError``."""
     if want is not None:
         content = wanted(subject, want)
-        return Equations("wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content)
+        return Equations(
+            "wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content
+        )
     if form not in FORMS:
         raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
     letters = subject.letters

@@ -21,7 +21,9 @@ def section(form: str, content: Form, letters: Letters) -> list[Block]:
         return []
     moving = [x for x in system.unknowns if x.dots]
     made: list[Block] = [Heading("Matrix form")]
-    made.append(MatrixEquation(system.matrix, system.unknowns, system.right, _NAMES[form], letter="M" if form == "minimal" else "A"))
+    made.append(
+        MatrixEquation(system.matrix, system.unknowns, system.right, _NAMES[form], letter="M" if form == "minimal" else "A")
+    )
     if not system.is_square:
         made.append(Paragraph(_uneven(content)))
     if moving:

@@ -73,7 +73,8 @@ def _introduction(subject: Subject, form: Form, searched: bool, number: int) -> 
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
         return "There is nothing to balance."
-    said = [f"{count}, one for each degree of freedom, in which no reaction stands."]
+    each = "" if number == 1 else ", one for each degree of freedom,"
+    said = [f"{count}{each} in which no reaction stands."]
     if others and searched:
         more = "so there is one" if number == 1 else f"so there are {number}"
         said = [f"No set of balance equations is free of reactions: {joined(others)} cannot be kept out, {more}."]
