@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.balances.reasons import Place, agree, why_absent
+from freebody.equations.collect import collected, factored
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.collect import collected, factored
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
-from freebody.equations.tree import Tree, evaluate, is_zero, symbols
+from freebody.equations.tree import Tree, evaluate, is_zero
 
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
@@ -61,6 +61,8 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     ]
     if acting:
         made += [Paragraph(f"The {what} of what acts:"), Bullets(acting)]
+    else:
+        made.append(Paragraph("Nothing else acts on it in this equation."))
     if inertia:
         rate = "angular momentum" if balance.turns else "momentum"
         made += [Paragraph(f"The rate of {rate}:"), Bullets(inertia)]

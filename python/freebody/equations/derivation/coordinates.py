@@ -60,8 +60,10 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
             else named_place(subject, numbers(subject, balance), balance.bodies)
         )
         return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
-    if joint["type"] == "link" or (joint["type"] == "polar" and coordinate["dimension"] == "rad"):
-        return f"the {'link' if joint['type'] == 'link' else 'radius of'} {joint['name']}", "across"
+    if joint["type"] == "link":
+        return f"the link {joint['name']}", "across"
+    if joint["type"] == "polar" and coordinate["dimension"] == "rad":
+        return f"the radius of {joint['name']}, times r,", "across"
     x, y = balance.place.xy
     if is_zero(x) or is_zero(y):
         return ("x" if is_zero(y) else "y"), "along"

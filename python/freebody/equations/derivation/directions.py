@@ -7,10 +7,10 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from freebody.equations.collect import factored
-from freebody.equations.document import Vector, Words, Written
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
-from freebody.equations.names import latex_name
+from freebody.equations.document import Vector, Words, Written
+from freebody.equations.names import latex_name, unicode_name
 from freebody.equations.tree import Add, Mul, Sym, Tree, add, is_zero, mul, number, symbols
 
 
@@ -54,7 +54,13 @@ class Directions:
         angles.sort(key=lambda angle: next((i for i, b in enumerate(motions) if b.body in owners[angle]), len(motions)))
         made: list[Direction] = []
         for angle in angles:
-            below = _word(owners[angle][0]) if owners[angle] else angle.name if isinstance(angle, Sym) else str(len(made) + 1)
+            below = (
+                _word(owners[angle][0])
+                if owners[angle]
+                else unicode_name(angle.name)
+                if isinstance(angle, Sym)
+                else str(len(made) + 1)
+            )
             made.append(Direction(below, angle, owners[angle]))
         return cls(tuple(made), frozenset(moving))
 

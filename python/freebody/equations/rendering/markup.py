@@ -56,7 +56,8 @@ def side_lines(side: Side, letters: Letters) -> list[str]:
 def _component(tree: Tree, direction: str, letters: Letters) -> str:
     inner = latex(tree, letters)
     stem, _, below = direction.partition("_")
-    unit = rf"\mathbf{{{escaped(stem)}}}" + (f"_{{{latex_subscript(below)}}}" if below else "")
+    letter = rf"\boldsymbol{{\{SPELT[stem]}}}" if stem in SPELT else rf"\mathbf{{{escaped(stem)}}}"
+    unit = letter + (f"_{{{latex_subscript(below)}}}" if below else "")
     if isinstance(tree, Add):
         return f"{LatexPrinter(letters).bracket(inner)} {unit}"
     return unit if inner == "1" else f"-{unit}" if inner == "-1" else rf"{inner} \, {unit}"
