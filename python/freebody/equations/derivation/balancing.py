@@ -101,9 +101,9 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     """The name of a point: a pin there, else a mass centre, else another named point of the bodies."""
     free, near = subject.free, _SAME * size(subject)
     for load in free.loads:
-        if load.kind == "joint" and load.component in ("x", "y"):
-            if any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
-                return f"the pin {load.name}"
+        pinned = load.kind == "joint" and load.component in ("x", "y")
+        if pinned and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
+            return f"the pin {load.name}"
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"

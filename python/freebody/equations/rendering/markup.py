@@ -27,7 +27,7 @@ from freebody.equations.document import (
 )
 from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
-from freebody.equations.names import GREEK, escaped, latex_name
+from freebody.equations.names import GREEK, SPELT, escaped, latex_name
 from freebody.equations.rendering.plain import side_text
 from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
