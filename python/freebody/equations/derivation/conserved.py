@@ -15,10 +15,10 @@ _KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\math
 _CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
 
 
-def section(subject: Subject) -> list[Block]:
-    """Every quantity that stays constant, with its reason, or why none does."""
-    made: list[Block] = [Heading("Conserved quantities"), *_energy(subject)]
-    found = _momenta(subject)
+def section(subject: Subject, in_letters: bool = True) -> list[Block]:
+    """Every quantity that stays constant, with its reason, or why none does; ``in_letters``: and what it is in the coordinates."""
+    made: list[Block] = [Heading("Conserved quantities"), *(_energy(subject) if in_letters else _energy_words(subject))]
+    found = [block for block in _momenta(subject) if in_letters or isinstance(block, Paragraph)]
     return made + (
         found or [Paragraph("No momentum of the whole is conserved along x, along y, or about a point named on the ground.")]
     )
@@ -47,6 +47,16 @@ def _energy(subject: Subject) -> list[Block]:
     if why:
         return [*made, Paragraph(f"Their sum is not conserved: {why}.")]
     return [*made, Paragraph(_CONSERVED)]
+
+
+def _energy_words(subject: Subject) -> list[Block]:
+    *_, why = energy(subject)
+    said = (
+        f"is not conserved: {why}."
+        if why
+        else "is conserved: all forces have potentials, and what joints and contacts exert does no work."
+    )
+    return [Paragraph(f"The sum of kinetic and potential energy {said}")]
 
 
 def _momenta(subject: Subject) -> list[Block]:

@@ -66,5 +66,10 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
         return f"the radius of {joint['name']}, times r,", "across"
     x, y = balance.place.xy
     if is_zero(x) or is_zero(y):
-        return ("x" if is_zero(y) else "y"), "along"
+        return _axis(*numbers(subject, balance)), "along"
     return _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
+
+
+def _axis(x: float, y: float) -> str:
+    """A fixed axis, or the direction against it."""
+    return ("−" if x + y < 0 else "") + ("x" if abs(x) > abs(y) else "y")

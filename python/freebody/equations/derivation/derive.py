@@ -139,7 +139,11 @@ class _Writer:
 
     @cached_property
     def document(self) -> Document:
-        body = [*self._body(), *conserved.section(self.subject)] if self.form in FORMS else list(self.content.blocks)
+        body = (
+            [*self._body(), *conserved.section(self.subject, in_letters=self.form != "constraints")]
+            if self.form in FORMS
+            else list(self.content.blocks)
+        )
         first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
         if self.form != "constraints":
             first += opening.configuration(self.subject)

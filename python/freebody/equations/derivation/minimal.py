@@ -79,7 +79,7 @@ def _introduction(subject: Subject, form: Form, searched: bool, number: int) -> 
         more = "so there is one" if number == 1 else f"so there are {number}"
         said = [f"No set of balance equations is free of reactions: {joined(others)} cannot be kept out, {more}."]
     elif others:
-        said = [f"{count}, one for each coordinate. {joined(others)} cannot be kept out: they hold the rows above."]
+        said = [f"{count}, one for each coordinate. {joined(others)} cannot be kept out: they hold what is closed above."]
     elif prescribed:
         said = [f"{count}, one for each coordinate, in which no reaction of a joint stands."]
     if prescribed:
