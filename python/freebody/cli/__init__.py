@@ -278,12 +278,16 @@ def chosen(identity: str | None) -> list[System]:
 
 
 def derived(system: System) -> None:
-    """Prints the equations of the models of a system in all forms."""
+    """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
+    from freebody import _core
     from freebody.equations.derivation import FORMS
 
     for model in system.models:
-        for form in FORMS:
-            typer.echo(opened(model).equations(form).text())
+        try:
+            for form in FORMS:
+                typer.echo(opened(model).equations(form).text())
+        except _core.MotionError as error:
+            typer.echo(f"{model.name}: {error.args[2]}\n")
 
 
 def answered(system: System, silent: bool) -> list[Asked]:
