@@ -12,7 +12,7 @@ from freebody.equations.collect import collected, factored
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
-from freebody.equations.tree import Tree, evaluate, is_zero
+from freebody.equations.tree import Add, Mul, Num, Tree, evaluate, is_zero, negative
 
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
@@ -41,8 +41,19 @@ class Stated:
 
     @property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts, each unknown with one factor."""
-        return tuple(collected(side, list(self.balance.linear.coefficients)) for side in (self.balance.right, self.balance.left))
+        """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        unknowns = list(self.balance.linear.coefficients)
+        left, right = (collected(side, unknowns) for side in (self.balance.right, self.balance.left))
+        return (
+            (negative(left), negative(right))
+            if _all_negative(left) and (_all_negative(right) or is_zero(right))
+            else (left, right)
+        )
+
+
+def _all_negative(side: Tree) -> bool:
+    terms = side.terms if isinstance(side, Add) else (side,)
+    return all(isinstance(t, Mul) and isinstance(t.factors[0], Num) and t.factors[0].value < 0 for t in terms)
 
 
 def blocks(subject: Subject, stated: Stated) -> list[Block]:
