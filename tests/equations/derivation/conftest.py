@@ -12,6 +12,7 @@ from freebody.instant import State
 
 ROOT = Path(__file__).parents[3]
 FILES = sorted([*ROOT.glob("systems/*/*.yaml"), *ROOT.glob("examples/*.yaml")])
+FILES = [path for path in FILES if "statements" not in path.stem]
 MOVED, FAST = 0.1, 0.7
 TRIES = 8
 
