@@ -1,0 +1,77 @@
+"""What stays constant, and why: energy, momentum along a direction, angular momentum about a point."""
+
+from __future__ import annotations
+
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
+from freebody.equations.tree import Sym, Tree, add, is_zero, read, symbols
+from freebody.free_body import GROUND
+
+_KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
+
+_CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
+
+
+def section(subject: Subject) -> list[Block]:
+    """Every quantity that stays constant, with its reason, or why none does."""
+    made: list[Block] = [Heading("Conserved quantities"), *_energy(subject)]
+    found = _momenta(subject)
+    return made + (found or [Paragraph("No momentum of the whole is conserved along x, along y, or about a point named on the ground.")])
+
+
+def energy(subject: Subject) -> tuple[Tree, Tree, str]:
+    """Kinetic and potential energy, and why their sum is not constant (empty if it is)."""
+    told = subject.ask([{"ask": "energy"}])[0]
+    kinetic, potential = read(told["kinetic"]), read(told["potential"])
+    return kinetic, potential, _losses(subject, told["without_potential"], symbols(kinetic, potential))
+
+
+def _losses(subject: Subject, without: list[str], letters: set[Sym]) -> str:
+    motions = [load.name for load in subject.free.loads if load.kind == "motion"]
+    rubs = [load.name for load in subject.free.loads if load.follows or load.component == "friction force"]
+    why = [f"{joined(names)} {'does' if len(names) == 1 else 'do'} work that no potential has" for names in [without] if names]
+    why += [f"the motion of {joined(list(dict.fromkeys(motions)))} is prescribed, which takes work"] if motions else []
+    why += [f"{joined(list(dict.fromkeys(rubs)))} rubs"] if rubs else []
+    why += ["the potential depends on time"] if Sym("t") in letters else []
+    return "; ".join(why)
+
+
+def _energy(subject: Subject) -> list[Block]:
+    kinetic, potential, why = energy(subject)
+    made: list[Block] = [Equation(_KINETIC, kinetic, "The kinetic and the potential energy"), Equation(_POTENTIAL, potential)]
+    if why:
+        return [*made, Paragraph(f"Their sum is not conserved: {why}.")]
+    return [*made, Paragraph(_CONSERVED)]
+
+
+def _momenta(subject: Subject) -> list[Block]:
+    asked = [({"along": "x"}, "along x"), ({"along": "y"}, "along y")]
+    asked += [({"about": {"point": name}}, f"about {name}") for name in _fixed_points(subject)]
+    asked.append(({"about": "centre"}, "about the mass centre of the whole"))
+    found = subject.balances([{"ask": "equation", "bodies": [], **question} for question, _ in asked])
+    made: list[Block] = []
+    for balance, (_, where) in zip(found, asked, strict=True):
+        if is_zero(balance.left) and not is_zero(balance.momentum):
+            made += _constant(balance, where)
+    return made
+
+
+def _fixed_points(subject: Subject) -> list[str]:
+    points = subject.points.items()
+    return [name for name, (body, _, _) in points if body == GROUND and not name.endswith(".origin")]
+
+
+def _constant(balance: Balance, where: str) -> list[Block]:
+    if balance.turns:
+        why = f"The angular momentum {where} is conserved: nothing from outside has a moment about that point."
+    else:
+        why = f"The momentum {where} is conserved: nothing from outside acts on the whole in that direction."
+    written = Written(f"H {where}", r"H") if balance.turns else Written("L", "L")
+    return [Paragraph(why), Equation(written, balance.momentum)]
+
+
+def total(subject: Subject) -> Tree | None:
+    """The energy, where it is conserved."""
+    kinetic, potential, why = energy(subject)
+    return None if why else add(kinetic, potential)
