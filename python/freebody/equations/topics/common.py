@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
+from freebody.equations.collect import factored
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.derive import _used
 from freebody.equations.derivation.told import Arrow, Subject
@@ -12,7 +13,7 @@ from freebody.equations.document import Block, Document, Heading
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.simplify import shortest
 from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import Sym, Tree, add, mul, negative
+from freebody.equations.tree import Tree, add, mul, negative
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -64,8 +65,15 @@ def cross(a: tuple[Tree, Tree], b: tuple[Tree, Tree]) -> Tree:
 
 
 def brief(tree: Tree, letters: Letters) -> Tree:
-    """The shortest form found."""
+    """The shortest form found; it takes up to seconds."""
     return shortest(to_sympy(tree), letters)
+
+
+def spread(tree: Tree) -> Tree:
+    """The sum of all products, with what they have in common in front."""
+    import sympy
+
+    return factored(from_sympy(sympy.expand(to_sympy(tree))))
 
 
 def place_of(subject: Subject, point: str) -> Arrow:
@@ -78,8 +86,3 @@ def known(name: str, names: Collection[str], what: str) -> None:
     """Raises ``ValueError`` for a name that is none of these."""
     if name not in names:
         raise ValueError(f"no {what} is called {name!r}; there are {', '.join(names)}")
-
-
-def letter(name: str, dots: int = 0) -> Sym:
-    """A letter."""
-    return Sym(name, dots)

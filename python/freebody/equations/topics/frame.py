@@ -9,8 +9,8 @@ from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.told import Arrow, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
 from freebody.equations.simplify import equal
-from freebody.equations.topics.common import NotHere, brief, document, known, moving_names, place_of, rates, subject_of
-from freebody.equations.tree import Sym, Tree, is_zero, read
+from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
+from freebody.equations.tree import Sym, is_zero, read
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -75,7 +75,7 @@ def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) ->
 
 
 def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
-    names, letters = moving_names(subject), subject.letters
+    names = moving_names(subject)
     v = rates(place.xy, names)
     a = rates(v, names)
     gap = [axis for axis in (0, 1) for found, word in ((v, "v"), (a, "a")) if not equal(found[axis], arrows[word].xy[axis])]
@@ -83,13 +83,9 @@ def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point
         raise ArithmeticError(f"direct differentiation of the position of {point} does not give what the frame gives")
     made: list[Block] = [Heading("By direct differentiation")]
     for what, pair in (("r", place.xy), ("v", v), ("a", a)):
-        made += [Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), _short(tree, letters)) for axis, tree in zip("xy", pair, strict=True)]
+        made += [Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), spread(tree)) for axis, tree in zip("xy", pair, strict=True)]
     made.append(Paragraph("Both ways give the same, for all values of the letters; it was checked at random ones."))
     return made
-
-
-def _short(tree: Tree, letters: Any) -> Tree:
-    return brief(tree, letters)
 
 
 def _vector(name: str) -> Written:
