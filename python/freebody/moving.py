@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
+    from freebody.equations.derivation import Equations
     from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
@@ -78,6 +79,31 @@ class Moving:
         from freebody.balances.minimal import minimal_form
 
         return minimal_form(*self._near(initial, t, changes))
+
+    def equations(
+        self: Builder,
+        form: str = "minimal",
+        *,
+        want: str | None = None,
+        at_rest: bool = False,
+        fixed: Mapping[str, Any] | None = None,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        **changes: Any,
+    ) -> Equations:
+        """The equations of motion in letters, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
+        state, by default the start; ``changes`` as in ``solve``.
+
+        ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
+        coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``."""
+        from freebody.equations.derivation import derive
+        from freebody.equations.derivation.told import Subject
+
+        chosen = dict(fixed or {})
+        state, notes = self.start(initial, t, **changes, **chosen)
+        with self.told():
+            subject = Subject(self.source(notes), state, at_rest)
+            return derive(subject.with_numbers(list(chosen)), form, want)
 
     def _near(
         self: Builder, initial: Mapping[str, Any] | None, t: float, changes: Mapping[str, Any]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from freebody.cli.equations import equations
 from freebody.cli.mistakes import Guarded, Mistake
 
 if TYPE_CHECKING:
@@ -143,6 +144,7 @@ def systems(
     identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
     as_json: AsJson = False,
+    in_letters: Annotated[bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")] = False,
 ) -> None:
     """The worked catalogue: list it, or run systems and print their answers."""
     from freebody import catalogue
@@ -159,6 +161,10 @@ def systems(
         else:
             show.show_list(listed)
         return
+    if in_letters:
+        for system in chosen(identity):
+            derived(system)
+        return
     results = {system.id: answered(system, as_json) for system in chosen(identity)}
     if as_json:
         typer.echo(catalogue.to_json(results))
@@ -166,6 +172,9 @@ def systems(
         show.show_summary(results)
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(BAD_END)
+
+
+app.command()(equations)
 
 
 @app.command()
@@ -264,6 +273,15 @@ def chosen(identity: str | None) -> list[System]:
         return [catalogue.find(identity)]
     except KeyError as error:
         raise Mistake(error.args[0], "freebody systems lists them") from None
+
+
+def derived(system: System) -> None:
+    """Prints the equations of the models of a system in all forms."""
+    from freebody.equations.derivation import FORMS
+
+    for model in system.models:
+        for form in FORMS:
+            typer.echo(opened(model).equations(form).text())
 
 
 def answered(system: System, silent: bool) -> list[Asked]:

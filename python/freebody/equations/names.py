@@ -29,7 +29,7 @@ class Name:
     @classmethod
     def parse(cls, name: str) -> Name:
         """In parts: what follows the first underscore, or digits at the end, is the subscript."""
-        owner, _, last = name.translate(_FROM_SUBSCRIPTS).rpartition(".")
+        owner, _, last = name.translate(_FROM_SUBSCRIPTS).replace("'", "").rpartition(".")
         found = re.fullmatch(r"([^\W\d_]+)(?:_?(\d+)|_(\w+))?", last)
         stem, digits, word = found.groups() if found else (last, None, None)
         return cls(owner, _SPELT.get(stem, stem), digits or word or "")

@@ -15,7 +15,7 @@ def brute(subject: Subject) -> Form:
     rows = subject.rows
     equations = [Printed(s.title, *s.sides, s.balance.linear) for s in stated]
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
-    form = Form.of(subject, equations + closing.printed(rows), [])
+    form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(stated)))]
     body = ""
     for s in stated:
@@ -32,7 +32,7 @@ def _stated(subject: Subject) -> list[Stated]:
         asked += [{"ask": "equation", "bodies": [body.body], "along": axis} for axis in "xy"]
         places += [("x", "along"), ("y", "along")]
         if not body.particle:
-            asked.append({"ask": "equation", "bodies": [body.body], "about": "centre"})
+            asked.append({"ask": "equation", "bodies": [body.body], "about": {"point": f"{body.body}.G"}})
             places.append(("its mass centre", "about"))
     found = subject.balances(asked)
     return [Stated(b, *place, str(i)) for i, (b, place) in enumerate(zip(found, places, strict=True), 1)]

@@ -20,9 +20,10 @@ _WHAT = {
 _AGAIN = "Differentiated once more, for the accelerations"
 
 
-def section(rows: Sequence[Row], coordinates: Sequence[str], moving: str = "Loop closure and prescribed motions") -> list[Block]:
-    """The rows at all levels, the derivatives as matrix equations."""
-    made: list[Block] = [Heading(moving), Paragraph(_why(rows))]
+def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = False) -> list[Block]:
+    """The rows at all levels, the derivatives as matrix equations; ``everywhere``: every joint has rows, not those of loops only."""
+    title = "Constraints" if everywhere else "Loop closure and prescribed motions"
+    made: list[Block] = [Heading(title), Paragraph(_why(rows, everywhere))]
     made += _positions(rows)
     made += _velocities(rows, coordinates)
     system = System.of([row.linear for row in rows], coordinates)
@@ -36,9 +37,10 @@ def printed(rows: Sequence[Row]) -> list[Printed]:
     return [Printed(f"acceleration at {row.name}", row.acceleration, ZERO, row.linear) for row in rows]
 
 
-def _why(rows: Sequence[Row]) -> str:
+def _why(rows: Sequence[Row], everywhere: bool) -> str:
     parts = []
     for kind, (one, several) in _WHAT.items():
+        one, several = ("holds", "hold") if everywhere and kind == "joint" else (one, several)
         if names := list(dict.fromkeys(row.name for row in rows if row.kind == kind)):
             parts.append(f"{joined(names)} {one if len(names) == 1 else several}")
     number = "This is one equation" if len(rows) == 1 else f"These are {len(rows)} equations"

@@ -6,8 +6,10 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.tree import Sym, Tree, add, is_zero, read, symbols
-from freebody.free_body import GROUND
+from freebody.free_body import GROUND, Pair
 
+_ABSENT = 1e-9
+"""A part in a balance, in N or N·m, below which it may vanish identically."""
 _KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
 
 _CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
@@ -46,20 +48,31 @@ def _energy(subject: Subject) -> list[Block]:
 
 
 def _momenta(subject: Subject) -> list[Block]:
-    asked = [({"along": "x"}, "along x"), ({"along": "y"}, "along y")]
-    asked += [({"about": {"point": name}}, f"about {name}") for name in _fixed_points(subject)]
-    asked.append(({"about": "centre"}, "about the mass centre of the whole"))
-    found = subject.balances([{"ask": "equation", "bodies": [], **question} for question, _ in asked])
+    group, g = list(subject.free.bodies), subject.free.centre(*subject.free.bodies)
+    found = [({"along": axis}, f"along {axis}", _vanishing(subject, group, (0.0, 0.0), place)) for place, axis in enumerate("xy")]
+    found += [
+        ({"about": {"point": name}}, f"about {name}", _vanishing(subject, group, (x, y), 2)) for name, x, y in _fixed_points(subject)
+    ]
+    found.append(({"about": "centre"}, "about the mass centre of the whole", _vanishing(subject, group, g, 2)))
+    asked = [(question, where) for question, where, likely in found if likely]
+    balances = subject.balances([{"ask": "equation", "bodies": [], **question} for question, _ in asked])
     made: list[Block] = []
-    for balance, (_, where) in zip(found, asked, strict=True):
+    for balance, (_, where) in zip(balances, asked, strict=True):
         if is_zero(balance.left) and not is_zero(balance.momentum):
             made += _constant(balance, where)
     return made
 
 
-def _fixed_points(subject: Subject) -> list[str]:
+def _vanishing(subject: Subject, group: list[str], about: Pair, place: int) -> bool:
+    """Whether, at this state, no load from outside has a part in a balance: else there is no need to look at it in letters."""
+    loads = subject.free.on(*group)
+    known = sum((load.unit(group, about)[place] for load in loads if not load.unknown), 0.0)
+    return max((abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)])) < _ABSENT
+
+
+def _fixed_points(subject: Subject) -> list[tuple[str, float, float]]:
     points = subject.points.items()
-    return [name for name, (body, _, _) in points if body == GROUND and not name.endswith(".origin")]
+    return [(name, x, y) for name, (body, x, y) in points if body == GROUND and not name.endswith(".origin")]
 
 
 def _constant(balance: Balance, where: str) -> list[Block]:

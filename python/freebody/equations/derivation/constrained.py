@@ -18,15 +18,15 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
     """The form of a subject, and its letters: the places of the bodies are the coordinates here."""
     told = subject.ask([{"ask": "constraints"}])[0]
     names, unknowns = told["coordinates"], [read(tree) for tree in told["unknowns"]]
-    rows = list(map(Row.read, told["rows"]))
+    rows = [_row(Row.read(each), unknowns) for each in told["rows"]]
     equations = [_balance(each, unknowns) for each in told["balances"]]
     made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names))]
     if rows:
-        made += closing.section(rows, names, "Constraints")
+        made += closing.section(rows, names, everywhere=True)
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
     letters = _letters(names, subject.letters)
-    form = Form.of(replace(subject), equations + closing.printed(rows), made)
+    form = Form.of(letters, equations + closing.printed(rows), made)
     return form, letters
 
 
@@ -34,6 +34,11 @@ def _balance(data: dict, unknowns: list[Sym]) -> Printed:
     left, right = read(data["right"]), read(data["left"])
     where = data["kind"].replace("about G", "about its mass centre")
     return Printed(f"{where} for {data['body']}", left, right, linear_in(minus(left, right), unknowns))
+
+
+def _row(row: Row, unknowns: list[Sym]) -> Row:
+    """The row, linear in the accelerations of the places of the bodies."""
+    return replace(row, linear=linear_in(row.acceleration, unknowns))
 
 
 def _letters(names: list[str], known: Letters) -> Letters:

@@ -11,9 +11,11 @@ from freebody.equations.code import generate
 from freebody.equations.derivation import conserved, matrices, opening
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
+from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.wanted import wanted
 from freebody.equations.document import Block, Document, Heading
 from freebody.equations.letters import Letters
 from freebody.equations.tree import Sym, Tree, symbols
@@ -27,7 +29,7 @@ _TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "wi
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations of motion in one ``form``: minimal, brute or constraints.
+    """The equations of motion in one ``form``: minimal, brute or constraints; or the fewest for something wanted.
 
     ``print`` shows the derivation; a notebook typesets it. ``parts`` are the equations with titles, in the order of the rows of
     the matrix form A x = b."""
@@ -98,15 +100,24 @@ class Equations:
     def __str__(self) -> str:
         return self.text()
 
-    def _repr_html_(self) -> str:
+    def html(self) -> str:
+        """The derivation as a fragment of HTML, for MathJax or KaTeX."""
         return self.document.html()
+
+    def _repr_html_(self) -> str:
+        return self.html()
 
     def _repr_latex_(self) -> str:
         return self.latex()
 
 
-def derive(subject: Subject, form: str = "minimal") -> Equations:
-    """The equations of a subject in a form. Raises ``ValueError`` for an unknown form, ``_core.MotionError``."""
+def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> Equations:
+    """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
+
+    Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``_core.MotionError``."""
+    if want is not None:
+        content = wanted(subject, want)
+        return Equations("wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content)
     if form not in FORMS:
         raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
     letters = subject.letters
@@ -126,11 +137,12 @@ class _Writer:
 
     @cached_property
     def document(self) -> Document:
-        body = [*self._body(), *conserved.section(self.subject)]
-        first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES[self.form]}", 1)]
+        body = [*self._body(), *conserved.section(self.subject)] if self.form in FORMS else list(self.content.blocks)
+        first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
         if self.form != "constraints":
             first += opening.configuration(self.subject)
-        return Document((*first, *opening.letters(self.letters, _used(body)), *body), self.letters)
+        blocks = (*first, *opening.letters(self.letters, _used(body)), *body)
+        return Document(tuple(map(readable, blocks)), self.letters)
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)

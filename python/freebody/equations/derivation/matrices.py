@@ -8,9 +8,9 @@ from freebody.equations.letters import Letters
 from freebody.equations.tree import Sym, over
 
 _NAMES = {
-    "minimal": "The equations together, M x = b",
-    "brute": "The equations together, A x = b",
-    "constraints": "Balances and constraints as one block system, A x = b",
+    "minimal": "The equations together",
+    "brute": "The equations together",
+    "constraints": "Balances and constraints as one block system",
 }
 
 

@@ -10,7 +10,7 @@ from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Heading, Paragraph
 
 
@@ -24,7 +24,7 @@ def minimal(subject: Subject) -> Form:
     stated = chosen or of_coordinates(subject)
     stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(stated, 1)]
     equations = [_printed(s) for s in stated]
-    form = Form.of(subject, equations + closing.printed(rows), [])
+    form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, bool(chosen), len(stated)))]
     for s in stated:
@@ -38,9 +38,13 @@ def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stat
     if None in asked:
         return None
     found = subject.balances([question for question in asked if question])
-    return [
-        Stated(b, e.about, "about" if b.turns else "along", constructed=e.constructed) for b, e in zip(found, equations, strict=True)
-    ]
+    return [_of_search(subject, balance, equation) for balance, equation in zip(found, equations, strict=True)]
+
+
+def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) -> Stated:
+    gone = {name for item in equation.dropped for name in item.unknowns}
+    places = [i for i, load in enumerate(subject.free.loads) if load.symbol in gone]
+    return Stated(balance.without(places, gone), equation.about, "about" if balance.turns else "along", "", equation.constructed)
 
 
 def _searched(subject: Subject) -> list[Stated] | None:
@@ -60,7 +64,8 @@ def _introduction(subject: Subject, form: Form, searched: bool, number: int) -> 
         return "There is nothing to balance."
     said = [f"{count}, one for each degree of freedom, in which no reaction stands."]
     if others and searched:
-        said = [f"No set of balance equations is free of reactions: {joined(others)} cannot be kept out, so there are {number}."]
+        more = "so there is one" if number == 1 else f"so there are {number}"
+        said = [f"No set of balance equations is free of reactions: {joined(others)} cannot be kept out, {more}."]
     elif others:
         said = [f"{count}, one for each coordinate. {joined(others)} cannot be kept out: they hold the rows above."]
     elif prescribed:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from freebody.equations.derivation.system import System
-from freebody.equations.derivation.told import Linear, Subject
+from freebody.equations.derivation.told import Linear
 from freebody.equations.document import Block
+from freebody.equations.letters import Letters
 from freebody.equations.tree import Tree, minus
 
 
@@ -36,7 +37,7 @@ class Form:
     reactions: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, subject: Subject, equations: Sequence[Printed], blocks: Sequence[Block]) -> Form:
-        """The form of some equations, with the unknowns in the order of the model."""
-        system = System.of([equation.linear for equation in equations], list(subject.letters))
+    def of(cls, letters: Letters, equations: Sequence[Printed], blocks: Sequence[Block]) -> Form:
+        """The form of some equations, with the unknowns in the order of the letters."""
+        system = System.of([equation.linear for equation in equations], list(letters))
         return cls(tuple(equations), tuple(blocks), system, tuple(x.name for x in system.unknowns if not x.dots))

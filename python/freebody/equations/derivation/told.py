@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from freebody.equations.letters import Letters
-from freebody.equations.tree import ZERO, Sym, Tree, is_zero, read
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, read
 from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.source import Source
@@ -103,6 +103,17 @@ class Balance:
     residual: Tree
     linear: Linear
 
+    def without(self, loads: Collection[int], letters: Collection[str]) -> Balance:
+        """The same with some loads left out, by place and letter: they vanish wherever loops and contacts are closed, though not
+        identically in the letters."""
+        if not any(each.load in loads and not each.absent for each in self.contributions):
+            return self
+        kept = tuple(replace(each, tree=ZERO) if each.load in loads else each for each in self.contributions)
+        left = add(*(each.tree for each in kept if not each.internal))
+        coefficients = {x: tree for x, tree in self.linear.coefficients.items() if x.dots or x.name not in letters}
+        linear = Linear(coefficients, self.linear.rest)
+        return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
+
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> Balance:
         """From an answer."""
@@ -142,6 +153,12 @@ class Subject:
     state: State
     at_rest: bool = False
     numbers: Mapping[str, float] | None = None
+
+    def with_numbers(self, names: Sequence[str]) -> Subject:
+        """The same with some coordinates and parameters as the numbers that they are at the state."""
+        places = {c["name"]: float(x) for c, x in zip(self.coordinates, self.state.q, strict=True)}
+        places |= {p["name"]: float(x) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)}
+        return replace(self, numbers={name: places[name] for name in names})
 
     def ask(self, questions: Sequence[Question]) -> list[Any]:
         """The answers of the core, as data. Raises ``_core.MotionError``."""
@@ -223,7 +240,7 @@ class Subject:
 
 def linear_in(tree: Tree, unknowns: Sequence[Sym]) -> Linear:
     """An expression that is linear in some letters, by its coefficients; ``ValueError`` if it is not."""
-    from freebody.equations.tree import Add, Mul, add, mul, symbols
+    from freebody.equations.tree import Add, Mul, mul, symbols
 
     wanted = set(unknowns)
     if not symbols(tree) & wanted:

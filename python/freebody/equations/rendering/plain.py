@@ -8,22 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from freebody.equations.document import (
-    Block,
-    Bullets,
-    Document,
-    Equation,
-    Figure,
-    Heading,
-    MatrixEquation,
-    Paragraph,
-    Side,
-    Table,
-    Vector,
-    Words,
-    Written,
-    is_tree,
-    pieces,
-)
+    Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Table, Vector, Words, Written, is_tree, pieces,
+)  # fmt: skip
 from freebody.equations.letters import Letters
 from freebody.equations.names import ascii_name, unicode_name
 from freebody.equations.text import columns, equation_text, folded, text
@@ -98,9 +84,7 @@ class _Writer:
                 return self.filled(["[Figure: ", *pieces(block.caption or block.name), "]"])
 
     def words(self, words: Words) -> str:
-        return "".join(
-            piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words)
-        )
+        return "".join(piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words))
 
     def filled(self, words: Words, lead: str = "") -> str:
         whole = "".join(_tied(side_text(p, self.letters, ascii=self.ascii)) if not isinstance(p, str) else p for p in pieces(words))
@@ -159,20 +143,21 @@ class _Writer:
         return "\n".join(lines)
 
     def entries(self, block: MatrixEquation) -> str:
-        """Every entry that is not 0, equal ones once."""
+        """Every entry that is not 0, equal ones once, behind what they are entries of."""
         found: dict[Tree, list[str]] = {}
         for i, row in enumerate(block.matrix, 1):
             for j, entry in enumerate(row, 1):
-                found.setdefault(entry, []).append(self.indexed(block.letter, f"{i}{j}"))
+                if not is_zero(entry):
+                    found.setdefault(entry, []).append(self.indexed(block.letter, f"{i}{j}"))
         lines = [
             folded(f"{' = '.join(names)} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8)
             for entry, names in found.items()
         ]
-        for letter, column in (("x", block.unknowns), ("b", block.right)):
-            for i, entry in enumerate(column, 1):
-                name = self.indexed(letter, str(i))
-                lines.append(folded(f"{name} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8))
-        return "\n".join(lines)
+        for i, entry in enumerate(block.right, 1):
+            name = self.indexed("b", str(i))
+            lines.append(folded(f"{name} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8))
+        unknowns = ", ".join(text(x, self.letters, ascii=self.ascii) for x in block.unknowns)
+        return "\n".join([f"{block.letter} x = b with x = ({unknowns}); what is not told is 0", *lines])
 
     def indexed(self, letter: str, digits: str) -> str:
         """A letter with digits below."""

@@ -1,0 +1,77 @@
+"""``freebody equations``: the equations of motion, derived."""
+
+from __future__ import annotations
+
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from freebody.cli.mistakes import Mistake
+
+if TYPE_CHECKING:
+    from freebody.equations.derivation import Equations
+
+
+class Form(str, Enum):
+    """Forms of the equations of motion."""
+
+    minimal = "minimal"
+    brute = "brute"
+    constraints = "constraints"
+
+
+class Language(str, Enum):
+    """Languages of generated functions."""
+
+    python = "python"
+    c = "c"
+
+
+def equations(
+    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
+    form: Annotated[Form, typer.Option(help="Free of reactions, three balances a body, or all constraints.")] = Form.minimal,
+    want: Annotated[str | None, typer.Option("--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …")] = None,
+    at_rest: Annotated[bool, typer.Option("--at-rest", help="All rates are 0.")] = False,
+    fixed: Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="A letter as a number; repeatable.")] = None,
+    latex: Annotated[bool, typer.Option("--latex", help="A fragment of LaTeX.")] = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Markdown.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
+    code: Annotated[Language | None, typer.Option(help="Functions for the matrix form: python (NumPy) or c.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json, .py, .c.")] = None,
+) -> None:
+    """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
+    from freebody.cli import opened, pairs
+
+    try:
+        found = opened(model).equations(form.value, want=want, at_rest=at_rest, fixed=pairs(fixed))
+    except KeyError as error:
+        raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
+    asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json), (_ending(code), code)) if given]
+    if len(asked) > 1:
+        raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json, --code")
+    kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
+    text = printed(found, kind)
+    if output:
+        from freebody.cli import show
+
+        output.write_text(text, encoding="utf-8")
+        show.written([output])
+    else:
+        typer.echo(text.rstrip("\n"))
+
+
+def printed(found: Equations, kind: str) -> str:
+    """The equations by the ending of a file."""
+    ways = {
+        "txt": found.text, "tex": found.latex, "md": found.markdown, "html": found.html, "json": found.json,
+        "py": lambda: found.code("python"), "c": lambda: found.code("c"),
+    }  # fmt: skip
+    if kind not in ways:
+        raise Mistake(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")
+    return ways[kind]()
+
+
+def _ending(code: Language | None) -> str:
+    return "c" if code is Language.c else "py"
