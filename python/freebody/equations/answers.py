@@ -17,18 +17,19 @@ from freebody.equations.derivation.told import Linear, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
-from freebody.equations.simplify import PATIENCE, shortest
+from freebody.equations.simplify import PATIENCE
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import ZERO, Sym, Tree, evaluate, negative, symbols
+from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, children, evaluate, mul, negative, power, walk
 from freebody.free_body import FreeBodies
-from freebody.instant import State
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
-MOST_EQUATIONS = 6
+MOST_EQUATIONS = 4
 """More equations together are not solved in letters."""
+MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 120}
+"""Operations in all coefficients, by the number of equations, above which the answer would fill pages."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
 _OTHERS = 3
@@ -87,8 +88,8 @@ def solve_in_letters(
     letters = subject.letters
     found: dict[str, Tree] = {}
     made: list[Block] = []
-    for system in _systems(subject, names):
-        solution = _solved(system, chosen, letters, patience)
+    for system in _systems(subject, chosen, names):
+        solution = _solved(subject, system, chosen, patience)
         made += [*(b for s in system.stated for b in blocks(subject, s)), *_shown(system, solution, letters)]
         found |= solution
     values = {name: found[_letter(subject, name)] for name in names}
@@ -107,9 +108,9 @@ class _System:
     gives: tuple[Sym, ...]
 
 
-def _systems(subject: Subject, names: Sequence[str]) -> list[_System]:
+def _systems(subject: Subject, chosen: Given, names: Sequence[str]) -> list[_System]:
     """Of each thing wanted the smallest set; where there is none, all balances of the coordinates first."""
-    states = nearby(subject.source, subject.state)
+    states = nearby(subject.source, chosen.generic(subject))
     made: list[_System] = []
     for name in names:
         wanted = _letter(subject, name)
@@ -125,7 +126,10 @@ def _systems(subject: Subject, names: Sequence[str]) -> list[_System]:
             Stated(b, e.about, "about" if b.turns else "along", str(i), e.constructed)
             for i, (b, e) in enumerate(zip(balances, least.equations, strict=True), 1)
         ]
-        made.append(_closed(subject, stated, wanted))
+        try:
+            made.append(_closed(subject, stated, wanted))
+        except TooLarge:  # what drops out at these numbers does not in letters
+            made.append(_of_all(subject, wanted))
     return made
 
 
@@ -148,13 +152,34 @@ def _closed(subject: Subject, stated: Sequence[Stated], wanted: Sym) -> _System:
     return _System(tuple(stated), tuple(linear), tuple(unknown))
 
 
-def _solved(system: _System, chosen: Given, letters: Letters, patience: float) -> dict[Sym, Tree]:
+def _solved(subject: Subject, system: _System, chosen: Given, patience: float) -> dict[Sym, Tree]:
+    letters = subject.letters
     if len(system.linear) > MOST_EQUATIONS:
         raise TooLarge(f"it takes {len(system.linear)} equations together, too many for an answer in letters; ask for numbers")
     unknowns = sorted(system.gives, key=lambda x: (x.dots == 0, letters.place(x.name)))
     matrix = [[chosen.put(each.coefficients.get(x, ZERO)) for x in unknowns] for each in system.linear]
     right = [chosen.put(negative(each.rest)) for each in system.linear]
-    return dict(zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True))
+    if (size := sum(operations(entry) for entry in (*right, *(e for row in matrix for e in row)))) > MOST_OPERATIONS[len(right)]:
+        raise TooLarge(f"{len(right)} equations with {size} operations are too long for an answer in letters; ask for numbers")
+    solution = solve(matrix, right, letters, patience=patience)
+    return {x: with_positive_divisors(tree, subject.values) for x, tree in zip(unknowns, solution, strict=True)}
+
+
+def operations(tree: Tree) -> int:
+    """How many sums, products, powers and functions an expression has."""
+    return sum(max(1, len(children(node)) - 1) for node in walk(tree) if children(node))
+
+
+def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
+    """A fraction whose divisors are positive at given values of the letters."""
+    if isinstance(tree, Add):
+        return Add(tuple(with_positive_divisors(term, values) for term in tree.terms))
+    if not isinstance(tree, Mul):
+        return tree
+    below = [f for f in tree.factors if isinstance(f, Pow) and f.exponent == -1 and isinstance(f.base, Add)]
+    turned = [f for f in below if evaluate(f.base, values) < 0]
+    made = mul(*(power(negative(f.base), -1) if f in turned else f for f in tree.factors))
+    return mul(MINUS_ONE, made) if len(turned) % 2 else made
 
 
 def _shown(system: _System, solution: Mapping[Sym, Tree], letters: Letters) -> list[Block]:

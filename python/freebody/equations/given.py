@@ -69,6 +69,21 @@ class Given:
         except _core.MotionError:
             return None
 
+    def generic(self, subject: Subject) -> State:
+        """The state where no parameter is 0 by chance, so that what drops out of a balance does so whatever they are."""
+        from freebody import _core
+
+        source, state = subject.source, subject.state
+        values = _parameters(source.about, state.p)
+        moved = {name: value or _NEAR for name, value in values.items()} | self._numbers(values)
+        names = [c["name"] for c in source.about["coordinates"]]
+        p = source.core.bind({name: moved[name] for name in values})
+        try:
+            q, _, _ = source.core.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
+        except _core.MotionError:
+            return state
+        return State(p, state.t, q, state.u)
+
     def said(self) -> list[str]:
         """As words: ``theta = π/4``."""
         from freebody.equations.text import text
@@ -127,3 +142,11 @@ def _quantity(value: str, letters: list[str]) -> float:
 
 def _parameters(about: Mapping[str, Any], p: Any) -> dict[str, float]:
     return {each["name"]: float(x) for each, x in zip(about["parameters"], p, strict=True)}
+
+
+def given_quantity(value: Any, unit: str) -> float:
+    """A number in SI, or a quantity. Raises ``ValueError``."""
+    try:
+        return float(value)
+    except ValueError:
+        return _quantity(str(value), [f"a number in {unit}"])

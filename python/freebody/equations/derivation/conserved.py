@@ -67,7 +67,7 @@ def _vanishing(subject: Subject, group: list[str], about: Pair, place: int) -> b
     """Whether, at this state, no load from outside has a part in a balance: else there is no need to look at it in letters."""
     loads = subject.free.on(*group)
     known = sum((load.unit(group, about)[place] for load in loads if not load.unknown), 0.0)
-    return max((abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)])) < _ABSENT
+    return max(abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)]) < _ABSENT
 
 
 def _fixed_points(subject: Subject) -> list[tuple[str, float, float]]:

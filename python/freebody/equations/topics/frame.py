@@ -53,7 +53,9 @@ def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) ->
     place, names = place_of(subject, point), moving_names(subject)
     directions = Directions.of(subject.motions, [place, *arrows.values()], [*names, "t"])
     made: list[Block] = [Heading("The frame")]
-    made.append(Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"]))
+    made.append(
+        Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"])
+    )
     made += [Equation(Sym("omega"), read(told["omega"])), Equation(Sym("alpha"), read(told["alpha"]))]
     made += [Paragraph(pair.sentence()) for pair in directions.pairs]
 
@@ -83,7 +85,9 @@ def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point
         raise ArithmeticError(f"direct differentiation of the position of {point} does not give what the frame gives")
     made: list[Block] = [Heading("By direct differentiation")]
     for what, pair in (("r", place.xy), ("v", v), ("a", a)):
-        made += [Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), spread(tree)) for axis, tree in zip("xy", pair, strict=True)]
+        made += [
+            Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), spread(tree)) for axis, tree in zip("xy", pair, strict=True)
+        ]
     made.append(Paragraph("Both ways give the same, for all values of the letters; it was checked at random ones."))
     return made
 
