@@ -19,7 +19,9 @@ def section(subject: Subject) -> list[Block]:
     """Every quantity that stays constant, with its reason, or why none does."""
     made: list[Block] = [Heading("Conserved quantities"), *_energy(subject)]
     found = _momenta(subject)
-    return made + (found or [Paragraph("No momentum of the whole is conserved along x, along y, or about a point named on the ground.")])
+    return made + (
+        found or [Paragraph("No momentum of the whole is conserved along x, along y, or about a point named on the ground.")]
+    )
 
 
 def energy(subject: Subject) -> tuple[Tree, Tree, str]:
@@ -51,7 +53,8 @@ def _momenta(subject: Subject) -> list[Block]:
     group, g = list(subject.free.bodies), subject.free.centre(*subject.free.bodies)
     found = [({"along": axis}, f"along {axis}", _vanishing(subject, group, (0.0, 0.0), place)) for place, axis in enumerate("xy")]
     found += [
-        ({"about": {"point": name}}, f"about {name}", _vanishing(subject, group, (x, y), 2)) for name, x, y in _fixed_points(subject)
+        ({"about": {"point": name}}, f"about {name}", _vanishing(subject, group, (x, y), 2))
+        for name, x, y in _fixed_points(subject)
     ]
     found.append(({"about": "centre"}, "about the mass centre of the whole", _vanishing(subject, group, g, 2)))
     asked = [(question, where) for question, where, likely in found if likely]
@@ -67,7 +70,7 @@ def _vanishing(subject: Subject, group: list[str], about: Pair, place: int) -> b
     """Whether, at this state, no load from outside has a part in a balance: else there is no need to look at it in letters."""
     loads = subject.free.on(*group)
     known = sum((load.unit(group, about)[place] for load in loads if not load.unknown), 0.0)
-    return max(abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)]) < _ABSENT
+    return max((abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)])) < _ABSENT
 
 
 def _fixed_points(subject: Subject) -> list[tuple[str, float, float]]:

@@ -8,21 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from freebody.equations.document import (
-    Block,
-    Bullets,
-    Document,
-    Equation,
-    Figure,
-    Heading,
-    MatrixEquation,
-    Paragraph,
-    Side,
-    Table,
-    Vector,
-    Words,
-    Written,
-    is_tree,
-    pieces,
+    Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Table, Vector, Words, Written, is_tree, pieces,
 )  # fmt: skip
 from freebody.equations.letters import Letters
 from freebody.equations.names import ascii_name, unicode_name
@@ -98,10 +84,14 @@ class _Writer:
                 return self.filled(["[Figure: ", *pieces(block.caption or block.name), "]"])
 
     def words(self, words: Words) -> str:
-        return "".join(piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words))
+        return "".join(
+            piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words)
+        )
 
     def filled(self, words: Words, lead: str = "") -> str:
-        whole = "".join(_tied(side_text(p, self.letters, ascii=self.ascii)) if not isinstance(p, str) else p for p in pieces(words))
+        whole = "".join(
+            _tied(side_text(p, self.letters, ascii=self.ascii)) if not isinstance(p, str) else p for p in pieces(words)
+        )
         indent = " " * len(lead)
         filled = textwrap.fill(
             whole, self.width, initial_indent=lead, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
@@ -126,7 +116,9 @@ class _Writer:
 
     def matrices(self, block: MatrixEquation) -> str:
         shown = [[text(entry, self.letters, ascii=self.ascii) for entry in row] for row in block.matrix]
-        unknowns, right = ([[text(entry, self.letters, ascii=self.ascii)] for entry in side] for side in (block.unknowns, block.right))
+        unknowns, right = (
+            [[text(entry, self.letters, ascii=self.ascii)] for entry in side] for side in (block.unknowns, block.right)
+        )
         height = max(len(shown), len(unknowns))
         parts = [_padded(self.bracketed(part), height) for part in (shown, unknowns, right)]
         middle = (height - 1) // 2
