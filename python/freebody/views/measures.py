@@ -19,13 +19,15 @@ _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
 @dataclass(frozen=True)
 class Measure:
     """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guide`` (2, 2) to where it is 0, and its
-    value in words. An arrow of fixed size shows the sense of a coordinate that is 0."""
+    value in words. An arrow of fixed size shows the sense of a coordinate that is 0. ``place`` is the joint's point on the second
+    body; an angle has its vertex there, or, of a link, at its other end."""
 
     coordinate: str
     first: str
     second: str
     arrow: Array
     guide: Array
+    place: Array
     angle: bool
     value: str
 
@@ -36,7 +38,8 @@ def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
     bodies = {joint["name"]: (joint["first"], joint["second"]) for joint in sketch.about["joints"]}
     for i, coordinate in enumerate(sketch.about["coordinates"]):
         joint, name = joints.get(coordinate["joint"]), coordinate["name"]
-        if joint is None:
+        place = joint and place_of(sketch, joint)
+        if joint is None or place is None:
             continue
         value = float(sketch.q[0, i])
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
@@ -44,7 +47,7 @@ def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
         drawn = _angle(sketch, joint, value, sense, radius) if angle else _length(sketch, joint, value, sense)
         if drawn is not None:
             told = f"{digits(np.degrees(value))}°" if angle else f"{digits(value)} m"
-            yield Measure(name, *bodies[joint["name"]], *drawn, angle, told)
+            yield Measure(name, *bodies[joint["name"]], *drawn, place, angle, told)
 
 
 def _angle(sketch: Sketch, joint: Mapping[str, Any], value: float, sense: int, radius: float) -> tuple[Array, Array] | None:

@@ -322,7 +322,8 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
         for points, style in shapes.piece_outlines(piece["shape"], sizes, corners, thickness):
             figure.add(shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), style, len(points) > 2)
-    own = [at for name, at in figure.points.items() if not name.endswith(".origin")]
+    joined = {name for joint in sketch.spec["joints"] for name in named_points(joint["with"])}
+    own = [at for name, at in figure.points.items() if not name.endswith(".origin") or name in joined]
     bare = not any(stroke.style in ("body", "band", "mass") for stroke in figure.strokes)
     if bare:
         figure.add(shapes.rounded_hull(np.array(own or [(0.0, 0.0)]), thickness), "body")

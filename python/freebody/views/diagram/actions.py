@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,11 +10,16 @@ import numpy as np
 from freebody.free_body import FreeBodies, Load, Part
 from freebody.results import Array
 from freebody.views.diagram.names import Letters
-from freebody.views.measures import digits
+from freebody.views.measures import digits, place_of
 from freebody.views.scene import Sketch
 
 _ROUND_OFF = 1e-9
 """Relative to the largest force of a diagram, below which an arrow would show only round-off."""
+
+_NOTHING = 1e-30
+"""N and N·m: what is left of nothing where everything else is nothing, too."""
+_ACROSS = 50.0
+"""Sizes of symbols in a mechanism: how far a force may be from where its moment is taken."""
 
 
 @dataclass(frozen=True)
@@ -39,10 +44,19 @@ class Action:
         """Whether it is a couple."""
         return not self.force.any()
 
+    @property
+    def size(self) -> float:
+        """In N or N·m, to scale."""
+        return abs(self.couple) if self.turns else float(np.hypot(*self.force))
 
-def symbolic(free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> Iterator[Action]:
-    """Every load on a group in the positive sense of its letter."""
+
+def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> Iterator[Action]:
+    """Every load on a group in the positive sense of its letter. ``near``: the same a little further on in all coordinates,
+    where what is 0 now has a direction."""
+    beyond = {load.path: load for load in near.on(*group)}
     for load in free.on(*group):
+        if not load.unknown and not any(any(part.force) or part.couple for part in load.on):
+            load = beyond.get(load.path, load)
         for part in load.on:
             if part.body in group:
                 yield from _positive(load, part, letters.of(load), sketch)
@@ -50,14 +64,24 @@ def symbolic(free: FreeBodies, group: Collection[str], letters: Letters, sketch:
 
 def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Action]:
     force, couple = _sense(load, part, sketch)
-    size = np.hypot(*force)
-    if size > 0 and couple:
-        part, couple = _on_its_line(load, part, force, couple, sketch)
-    plain = Action(load.name, load.kind, label, part.body, np.array(part.point), force, couple, (load,))
+    size, at = np.hypot(*force), attached(load, part, sketch)
+    plain = Action(load.name, load.kind, label, part.body, at, force, couple, (load,))
     if size > 0:
         yield replace(plain, force=force / size, couple=0.0)
     if couple:
         yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
+
+
+def attached(load: Load, part: Part, sketch: Sketch) -> Array:
+    """Where a diagram shows a part: of a link at its own end, of a torque at the joint of its two bodies, else where it acts."""
+    joint = next((j for j in sketch.spec["joints"] if j["name"] == load.name and j["type"] == "link"), None)
+    if joint is not None:
+        return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
+    if load.kind in ("force", "motion") and not any(part.force):
+        between = {j["name"] for j in sketch.about["joints"] if {j["first"], j["second"]} == set(load.of)}
+        places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
+        return next((place for place in places if place is not None), np.array(part.point))
+    return np.array(part.point)
 
 
 def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
@@ -77,69 +101,79 @@ def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
     return force, couple
 
 
-def _on_its_line(load: Load, part: Part, force: Array, couple: float, sketch: Sketch) -> tuple[Part, float]:
-    """A force with a couple is the same force on another line; it is moved there where that meets the body."""
-    shift = np.array([-force[1], force[0]]) * couple / (force @ force)
-    place = np.array(part.point) + shift
-    index = sketch.names.index(part.body)
-    seen = [sketch.place(name) for name, (body, _) in sketch.at.items() if body == part.body]
-    seen += [sketch.poses[0, index, :2]]
-    low, high = np.min(seen, axis=0) - 2 * sketch.size, np.max(seen, axis=0) + 2 * sketch.size
-    if (place < low).any() or (place > high).any():
-        return part, couple
-    return replace(part, point=(float(place[0]), float(place[1])), couple=0.0), 0.0
+def to_scale(
+    free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch, effective: bool
+) -> tuple[list[Action], list[Action], list[str]]:
+    """What acts on a group at the instant, the components of a pin's force together; m a and I α where asked for; and what
+    cannot be drawn, in words."""
+    loads = free.on(*group)
+    forces = list(_acting(loads, group, letters, sketch))
+    terms = list(_terms(free, group, letters)) if effective else []
+    largest = max((action.size for action in forces + terms if not action.turns), default=0.0)
+    turning = max([action.size for action in forces + terms if action.turns] + [largest * _ACROSS * sketch.size])
+    least = max(_ROUND_OFF * largest, _NOTHING), max(_ROUND_OFF * turning, _NOTHING)
+
+    def seen(actions: list[Action]) -> list[Action]:
+        return [action for action in actions if action.size > least[action.turns]]
+
+    shown = {load.symbol for action in seen(forces) for load in action.loads}
+    unknown = [load.symbol for load in loads if not load.determinate]
+    none = [load.symbol for load in loads if load.determinate and load.symbol not in shown]
+    notes = [f"not determined: {', '.join(unknown)}"] * bool(unknown) + [f"{', '.join(none)} = 0"] * bool(none)
+    return [_with_value(a) for a in seen(forces)], [_with_value(a) for a in seen(terms)], notes
 
 
-def to_scale(free: FreeBodies, group: Collection[str], letters: Letters) -> tuple[list[Action], list[str]]:
-    """What acts on a group at the instant, the components of a reaction together, and what cannot be drawn, in words."""
-    found: dict[tuple[str, str, str, tuple[float, float]], Action] = {}
-    missing = []
-    for load in free.on(*group):
-        if not load.determinate:
-            missing.append(f"{load.label} is not determined")
-            continue
-        for part in (part for part in load.on if part.body in group):
-            for force, couple in ((load.value * np.array(part.force), 0.0), (np.zeros(2), load.value * part.couple)):
-                if force.any() or couple:
-                    key = (load.path, "force" if force.any() else "couple", part.body, part.point)
-                    new = Action(load.name, load.kind, letters.of(load), part.body, np.array(part.point), force, couple, (load,))
-                    found[key] = _together(found[key], new) if key in found else new
-    largest = max((float(np.hypot(*action.force)) for action in found.values()), default=0.0)
-    kept = [a for a in found.values() if a.turns or np.hypot(*a.force) > _ROUND_OFF * largest]
-    return [_with_value(action) for action in kept], missing
+def _acting(loads: Collection[Load], group: Collection[str], letters: Letters, sketch: Sketch) -> Iterable[Action]:
+    found: dict[tuple[str, bool, str], Action] = {}
+    for load in (load for load in loads if load.determinate):
+        for i, part in enumerate(load.on):
+            if part.body not in group:
+                continue
+            force, couple = load.value * np.array(part.force), load.value * part.couple
+            new = Action(
+                load.name, load.kind, letters.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
+            )
+            for one in (replace(new, couple=0.0), replace(new, force=np.zeros(2))):
+                key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
+                if one.force.any() or one.couple:
+                    found[key] = _together(found[key], one) if key in found else one
+    return found.values()
 
 
 def _together(first: Action, second: Action) -> Action:
-    label = first.label.rpartition("_{")[0] or first.label
-    return replace(first, force=first.force + second.force, couple=first.couple + second.couple,
-                   label=label, loads=first.loads + second.loads)  # fmt: skip
+    return replace(first, force=first.force + second.force, couple=first.couple + second.couple, loads=first.loads + second.loads)
 
 
 def _with_value(action: Action) -> Action:
-    size, unit = (abs(action.couple), r"N\,m") if action.turns else (float(np.hypot(*action.force)), "N")
-    return replace(action, label=rf"{action.label} = {_figure(size)}\ \mathrm{{{unit}}}")
+    unit = r"N\,m" if action.turns else "N"
+    return replace(action, label=rf"{action.label} = {_figure(action.size)}\ \mathrm{{{unit}}}")
 
 
-def effective(free: FreeBodies, group: Collection[str], letters: Letters, scaled: bool) -> Iterator[Action]:
-    """The other side of the balance: m a at every mass centre, I α."""
+def effective(free: FreeBodies, group: Collection[str], letters: Letters) -> Iterator[Action]:
+    """The other side of the balance, symbolic: m a at every mass centre, by components for a body by itself; I α."""
+    for term in _terms(free, group, letters, moving=False):
+        if term.turns:
+            yield replace(term, couple=1.0)
+        elif len(group) > 1:
+            yield replace(term, force=term.force / np.hypot(*term.force))
+        else:
+            for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+                yield replace(term, label=rf"{letters.mass(term.body)}\,a_{part}", force=np.array(way))
+
+
+def _terms(free: FreeBodies, group: Collection[str], letters: Letters, moving: bool = True) -> Iterator[Action]:
+    """m a and I α of every body, those that are 0 at the instant left out or, unless ``moving``, in any direction."""
+    alone = len(group) == 1
     for name in group:
         body = free.bodies[name]
-        at, mass = np.array(body.G), letters.mass(name)
-        plain = Action(name, "effective", "", name, at, np.zeros(2))
-        if scaled:
-            force, couple = body.mass * np.array(body.a), body.inertia * body.alpha
-            vector = replace(plain, label=rf"{mass}\,{letters.acceleration(name)}", force=force)
-            terms = [vector, replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name)}", couple=couple)]
-            yield from (_with_value(term) for term in terms if term.force.any() or term.couple)
-            continue
-        if body.mass and len(group) == 1:
-            for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-                yield replace(plain, label=rf"{mass}\,{letters.acceleration(name, part)}", force=np.array(way))
-        elif body.mass:
-            way = np.array(body.a) if np.any(body.a) else np.array([1.0, 1.0])
-            yield replace(plain, label=rf"{mass}\,{letters.acceleration(name)}", force=way / np.hypot(*way))
-        if body.inertia and not body.particle:
-            yield replace(plain, label=rf"{letters.inertia(name)}\,{letters.angular(name)}", couple=1.0)
+        plain = Action(name, "effective", "", name, np.array(body.G), np.zeros(2))
+        a = np.array(body.a) if moving or np.any(body.a) else np.array([1.0, 1.0])
+        if body.mass and a.any():
+            yield replace(plain, label=rf"{letters.mass(name)}\,{letters.acceleration(name, alone)}", force=body.mass * a)
+        alpha = body.alpha if moving else 1.0
+        if body.inertia and not body.particle and alpha:
+            label = rf"{letters.inertia(name)}\,{letters.angular(name, alone)}"
+            yield replace(plain, label=label, couple=body.inertia * alpha)
 
 
 def _figure(value: float) -> str:

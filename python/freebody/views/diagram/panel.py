@@ -48,7 +48,7 @@ def panel(scenery: Scenery, actions: Sequence[Action], names: Sequence[str], per
     marks = arranged(actions, scenery, per_newton)
     strokes, arrows = scenery.ink(), dense(lines(marks), 1.5)
     dots = np.array([tag.at for tag in scenery.points]).reshape(-1, 2)
-    ink = Ink.of((strokes, 2.0), (arrows, 6.0), (dots, 8.0), (scenery.pins, 8.0))
+    ink = Ink.of((strokes, 2.0), (arrows, 15.0), (dots, 8.0), (scenery.pins, 8.0))
     labels = placed([*_letters(marks), *_others(scenery, names)], ink)
     rough = Panel(scenery, marks, labels, None)
     return Panel(scenery, marks, labels, _corner(rough, np.vstack([strokes, arrows])) if axes else None)
@@ -79,13 +79,18 @@ def _corners(labels: Sequence[Placed]) -> list[Array]:
 
 
 def _corner(rough: Panel, ink: Array) -> Array:
-    """Where the axes are in nobody's way: a free corner, else the lower left one, outside."""
+    """Where the axes are in nobody's way: the free place nearest to the lower left corner, or outside of it."""
     low, high = rough.box()
     boxes = _corners(rough.labels)
-    room = np.array([_CORNER, _CORNER])
-    for at in (low, np.array([high[0] - room[0], low[1]]), np.array([low[0], high[1] - room[1]]), high - room):
-        start, end = at - 2, at + room + 2
-        written = any((low_ < end).all() and (high_ > start).all() for low_, high_ in boxes)
-        if not written and not ((ink > start) & (ink < end)).all(axis=1).any():
+    spots = [
+        np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
+    ]
+    for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
+        start, end = at - 4, at + _CORNER
+        written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
+        covered = ((ink > start) & (ink < end)).all(axis=1).any() or rough.scenery.within(
+            np.array([start, end, (start + end) / 2])
+        )
+        if not written and not covered:
             return at
-    return np.array([low[0] - room[0] * 0.6, low[1] - room[1] * 0.6])
+    return np.array([low[0], low[1] - _CORNER])

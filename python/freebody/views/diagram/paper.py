@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.results import Array
 from freebody.views.diagram.arrows import Bow
+from freebody.views.diagram.layout import extent
 from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone
 from freebody.views.paint import patch
 from freebody.views.style import GROUND as GREY
@@ -22,16 +24,25 @@ if TYPE_CHECKING:
 COLUMN = 454.0  # pt, 160 mm: the text of a page
 _MARGIN, _BETWEEN, _ROWS, _HEAD, _LINE = 8.0, 26.0, 22.0, 20.0, 13.0
 _PIN = 2.6  # pt
+_TITLE, _NOTE = 10.5, 8.0
+_LETTERS = 90  # of a remark in a line
 
 
 @dataclass(frozen=True)
 class Row:
-    """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks."""
+    """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks; ``vanishes``: the panel
+    stands for nothing, a body without mass."""
 
     title: str
     panels: Sequence[Panel]
     per_newton: float | None
     notes: Sequence[str]
+    vanishes: bool = False
+
+    @property
+    def lines(self) -> list[str]:
+        """The remarks, line by line."""
+        return [line.replace("$", r"\$") for note in self.notes for line in wrap(note, _LETTERS)]
 
 
 @dataclass(frozen=True)
@@ -83,33 +94,37 @@ def _laid(row: Row) -> _Set:
             x += widths[i]
         else:
             y -= high[1] - low[1] + _LINE
+    if row.vanishes:
+        signs.append(np.array([x + _BETWEEN, y - top + _middle(row.panels[0])]))
+        x += 2 * _BETWEEN
     depth = -y + (top - bottom if beside else -_LINE)
     width = x if beside else max(w + (_BETWEEN if i else 0.0) for i, w in enumerate(widths))
-    return _Set(shifts, signs, np.array([max(width, 90.0), depth + _foot(row)]))
+    written = [extent(row.title, _TITLE, True)[0], *(extent(note, _NOTE)[0] for note in row.lines)]
+    return _Set(shifts, signs, np.array([max(width, *written), depth + _foot(row)]))
 
 
 def _middle(panel: Panel) -> float:
     """Height of the middle of what is drawn of the bodies."""
-    ink = panel.scenery.ink()
-    return float((ink[:, 1].min() + ink[:, 1].max()) / 2)
+    heights = np.concatenate([stroke.points[:, 1] for stroke in panel.scenery.strokes] or [np.zeros(1)])
+    return float((heights.min() + heights.max()) / 2)
 
 
 def _foot(row: Row) -> float:
-    return _LINE * (len(row.notes) + (row.per_newton is not None)) + (4.0 if row.notes or row.per_newton else 0.0)
+    return _LINE * (len(row.lines) + (row.per_newton is not None)) + (4.0 if row.lines or row.per_newton else 0.0)
 
 
 def _row(ax: Axes, row: Row, laid: _Set, corner: Array) -> None:
-    ax.text(*corner, row.title.replace("$", r"\$"), ha="left", va="top", fontsize=10.5, fontweight="bold", color=INK)
+    ax.text(*corner, row.title.replace("$", r"\$"), ha="left", va="top", fontsize=_TITLE, fontweight="bold", color=INK)
     for sign in laid.signs:
-        ax.text(*(corner + sign), "=", ha="center", va="center", fontsize=16, color=INK)
+        ax.text(*(corner + sign), "= 0" if row.vanishes else "=", ha="center", va="center", fontsize=16, color=INK)
     for panel, shift in zip(row.panels, laid.shifts, strict=True):
         _panel(ax, panel, corner + shift)
     foot = corner - (0.0, laid.size[1] - _foot(row) + 4.0)
     if row.per_newton is not None:
         _scale(ax, row.per_newton, foot - (0.0, 8.0))
         foot = foot - (0.0, _LINE)
-    for note in row.notes:
-        ax.text(*foot, note.replace("$", r"\$"), ha="left", va="top", fontsize=8.0, color=GREY)
+    for note in row.lines:
+        ax.text(*foot, note, ha="left", va="top", fontsize=_NOTE, color=GREY)
         foot = foot - (0.0, _LINE)
 
 
@@ -120,8 +135,9 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
     for line in scenery.inner:
         ax.plot(*(line + shift).T, color=INK, lw=1.1, zorder=2.4)
     for dimension in scenery.dimensions:
-        ax.plot(*(dimension.guide + shift).T, color=MEASURE, lw=0.7, ls=(0, (4, 3)) if dimension.angle else "-", zorder=3)
-        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, 7.0)
+        for guide in dimension.guides:
+            ax.plot(*(guide + shift).T, color=MEASURE, lw=0.7, ls=(0, (4, 3)) if dimension.angle else "-", zorder=3)
+        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, float(np.clip(0.8 * _length(dimension.arrow), 4.0, 7.0)))
     for pin in scenery.pins:
         ax.plot(*(pin + shift), "o", ms=2 * _PIN, mfc=PAPER, mec=INK, mew=1.0, zorder=4)
     for tag in scenery.points:
@@ -139,7 +155,7 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
 
 def _write(ax: Axes, text: str, at: Array, size: float, colour: str, bold: bool = False) -> None:
     weight = "bold" if bold else "normal"
-    ax.text(*at, text, fontsize=size, color=colour, fontweight=weight, ha="center", va="center", zorder=6, gid="label")
+    ax.text(*at, text, fontsize=size, color=colour, fontweight=weight, ha="center", va="center", zorder=6, label="label")
 
 
 def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> None:
@@ -149,6 +165,10 @@ def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> Non
     if len(line) > 2:
         ax.plot(*line[:-1].T, color=colour, lw=width, zorder=5, solid_capstyle="butt")
     ax.annotate("", line[-1], line[-2], arrowprops=look, zorder=5)
+
+
+def _length(line: Array) -> float:
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
 def _axes(ax: Axes, corner: Array) -> None:
