@@ -10,6 +10,7 @@ from freebody.equations.document import Document
 from freebody.equations.topics.common import NotHere
 from freebody.equations.topics.elimination import elimination
 from freebody.equations.topics.frame import frame
+from freebody.equations.topics.impact import impact
 from freebody.equations.topics.lagrange import lagrange
 from freebody.equations.topics.linear import linear
 from freebody.equations.topics.moment import moment
@@ -38,6 +39,7 @@ TOPICS: Mapping[str, Topic] = {
     "particle": Topic(particle, "a particle along i, j and in polar coordinates; options: body, about"),
     "moment": Topic(moment, "moments about a fixed or moving point, each with its right-hand side; options: about, bodies"),
     "elimination": Topic(elimination, "fewer equations by conserved momenta"),
+    "impact": Topic(impact, "a blow in the run: impulses, what is absent and why, momentum, restitution; options: number"),
     "out_of_plane": Topic(out_of_plane, "what the plane exerts; options: gravity"),
 }
 """By name, as in ``freebody equations MODEL --form NAME``."""

@@ -1,0 +1,150 @@
+"""A blow in a run, in letters: what touches, rates before and after, impulses in place of forces."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.balances.minimal import minimal_form
+from freebody.equations.derivation.coordinates import stated
+from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.topics.common import NotHere, moving_names
+from freebody.equations.tree import Sym, Tree, add, mul, negative, replace as put
+from freebody.free_body import FreeBodies, Load
+from freebody.instant import State
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+    from freebody.switched import Change
+
+_MOMENT = 1e-9
+"""How long, in s, the motion is followed that tells what holds after the blow."""
+_LIMITS = ("contacts", "strings", "stops")
+
+
+@dataclass(frozen=True)
+class Struck(Subject):
+    """A mechanism just after a blow without bounce, when all that was struck holds; rates of the state are those before."""
+
+    motion: Any = None
+
+    @cached_property
+    def free(self) -> FreeBodies:
+        """All loads, the forces of what was struck among them."""
+        return FreeBodies.read(self.motion.free_bodies(self.state.t))
+
+    def _told(self, questions: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+        return json.loads(self.motion.letters(self.state.t, json.dumps({}), json.dumps(list(questions))))
+
+
+@dataclass(frozen=True)
+class Blow:
+    """A blow: the ``change`` of the run, the mechanism in letters, and how much comes back (``restitution``) by name."""
+
+    change: Change
+    subject: Struck
+    restitution: Mapping[str, float]
+
+    @property
+    def impulses(self) -> dict[Sym, Sym]:
+        """The impulse for each unknown force."""
+        return {Sym(load.symbol): Sym(impulse(load)) for load in self.forces}
+
+    @property
+    def forces(self) -> list[Load]:
+        """Unknown loads, which may grow beyond all bounds."""
+        return [load for load in self.subject.free.loads if load.unknown and not load.follows]
+
+    def after(self, tree: Tree) -> Tree:
+        """An expression with the rates after the blow."""
+        return put(tree, {Sym(name, 1): Sym(after(name), 1) for name in moving_names(self.subject)})
+
+    def jump(self, balance: Balance) -> Tree:
+        """Momentum after less momentum before."""
+        return add(self.after(balance.momentum), negative(balance.momentum))
+
+    def acting(self, balance: Balance) -> Tree:
+        """What all impulses give to a balance."""
+        forces, loads = self.impulses, self.subject.free.loads
+        parts = [c.tree for c in balance.contributions if not c.absent and (loads[c.load].unknown or loads[c.load].follows)]
+        return put(add(*parts), forces)
+
+    def conditions(self) -> list[tuple[str, Tree, Tree]]:
+        """Name, rate after and what it is, for all that holds after a blow without bounce."""
+        made: list[tuple[str, Tree, Tree]] = []
+        for row in self.subject.rows:
+            first = row.name not in [name for name, _, _ in made]
+            if row.rate is not None:
+                back = bool(self.restitution.get(row.name)) and first  # the first row of a limit is its gap's
+                made.append((row.name, self.after(row.rate), mul(negative(Sym(coefficient(row.name))), row.rate) if back else add()))
+        return made
+
+    def conserved(self) -> list[tuple[str, Balance]]:
+        """Balances without any impulse, with their titles, as many as stay after what holds; empty where there are none."""
+        found = minimal_form([self.subject.free], self.subject.points).equations
+        asked = [equation.question for equation in found]
+        if not asked or None in asked:
+            return []
+        balances = self.subject.balances([question for question in asked if question])
+        free = all(self.acting(balance) == add() for balance in balances)
+        return [(e.title, b) for e, b in zip(found, balances, strict=True)] if free else []
+
+    def of_coordinates(self) -> list[tuple[str, Balance]]:
+        """The balances of the coordinates, with their titles."""
+        return [(each.title, each.balance) for each in stated(self.subject)]
+
+
+def blow(mechanism: Builder, number: int = 1) -> Blow:
+    """The blow of a ``number``, counted from 1, in the run of a mechanism. Raises ``NotHere``."""
+    run = mechanism.simulate()
+    if not 1 <= number <= len(run.impacts):
+        raise NotHere(f"the run has {len(run.impacts)} blows, none of number {number}; let it run longer, or start it otherwise")
+    change, spec = run.impacts[number - 1], json.loads(run.source.spec)
+    limits = [each for kind in _LIMITS for each in spec[kind]]
+    p = mechanism.start()[0].p
+    back = {each["name"]: _value(run.source.core, each["restitution"], p) for each in limits if each["name"] in change.of}
+    before = change.before
+    state = State(p, change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
+    return Blow(change, Struck(mechanism.source(), state, motion=_without_bounce(mechanism, spec, state)), back)
+
+
+def impulse(load: Load) -> str:
+    """The letter of an impulse: ``bump.J_N``, ``pivot.J_x``."""
+    owner, _, part = load.symbol.rpartition(".")
+    return f"{owner or load.name}.J_{part.removeprefix('F') or part}"
+
+
+def after(name: str) -> str:
+    """The letter of a coordinate whose rate is that after the blow."""
+    return f"{name}_after" if not name[-1:].isdigit() else f"{name.rstrip('0123456789')}_{name[len(name.rstrip('0123456789')):]}_after"
+
+
+def coefficient(name: str) -> str:
+    """The letter of a coefficient of restitution."""
+    return f"e_{name}" if name.isidentifier() else "e"
+
+
+def _without_bounce(mechanism: Builder, spec: dict[str, Any], state: State) -> Any:
+    from freebody import _core
+    from freebody.run import Settings, simulate
+
+    for each in (each for kind in _LIMITS for each in spec[kind]):
+        each["restitution"] = 0.0
+    text = json.dumps({**spec, "events": []})
+    source = replace(mechanism.source(), core=_core.Mechanism(text), spec=text)
+    settings = Settings(state.t + _MOMENT, step=_MOMENT, impacts="newton")
+    return simulate(source, state, settings).motion
+
+
+def _value(core: Any, number: Any, p: Any) -> float:
+    if not isinstance(number, str):
+        return float(number)
+    names = [each["name"] for each in json.loads(core.describe())["parameters"]]
+    from freebody.model.start import evaluate
+
+    return evaluate(number, dict(zip(names, p.tolist(), strict=True)))
