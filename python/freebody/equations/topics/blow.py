@@ -14,7 +14,8 @@ from freebody.balances.minimal import minimal_form
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.topics.common import NotHere, moving_names
-from freebody.equations.tree import Sym, Tree, add, mul, negative, replace as put
+from freebody.equations.tree import Sym, Tree, add, evaluate, mul, negative
+from freebody.equations.tree import replace as put
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 _MOMENT = 1e-9
 """How long, in s, the motion is followed that tells what holds after the blow."""
+_NOTHING = 1e-9
+"""Lengths in m, rates in m/s and arms in m below which they are 0: what an event leaves of them."""
 _LIMITS = ("contacts", "strings", "stops")
 
 
@@ -81,7 +84,9 @@ class Blow:
             first = row.name not in [name for name, _, _ in made]
             if row.rate is not None:
                 back = bool(self.restitution.get(row.name)) and first  # the first row of a limit is its gap's
-                made.append((row.name, self.after(row.rate), mul(negative(Sym(coefficient(row.name))), row.rate) if back else add()))
+                made.append(
+                    (row.name, self.after(row.rate), mul(negative(Sym(coefficient(row.name))), row.rate) if back else add())
+                )
         return made
 
     def conserved(self) -> list[tuple[str, Balance]]:
@@ -91,8 +96,22 @@ class Blow:
         if not asked or None in asked:
             return []
         balances = self.subject.balances([question for question in asked if question])
-        free = all(self.acting(balance) == add() for balance in balances)
+        free = all(self._is_free(balance) for balance in balances)
         return [(e.title, b) for e, b in zip(found, balances, strict=True)] if free else []
+
+    def _is_free(self, balance: Balance) -> bool:
+        """Whether no impulse has a part in a balance where the blow is; in letters it may take what touches to see it."""
+        subject = self.subject
+        units = dict.fromkeys(self.impulses, 1.0)
+        parts = [c.tree for c in balance.contributions if not c.internal and subject.free.loads[c.load].unknown]
+        return all(abs(float(evaluate(part, subject.values | units, subject.tables))) < _NOTHING for part in parts)
+
+    @property
+    def zeros(self) -> dict[Sym, Tree]:
+        """Coordinates, and rates before the blow, that are 0 there."""
+        names = moving_names(self.subject)
+        found = [Sym(name) for name, x in zip(names, self.subject.state.q, strict=True) if abs(x) < _NOTHING]
+        return dict.fromkeys([*found, *(Sym(name, 1) for name, x in self.change.before.u.items() if abs(x) < _NOTHING)], add())
 
     def of_coordinates(self) -> list[tuple[str, Balance]]:
         """The balances of the coordinates, with their titles."""
@@ -121,7 +140,11 @@ def impulse(load: Load) -> str:
 
 def after(name: str) -> str:
     """The letter of a coordinate whose rate is that after the blow."""
-    return f"{name}_after" if not name[-1:].isdigit() else f"{name.rstrip('0123456789')}_{name[len(name.rstrip('0123456789')):]}_after"
+    return (
+        f"{name}_after"
+        if not name[-1:].isdigit()
+        else f"{name.rstrip('0123456789')}_{name[len(name.rstrip('0123456789')) :]}_after"
+    )
 
 
 def coefficient(name: str) -> str:

@@ -14,7 +14,7 @@ from freebody.equations.letters import Letter, Letters
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.blow import Blow, after, blow, coefficient, impulse
 from freebody.equations.topics.common import document, moving_names
-from freebody.equations.tree import Sym, Tree, evaluate, is_zero, symbols
+from freebody.equations.tree import Sym, Tree, evaluate, is_zero, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -33,10 +33,11 @@ def impact(mechanism: Builder, state: State | None = None, *, number: int | str 
 
 
 def rates_after(found: Blow) -> dict[Sym, Tree]:
-    """Rates after the blow and impulses of what acts, in letters. Raises ``TooLarge``, ``Singular``, ``ArithmeticError`` where they
+    """Rates after the blow and impulses of what acts, in letters, with what is 0 at the blow left out. Raises ``TooLarge``, ``Singular``, ``ArithmeticError`` where they
     are not those of the run."""
     equations = [(found.acting(b), found.jump(b)) for _, b in found.of_coordinates()]
     equations += [(left, right) for _, left, right in found.conditions()]
+    equations = [(replace(left, found.zeros), replace(right, found.zeros)) for left, right in equations]
     wanted = [Sym(after(name), 1) for name in moving_names(found.subject)]
     there = set().union(*(symbols(*pair) for pair in equations))
     wanted += [x for x in found.impulses.values() if x in there]
@@ -54,14 +55,18 @@ def rates_after(found: Blow) -> dict[Sym, Tree]:
 
 def _what(found: Blow) -> list[Block]:
     made: list[Block] = [Heading("Impulses on each body")]
-    made.append(Paragraph("In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it."))
+    made.append(
+        Paragraph("In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it.")
+    )
     for body in found.subject.free.bodies:
         loads = [load for load in found.forces if any(part.body == body for part in load.on)]
         items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(load_words(load))}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
     finite = [load_words(load) for load in found.subject.free.loads if not load.unknown and not load.follows]
     if finite:
-        made.append(Paragraph(f"Absent: {'; '.join(finite)}. They stay finite, so their impulses in a time that goes to 0 are 0."))
+        made.append(
+            Paragraph(f"Absent: {'; '.join(finite)}. They stay finite, so their impulses in a time that goes to 0 are 0.")
+        )
     return made
 
 
@@ -73,7 +78,11 @@ def _equations(found: Blow) -> list[Block]:
     free = found.conserved()
     made: list[Block] = [Heading("Impulse and momentum")]
     if free:
-        made.append(Paragraph("No impulse has a part in these, so what they balance is the same before and after:"))
+        made.append(
+            Paragraph(
+                "No impulse has a part in these, in the configuration of the blow, so the momenta are the same before and after:"
+            )
+        )
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
     made.append(Paragraph("With the impulses in them, one for each coordinate, impulse = momentum after − momentum before:"))
     return made + [_with_impulses(found, title, b) for title, b in found.of_coordinates()]
@@ -96,7 +105,13 @@ def _title(title: str) -> str:
 def _restitution(found: Blow) -> list[Block]:
     made: list[Block] = [Heading("Restitution, and what holds")]
     for name, left, right in found.conditions():
-        why = f"{name} throws back" if not is_zero(right) else f"at {name} nothing comes back" if name in found.change.of else f"{name} holds"
+        why = (
+            f"{name} throws back"
+            if not is_zero(right)
+            else f"at {name} nothing comes back"
+            if name in found.change.of
+            else f"{name} holds"
+        )
         made.append(Equation(left, right, why))
     return made
 
@@ -104,9 +119,14 @@ def _restitution(found: Blow) -> list[Block]:
 def _answers(found: Blow) -> list[Block]:
     made: list[Block] = [Heading("After the blow")]
     try:
-        return made + [Equation(x, tree) for x, tree in rates_after(found).items()]
+        return made + _given(found) + [Equation(x, tree) for x, tree in rates_after(found).items()]
     except (TooLarge, Singular, ArithmeticError) as error:
         return [*made, Paragraph(f"In letters no more is said: {error}.")]
+
+
+def _given(found: Blow) -> list[Block]:
+    said: list[str | Sym] = [piece for x in found.zeros for piece in (x, " = ")]
+    return [Paragraph(["At this blow ", *said, "0, so that"])] if said else []
 
 
 def _numbers(found: Blow) -> list[Block]:
@@ -120,9 +140,14 @@ def _numbers(found: Blow) -> list[Block]:
 
 def _letters(found: Blow) -> Sequence[Letter]:
     known = found.subject.letters
-    made = [Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow") for name in moving_names(found.subject)]
+    made = [
+        Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow")
+        for name in moving_names(found.subject)
+    ]
     made += [Letter(impulse(load), "unknown", "N*s", f"impulse of the {load_words(load)}") for load in found.forces]
-    return made + [Letter(coefficient(name), "parameter", "", f"restitution at {name}") for name, e in found.restitution.items() if e]
+    return made + [
+        Letter(coefficient(name), "parameter", "", f"restitution at {name}") for name, e in found.restitution.items() if e
+    ]
 
 
 def _values(found: Blow) -> dict[Sym, float]:
@@ -136,4 +161,6 @@ def _check(found: Blow, solved: dict[Sym, Tree]) -> None:
     scale = max((abs(u) for u in (*speeds.values(), *found.change.before.u.values())), default=1.0) or 1.0
     for name, true in speeds.items():
         if abs(float(evaluate(solved[Sym(after(name), 1)], values)) - true) > 10 * AGREES * scale:
-            raise ArithmeticError("what was struck does not hold as told here (it lifts off, slides, or strikes again); see the run")
+            raise ArithmeticError(
+                "what was struck does not hold as told here (it lifts off, slides, or strikes again); see the run"
+            )
