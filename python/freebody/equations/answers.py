@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.balances.equation import BalanceEquation
 from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
 from freebody.equations.derivation.balancing import Stated, blocks
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
 MOST_EQUATIONS = 4
 """More equations together are not solved in letters."""
-MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 120}
+MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 150}
 """Operations in all coefficients, by the number of equations, above which the answer would fill pages."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
@@ -119,22 +120,32 @@ def _systems(subject: Subject, chosen: Given, names: Sequence[str]) -> list[_Sys
         least = smallest_set(name, states, subject.points)
         asked = [e.question for e in least.equations]
         if not asked or None in asked:
-            made.append(_of_all(subject, wanted))
+            made.append(_of_all(subject, states, wanted))
             continue
-        balances = subject.balances([question for question in asked if question])
-        stated = [
-            Stated(b, e.about, "about" if b.turns else "along", str(i), e.constructed)
-            for i, (b, e) in enumerate(zip(balances, least.equations, strict=True), 1)
-        ]
         try:
-            made.append(_closed(subject, stated, wanted))
+            made.append(_closed(subject, _in_letters(subject, least.equations), wanted))
         except TooLarge:  # what drops out at these numbers does not in letters
-            made.append(_of_all(subject, wanted))
+            made.append(_of_all(subject, states, wanted))
     return made
 
 
-def _of_all(subject: Subject, wanted: Sym) -> _System:
-    return _closed(subject, [replace(s, label=str(i)) for i, s in enumerate(of_coordinates(subject), 1)], wanted)
+def _in_letters(subject: Subject, equations: Sequence[BalanceEquation]) -> list[Stated]:
+    balances = subject.balances([each.question for each in equations if each.question])
+    return [
+        Stated(b, e.about, "about" if b.turns else "along", str(i), e.constructed)
+        for i, (b, e) in enumerate(zip(balances, equations, strict=True), 1)
+    ]
+
+
+def _of_all(subject: Subject, states: Sequence[FreeBodies], wanted: Sym) -> _System:
+    """The balances of the coordinates, and for a load that is not in them the fewest more, the motion being known from those."""
+    stated = of_coordinates(subject)
+    if not wanted.dots and not any(wanted in s.balance.linear.coefficients for s in stated):
+        more = smallest_set(wanted.name, states, subject.points, known_motion=True).equations
+        if any(each.question is None for each in more):
+            raise TooLarge(f"{wanted.name}: no set of balances about named points gives it; ask for numbers")
+        stated += _in_letters(subject, more)
+    return _closed(subject, [replace(s, label=str(i)) for i, s in enumerate(stated, 1)], wanted)
 
 
 def _closed(subject: Subject, stated: Sequence[Stated], wanted: Sym) -> _System:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import PI, Sym, Tree, evaluate, mul, number, replace, symbols
+from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, evaluate, mul, number, replace, symbols
 from freebody.instant import State
 
 if TYPE_CHECKING:
@@ -32,12 +32,12 @@ class Given:
     trees: Mapping[str, Tree]
 
     def put(self, tree: Tree) -> Tree:
-        """An expression with the letters replaced."""
-        if not symbols(tree) & {Sym(name) for name in self.trees}:
-            return tree
+        """An expression with the letters replaced, and plain numbers exact."""
         from freebody.equations.to_sympy import from_sympy, to_sympy
 
-        return from_sympy(to_sympy(replace(tree, {Sym(name): value for name, value in self.trees.items()})))
+        new = {Sym(name): value for name, value in self.trees.items()}
+        made = _with_exact_numbers(tree)
+        return from_sympy(to_sympy(replace(made, new))) if symbols(made) & new.keys() else made
 
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
         """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
@@ -104,6 +104,20 @@ def given(mechanism: Builder, set: Mapping[str, Any]) -> Given:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
     return Given({name: _exact(value, letters) for name, value in set.items()})
+
+
+def _with_exact_numbers(tree: Tree) -> Tree:
+    match tree:
+        case Num(float() as value):
+            return exact(value)
+        case Add(parts) | Mul(parts):
+            return type(tree)(tuple(map(_with_exact_numbers, parts)))
+        case Pow(base, exponent):
+            return Pow(_with_exact_numbers(base), exponent)
+        case Fn(name, args):
+            return Fn(name, tuple(map(_with_exact_numbers, args)))
+        case _:
+            return tree
 
 
 def exact_angle(value: float) -> Tree:
