@@ -54,3 +54,14 @@ def sliding_rod() -> fb.Mechanism:
     m.slot(name="wall", along={"through": m.ground.O, "angle": "90 deg"}, point=rod.start)
     m.initial(x="1.2 m")
     return m
+
+
+def spring_pendulum() -> fb.Mechanism:
+    """A bob on a massless rod above its pin, held up by a torsion spring; theta from the vertical."""
+    m = fb.Mechanism("inverted pendulum with a spring")
+    mass, length, k = m.parameter("m", "2 kg"), m.parameter("l", "0.5 m"), m.parameter("k", "30 N*m/rad")
+    rod = m.body("rod", mass=mass, inertia=0, points={"A": [0, "-l"]})
+    m.hinge(m.ground.O, rod.A, name="pin", coordinate={"name": "theta", "sense": "clockwise"})
+    m.torsion_spring(name="spring", on=rod, stiffness=k)
+    m.initial(theta=0)
+    return m
