@@ -1,11 +1,13 @@
 """What the topics say, against the numbers of the core at random states, and against each other."""
 
+from unicodedata import normalize
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 import freebody as fb
-from freebody.equations import Sym, evaluate, to_sympy
+from freebody.equations import Sym, evaluate, symbols
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Equation
@@ -54,12 +56,13 @@ def test_lagrange_of_absolute_angles() -> None:
     assert combination(subject, equations(subject)[2], stated(subject)) == [[ONE, number(-1)], [ZERO, ONE]]
 
 
-@pytest.mark.parametrize(("make", "place"), [("19.3.17", {}), ("19.3.20", {}), ("GEN-CHAIN", {}), ("19.3.28", {}), ("19.3.24", {})])
-def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict) -> None:
-    """M⁻¹ K and M⁻¹ C are slopes of the core's accelerations, wherever the coordinates are 0 and nothing moves."""
+@pytest.mark.parametrize(("make", "place"), [("19.3.17", {}), ("19.3.20", {"y": 3 * 9.81 / 100}), ("GEN-CHAIN", {}), ("19.3.28", {}), ("19.3.24", {})])
+def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict[str, float]) -> None:
+    """M⁻¹ K and M⁻¹ C are slopes of the core's accelerations, at equilibria where most coordinates are 0."""
     mechanism = system(make)
     state = mechanism.start()[0]
-    still = State(state.p, 0.0, np.zeros_like(state.q), np.zeros_like(state.u))
+    rest = np.array([place.get(c["name"], 0.0) for c in mechanism.source().about["coordinates"]])
+    still = State(state.p, 0.0, rest, np.zeros_like(state.u))
     subject = Subject(mechanism.source(), still, at_rest=True)
     found = linearised(subject)
     m, c, k = numbers(subject, found)
@@ -71,7 +74,7 @@ def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict) -> 
             step = np.zeros_like(still.q)
             step[i] = h
             q, u = (step, 0 * step) if which == "q" else (0 * step, step)
-            ahead, behind = (np.array(core.instant(still.p, 0.0, s * q, s * u).accelerations) for s in (1, -1))
+            ahead, behind = (np.array(core.instant(still.p, 0.0, rest + s * q, s * u).accelerations) for s in (1, -1))
             columns.append((ahead - behind) / (2 * h))
         return np.array(columns).T
 
@@ -116,7 +119,7 @@ def test_moving_frame(name: str) -> None:
 
 def test_coriolis_of_a_collar_on_a_turning_rod() -> None:
     document = topic(system("S19.17"), "frame", point="collar.G", body="rod")
-    assert "a_coriolis = 2 θ̇ Ṙ n_rod" in document.text()
+    assert normalize("NFD", "a_coriolis = 2 θ̇ Ṙ n_rod") in normalize("NFD", document.text())
 
 
 @pytest.mark.parametrize("name", ["19.3.15", "19.3.28", "EX-ARM", "S19.17"])
@@ -152,8 +155,7 @@ def test_elimination(name: str) -> None:
             assert value(subject, tree, constants) == pytest.approx(subject.values[x], rel=1e-9)
         for tree in found.equations.values():
             assert value(subject, tree, constants) == pytest.approx(0.0, abs=1e-8)
-            gone = {Sym(c, dots) for c in constants for dots in (0, 1, 2)}
-            assert not {str(s) for s in to_sympy(tree).free_symbols} & {s.name + "'" * s.dots for s in gone}
+            assert not {letter.name for letter in symbols(tree)} & set(found.momenta)
 
 
 @pytest.mark.parametrize("name", ["19.3.1", "19.3.3", "19.3.17", "S19.17", "19.3.25"])

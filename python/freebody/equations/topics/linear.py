@@ -62,8 +62,16 @@ def linearised(subject: Subject, set_to: Mapping[str, Tree] | None = None) -> Li
     def there(data: Any) -> Tree:
         return _put(read(data), place)
 
-    matrices = ([[there(entry) for entry in row] for row in told[word]] for word in "MCK")
-    return Linearised(tuple(names), place, *matrices, [there(each) for each in told["left"]])
+    rows = [[*map(there, (*m, *c, *k, left))] for m, c, k, left in zip(*(told[word] for word in ("M", "C", "K", "left")), strict=True)]
+    rows = [row if _is_upright(subject, row[i]) else [negative(entry) for entry in row] for i, row in enumerate(rows)]
+    n = len(names)
+    matrices = ([row[start : start + n] for row in rows] for start in (0, n, 2 * n))
+    return Linearised(tuple(names), place, *matrices, [row[-1] for row in rows])
+
+
+def _is_upright(subject: Subject, inertia: Tree) -> bool:
+    """Whether the inertia of an equation's own coordinate is positive, as a person writes it."""
+    return float(evaluate(inertia, subject.values, subject.tables)) >= 0
 
 
 def linear(mechanism: Builder, state: State, **at: Any) -> Document:
