@@ -22,7 +22,7 @@ def carts(restitution: float) -> fb.Mechanism:
         face = cart.line("face", cart.origin, angle="90 deg")
     m.contact("bump", "A.origin", face, restitution=restitution)
     m.initial(xA=0, xB=1, rates={"xA": 2, "xB": "0.5 m/s"})
-    m.run(until=2)
+    m.run_settings(until=2)
     return m
 
 
@@ -33,7 +33,7 @@ def rod_on_a_floor(restitution: float = 0.0) -> fb.Mechanism:
     m.free(m.ground.O, rod.centre, coordinates=["x", "y", "theta"])
     m.contact("floor", rod.start, m.ground.line("ground line", m.ground.O, angle=0), restitution=restitution)
     m.initial(x=0, y=1, theta="30 deg", at_rest=True)
-    m.run(until=0.5)
+    m.run_settings(until=0.5)
     return m
 
 

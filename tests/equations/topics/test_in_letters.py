@@ -33,7 +33,10 @@ CLOSED = {
     ),
     "cart and pendulum": (
         lambda: system("19.3.17"),
-        {"theta": "-(mc + mp)*g*sin(theta)/(l*(mc + mp*sin(theta)**2))", "rod.tension": "mc*mp*g*cos(theta)/(mc + mp*sin(theta)**2)"},
+        {
+            "theta": "-(mc + mp)*g*sin(theta)/(l*(mc + mp*sin(theta)**2))",
+            "rod.tension": "mc*mp*g*cos(theta)/(mc + mp*sin(theta)**2)",
+        },
         "g mc mp l theta",
         {"at_rest": True},
     ),

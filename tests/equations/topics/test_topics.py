@@ -56,7 +56,9 @@ def test_lagrange_of_absolute_angles() -> None:
     assert combination(subject, equations(subject)[2], stated(subject)) == [[ONE, number(-1)], [ZERO, ONE]]
 
 
-@pytest.mark.parametrize(("make", "place"), [("19.3.17", {}), ("19.3.20", {"y": 3 * 9.81 / 100}), ("GEN-CHAIN", {}), ("19.3.28", {}), ("19.3.24", {})])
+@pytest.mark.parametrize(
+    ("make", "place"), [("19.3.17", {}), ("19.3.20", {"y": 3 * 9.81 / 100}), ("GEN-CHAIN", {}), ("19.3.28", {}), ("19.3.24", {})]
+)
 def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict[str, float]) -> None:
     """M⁻¹ K and M⁻¹ C are slopes of the core's accelerations, at equilibria where most coordinates are 0."""
     mechanism = system(make)
@@ -106,7 +108,9 @@ def test_moving_frame(name: str) -> None:
         bodies = [motion.body for motion in subject.motions]
         for body, point in zip(bodies, bodies[1:], strict=False):
             told = subject.ask([{"ask": "frame", "point": f"{point}.G", "body": body}])[0]
-            parts = {word: [value(subject, read(x)) for x in told[word]["xy"]] for word in told if word[0] in "va" and word != "alpha"}
+            parts = {
+                word: [value(subject, read(x)) for x in told[word]["xy"]] for word in told if word[0] in "va" and word != "alpha"
+            }
             truth = subject.free.bodies[point]
             assert_allclose(np.add(parts["v_transport"], parts["v_relative"]), truth.v, atol=1e-10)
             whole = np.sum([parts[word] for word in ("a_transport", "a_relative", "a_coriolis")], axis=0)

@@ -16,7 +16,7 @@ from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.topics.common import NotHere, moving_names
 from freebody.equations.tree import Sym, Tree, add, evaluate, mul, negative
 from freebody.equations.tree import replace as put
-from freebody.free_body import FreeBodies, Load
+from freebody.free_body import GROUND, FreeBodies, Load
 from freebody.instant import State
 
 if TYPE_CHECKING:
@@ -27,6 +27,8 @@ _MOMENT = 1e-9
 """How long, in s, the motion is followed that tells what holds after the blow."""
 _NOTHING = 1e-9
 """Lengths in m, rates in m/s and arms in m below which they are 0: what an event leaves of them."""
+PRESSED = "pressed at"
+"""How the names of forces begin that only make something count as touching."""
 _LIMITS = ("contacts", "strings", "stops")
 
 
@@ -62,6 +64,12 @@ class Blow:
     def forces(self) -> list[Load]:
         """Unknown loads, which may grow beyond all bounds."""
         return [load for load in self.subject.free.loads if load.unknown and not load.follows]
+
+    @property
+    def finite(self) -> list[Load]:
+        """Known loads of the model, which give no impulse."""
+        loads = self.subject.free.loads
+        return [load for load in loads if not load.unknown and not load.follows and not load.name.startswith(PRESSED)]
 
     def after(self, tree: Tree) -> Tree:
         """An expression with the rates after the blow."""
@@ -129,7 +137,7 @@ def blow(mechanism: Builder, number: int = 1) -> Blow:
     back = {each["name"]: _value(run.source.core, each["restitution"], p) for each in limits if each["name"] in change.of}
     before = change.before
     state = State(p, change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
-    return Blow(change, Struck(mechanism.source(), state, motion=_without_bounce(mechanism, spec, state)), back)
+    return Blow(change, Struck(mechanism.source(), state, motion=_without_bounce(mechanism, spec, state, change)), back)
 
 
 def impulse(load: Load) -> str:
@@ -152,16 +160,36 @@ def coefficient(name: str) -> str:
     return f"e_{name}" if name.isidentifier() else "e"
 
 
-def _without_bounce(mechanism: Builder, spec: dict[str, Any], state: State) -> Any:
+def _without_bounce(mechanism: Builder, spec: dict[str, Any], state: State, change: Change) -> Any:
+    """The motion after the same blow without bounce. What would touch without a force then is pressed on, so that it counts."""
+    limits = [each for kind in _LIMITS for each in spec[kind]]
+    plain = {**spec, "events": []}
+    for each in limits:
+        each["restitution"] = 0.0
+    motion = _moment(mechanism, plain, state)
+    held = {load.name for load in FreeBodies.read(motion.free_bodies(state.t)).loads}
+    pushes = _pushes(mechanism, change, [name for name in change.of if name not in held])
+    return _moment(mechanism, {**plain, "forces": [*plain["forces"], *pushes]}, state) if pushes else motion
+
+
+def _moment(mechanism: Builder, spec: Mapping[str, Any], state: State) -> Any:
     from freebody import _core
     from freebody.run import Settings, simulate
 
-    for each in (each for kind in _LIMITS for each in spec[kind]):
-        each["restitution"] = 0.0
-    text = json.dumps({**spec, "events": []})
+    text = json.dumps(spec)
     source = replace(mechanism.source(), core=_core.Mechanism(text), spec=text)
-    settings = Settings(state.t + _MOMENT, step=_MOMENT, impacts="newton")
-    return simulate(source, state, settings).motion
+    return simulate(source, state, Settings(state.t + _MOMENT, step=_MOMENT, impacts="newton")).motion
+
+
+def _pushes(mechanism: Builder, change: Change, names: Sequence[str]) -> list[dict[str, Any]]:
+    """Forces against the impulses, of the size of these."""
+    made = []
+    for limit in mechanism.source().about["limits"]:
+        if limit["name"] in names and (push := change.impulses.contacts.get(limit["name"])):
+            body, sign = (limit["first"], -1.0) if limit["first"] != GROUND else (limit["second"], 1.0)
+            words = {"at": f"{body}.G", "x": repr(sign * push[0]), "y": repr(sign * push[1])}
+            made.append({"name": f"{PRESSED} {limit['name']}", "type": "force", "with": words, "engaged": True})
+    return made
 
 
 def _value(core: Any, number: Any, p: Any) -> float:

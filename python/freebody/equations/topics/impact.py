@@ -62,7 +62,7 @@ def _what(found: Blow) -> list[Block]:
         loads = [load for load in found.forces if any(part.body == body for part in load.on)]
         items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(load_words(load))}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
-    finite = [load_words(load) for load in found.subject.free.loads if not load.unknown and not load.follows]
+    finite = [load_words(load) for load in found.finite]
     if finite:
         made.append(
             Paragraph(f"Absent: {'; '.join(finite)}. They stay finite, so their impulses in a time that goes to 0 are 0.")

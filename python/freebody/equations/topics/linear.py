@@ -62,7 +62,9 @@ def linearised(subject: Subject, set_to: Mapping[str, Tree] | None = None) -> Li
     def there(data: Any) -> Tree:
         return _put(read(data), place)
 
-    rows = [[*map(there, (*m, *c, *k, left))] for m, c, k, left in zip(*(told[word] for word in ("M", "C", "K", "left")), strict=True)]
+    rows = [
+        [*map(there, (*m, *c, *k, left))] for m, c, k, left in zip(*(told[word] for word in ("M", "C", "K", "left")), strict=True)
+    ]
     rows = [row if _is_upright(subject, row[i]) else [negative(entry) for entry in row] for i, row in enumerate(rows)]
     n = len(names)
     matrices = ([row[start : start + n] for row in rows] for start in (0, n, 2 * n))
