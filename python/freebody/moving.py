@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
     from freebody.equations.answers import Answers
+
+    from freebody.check import Verdict
     from freebody.equations.derivation import Equations
     from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
@@ -115,6 +117,18 @@ class Moving:
 
         return solve_in_letters(self, wanted, **asked)
 
+    def code(
+        self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+    ) -> str:
+        """Source of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
+        (C99). Changed parameters become the defaults; a changed place says no more than on which branch things are. Raises
+        ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.equations.program``."""
+        from freebody.equations.program import program
+
+        state, _ = self.start(initial, t, **changes)
+        with self.told():
+            return program(self.source(), state, language)
+
     def _near(
         self: Builder, initial: Mapping[str, Any] | None, t: float, changes: Mapping[str, Any]
     ) -> tuple[list[FreeBodies], dict[str, Any]]:
@@ -175,6 +189,15 @@ class Moving:
             told = ", ".join(f"`{name}` {value}" for name, value in moving.items())
             hint = "look for a load that nothing carries, or leave `equilibrium` out"
             raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {told}", hint)
+
+    def check(self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None) -> Verdict:
+        """Whether an equation, lines of them or a claim is true of every motion; see ``freebody.check.Checker``.
+
+        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``. Raises ``StatementError`` and ``Complaint``.
+        """
+        from freebody.check import check
+
+        return check(self, text, letters)
 
     @contextmanager
     def told(self: Builder) -> Iterator[None]:

@@ -9,6 +9,9 @@ from types import ModuleType
 
 from freebody.catalogue.answers import Question
 
+STATEMENTS = "statements.yaml"
+"""What is printed about a system; no model."""
+
 
 @dataclass(frozen=True)
 class System:
@@ -29,7 +32,8 @@ class System:
     @property
     def models(self) -> list[Path]:
         """Its model files, the main one first."""
-        return sorted(self.folder.glob("*.yaml"), key=lambda path: (path.name != "model.yaml", path.name))
+        found = (path for path in self.folder.glob("*.yaml") if path.name != STATEMENTS)
+        return sorted(found, key=lambda path: (path.name != "model.yaml", path.name))
 
     def questions(self) -> list[Question]:
         """Its questions, in the order in which they stand in the file."""

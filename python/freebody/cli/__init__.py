@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from freebody.cli.check import check
+from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.mistakes import Guarded, Mistake
 
@@ -204,6 +206,8 @@ def systems(
 
 
 app.command()(equations)
+app.command()(code)
+app.command()(check)
 
 
 @app.command()
@@ -313,12 +317,16 @@ def chosen(identity: str | None) -> list[System]:
 
 
 def derived(system: System) -> None:
-    """Prints the equations of the models of a system in all forms."""
+    """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
+    from freebody import _core
     from freebody.equations.derivation import FORMS
 
     for model in system.models:
-        for form in FORMS:
-            typer.echo(opened(model).equations(form).text())
+        try:
+            for form in FORMS:
+                typer.echo(opened(model).equations(form).text())
+        except _core.MotionError as error:
+            typer.echo(f"{model.name}: {error.args[2]}\n")
 
 
 def pictured(systems: list[System], page: Path) -> None:

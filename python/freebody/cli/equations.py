@@ -32,14 +32,20 @@ class Language(str, Enum):
 def equations(
     model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
     form: Annotated[Form, typer.Option(help="Free of reactions, three balances a body, or all constraints.")] = Form.minimal,
-    want: Annotated[str | None, typer.Option("--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …")] = None,
+    want: Annotated[
+        str | None, typer.Option("--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …")
+    ] = None,
     at_rest: Annotated[bool, typer.Option("--at-rest", help="All rates are 0.")] = False,
-    fixed: Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="A letter as a number; repeatable.")] = None,
+    fixed: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="A letter as a number; repeatable.")
+    ] = None,
     latex: Annotated[bool, typer.Option("--latex", help="A fragment of LaTeX.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Markdown.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
     code: Annotated[Language | None, typer.Option(help="Functions for the matrix form: python (NumPy) or c.")] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json, .py, .c.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json, .py, .c.")
+    ] = None,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
     from freebody.cli import opened, pairs

@@ -12,7 +12,7 @@ from freebody.equations.collect import collected, factored
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
-from freebody.equations.tree import Tree, evaluate, is_zero
+from freebody.equations.tree import Add, Mul, Num, Tree, evaluate, is_zero, negative
 
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
@@ -41,8 +41,19 @@ class Stated:
 
     @property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts, each unknown with one factor."""
-        return tuple(collected(side, list(self.balance.linear.coefficients)) for side in (self.balance.right, self.balance.left))
+        """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        unknowns = list(self.balance.linear.coefficients)
+        left, right = (collected(side, unknowns) for side in (self.balance.right, self.balance.left))
+        return (
+            (negative(left), negative(right))
+            if _all_negative(left) and (_all_negative(right) or is_zero(right))
+            else (left, right)
+        )
+
+
+def _all_negative(side: Tree) -> bool:
+    terms = side.terms if isinstance(side, Add) else (side,)
+    return all(isinstance(t, Mul) and isinstance(t.factors[0], Num) and t.factors[0].value < 0 for t in terms)
 
 
 def blocks(subject: Subject, stated: Stated) -> list[Block]:
@@ -56,9 +67,13 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     acting: list[Words] = [
         [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)] for c in balance.contributions if not c.absent
     ]
-    inertia: list[Words] = [[f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)]
+    inertia: list[Words] = [
+        [f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)
+    ]
     if acting:
         made += [Paragraph(f"The {what} of what acts:"), Bullets(acting)]
+    else:
+        made.append(Paragraph("Nothing else acts on it in this equation."))
     if inertia:
         rate = "angular momentum" if balance.turns else "momentum"
         made += [Paragraph(f"The rate of {rate}:"), Bullets(inertia)]
@@ -97,9 +112,9 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     """The name of a point: a pin there, else a mass centre, else another named point of the bodies."""
     free, near = subject.free, _SAME * size(subject)
     for load in free.loads:
-        if load.kind == "joint" and load.component in ("x", "y"):
-            if any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
-                return f"the pin {load.name}"
+        pinned = load.kind == "joint" and load.component in ("x", "y")
+        if pinned and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
+            return f"the pin {load.name}"
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"

@@ -9,7 +9,7 @@ from freebody.equations.derivation.result import Printed
 from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row, linear_in
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph
-from freebody.equations.tree import ZERO, Sym
+from freebody.equations.tree import ZERO, Sym, add, mul
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
@@ -27,9 +27,18 @@ def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = 
     made += _positions(rows)
     made += _velocities(rows, coordinates)
     system = System.of([row.linear for row in rows], coordinates)
-    if system.unknowns:
-        made.append(MatrixEquation(system.matrix, system.unknowns, system.right, _AGAIN, letter="J"))
-    return made
+    above = any(row.rate is not None for row in rows)
+    return made + _together(system, _AGAIN if above else "For the accelerations")
+
+
+def _together(system: System, name: str) -> list[Block]:
+    """Several equations as a matrix equation, one as it is."""
+    if not system.unknowns:
+        return []
+    if len(system.matrix) > 1:
+        return [MatrixEquation(system.matrix, system.unknowns, system.right, name, letter="J")]
+    left = add(*(mul(entry, x) for entry, x in zip(system.matrix[0], system.unknowns, strict=True)))
+    return [Equation(left, system.right[0], name)]
 
 
 def printed(rows: Sequence[Row]) -> list[Printed]:
@@ -60,7 +69,5 @@ def _velocities(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
         system = System.of([linear_in(row.rate, rates) for row in held], coordinates)
     except ValueError:
         return [Equation(row.rate, ZERO, "Their rates" if i == 0 else "") for i, row in enumerate(held)]
-    name = "Differentiated, for the velocities"
-    return [MatrixEquation(system.matrix, system.unknowns, system.right, name, letter="J")] if system.unknowns else []
-
-
+    above = any(row.value is not None for row in rows)
+    return _together(system, "Differentiated, for the velocities" if above else "For the velocities")

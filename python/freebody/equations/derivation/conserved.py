@@ -15,10 +15,10 @@ _KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\math
 _CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
 
 
-def section(subject: Subject) -> list[Block]:
-    """Every quantity that stays constant, with its reason, or why none does."""
-    made: list[Block] = [Heading("Conserved quantities"), *_energy(subject)]
-    found = _momenta(subject)
+def section(subject: Subject, in_letters: bool = True) -> list[Block]:
+    """Every quantity that stays constant, with its reason, or why none does; ``in_letters``: and what it is in the coordinates."""
+    made: list[Block] = [Heading("Conserved quantities"), *(_energy(subject) if in_letters else _energy_words(subject))]
+    found = [block for block in _momenta(subject) if in_letters or isinstance(block, Paragraph)]
     return made + (
         found or [Paragraph("No momentum of the whole is conserved along x, along y, or about a point named on the ground.")]
     )
@@ -49,6 +49,16 @@ def _energy(subject: Subject) -> list[Block]:
     return [*made, Paragraph(_CONSERVED)]
 
 
+def _energy_words(subject: Subject) -> list[Block]:
+    *_, why = energy(subject)
+    said = (
+        f"is not conserved: {why}."
+        if why
+        else "is conserved: all forces have potentials, and what joints and contacts exert does no work."
+    )
+    return [Paragraph(f"The sum of kinetic and potential energy {said}")]
+
+
 def _momenta(subject: Subject) -> list[Block]:
     group, g = list(subject.free.bodies), subject.free.centre(*subject.free.bodies)
     found = [({"along": axis}, f"along {axis}", _vanishing(subject, group, (0.0, 0.0), place)) for place, axis in enumerate("xy")]
@@ -70,7 +80,7 @@ def _vanishing(subject: Subject, group: list[str], about: Pair, place: int) -> b
     """Whether, at this state, no load from outside has a part in a balance: else there is no need to look at it in letters."""
     loads = subject.free.on(*group)
     known = sum((load.unit(group, about)[place] for load in loads if not load.unknown), 0.0)
-    return max((abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)])) < _ABSENT
+    return max(abs(v) for v in [known, *(load.unit(group, about)[place] for load in loads if load.unknown)]) < _ABSENT
 
 
 def _fixed_points(subject: Subject) -> list[tuple[str, float, float]]:

@@ -54,11 +54,22 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
     """The point or direction in words, and the word before it."""
     joint = _joint(subject, coordinate)
     if balance.turns:
-        named = f"the pin {joint['name']}" if joint["type"] == "hinge" else named_place(subject, numbers(subject, balance), balance.bodies)
+        named = (
+            f"the pin {joint['name']}"
+            if joint["type"] == "hinge"
+            else named_place(subject, numbers(subject, balance), balance.bodies)
+        )
         return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
-    if joint["type"] == "link" or (joint["type"] == "polar" and coordinate["dimension"] == "rad"):
-        return f"the {'link' if joint['type'] == 'link' else 'radius of'} {joint['name']}", "across"
+    if joint["type"] == "link":
+        return f"the link {joint['name']}", "across"
+    if joint["type"] == "polar" and coordinate["dimension"] == "rad":
+        return f"the radius of {joint['name']}, times r,", "across"
     x, y = balance.place.xy
     if is_zero(x) or is_zero(y):
-        return ("x" if is_zero(y) else "y"), "along"
+        return _axis(*numbers(subject, balance)), "along"
     return _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
+
+
+def _axis(x: float, y: float) -> str:
+    """A fixed axis, or the direction against it."""
+    return ("−" if x + y < 0 else "") + ("x" if abs(x) > abs(y) else "y")

@@ -117,7 +117,9 @@ def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``_core.MotionError``."""
     if want is not None:
         content = wanted(subject, want)
-        return Equations("wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content)
+        return Equations(
+            "wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content
+        )
     if form not in FORMS:
         raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
     letters = subject.letters
@@ -137,7 +139,11 @@ class _Writer:
 
     @cached_property
     def document(self) -> Document:
-        body = [*self._body(), *conserved.section(self.subject)] if self.form in FORMS else list(self.content.blocks)
+        body = (
+            [*self._body(), *conserved.section(self.subject, in_letters=self.form != "constraints")]
+            if self.form in FORMS
+            else list(self.content.blocks)
+        )
         first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
         if self.form != "constraints":
             first += opening.configuration(self.subject)

@@ -10,7 +10,7 @@ from freebody.equations.collect import factored
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
 from freebody.equations.document import Vector, Words, Written
-from freebody.equations.names import latex_name
+from freebody.equations.names import latex_name, unicode_name
 from freebody.equations.tree import Add, Mul, Sym, Tree, add, is_zero, mul, number, symbols
 
 
@@ -21,6 +21,7 @@ class Direction:
     below: str
     angle: Tree
     owners: tuple[str, ...]
+    turning: tuple[str, ...] = ()
 
     @property
     def along(self) -> str:
@@ -36,6 +37,8 @@ class Direction:
         """What it is."""
         at = ["at the angle ", self.angle, " from i, counter-clockwise"]
         where = [f"along the x axis of {joined(self.owners)}, "] if self.owners else []
+        if self.turning and not self.owners:
+            where = [f"(turning with {joined(self.turning)}) "]
         return [unit(self.along), " points ", *where, *at, "; ", unit(self.across), " = k × ", unit(self.along), "."]
 
 
@@ -47,15 +50,20 @@ class Directions:
     moving: frozenset[str]
 
     @classmethod
-    def of(cls, motions: Sequence[Motion], arrows: Iterable[Arrow], moving: Iterable[str]) -> Directions:
+    def of(cls, motions: Sequence[Motion], arrows: Iterable[Arrow], moving: Collection[str]) -> Directions:
         """The pairs for some vectors (``moving`` letters change with time), named after bodies that turn with them, after the letter of the angle, or numbered."""
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
-        owners = {angle: tuple(b.body for b in motions if not b.particle and b.angle == angle) for angle in angles}
-        angles.sort(key=lambda angle: next((i for i, b in enumerate(motions) if b.body in owners[angle]), len(motions)))
+        bodies = [body for body in motions if not body.particle]
+        owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
+        turning = {angle: _turning(angle, bodies, moving) for angle in angles}
+        angles.sort(key=lambda angle: next((i for i, b in enumerate(bodies) if b.body in turning[angle]), len(bodies)))
         made: list[Direction] = []
         for angle in angles:
-            below = _word(owners[angle][0]) if owners[angle] else angle.name if isinstance(angle, Sym) else str(len(made) + 1)
-            made.append(Direction(below, angle, owners[angle]))
+            named = [_word(body) for body in (*owners[angle], *turning[angle])]
+            named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
+            taken = {pair.below for pair in made}
+            below = next((word for word in named if word not in taken), str(len(made) + 1))
+            made.append(Direction(below, angle, owners[angle], turning[angle]))
         return cls(tuple(made), frozenset(moving))
 
     def vector(self, arrow: Arrow) -> Vector:
@@ -90,6 +98,12 @@ def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
     terms = angle.terms if isinstance(angle, Add) else (angle,)
     rates = [_term_rate(term, moving) for term in terms]
     return None if None in rates else add(*rates)
+
+
+def _turning(angle: Tree, bodies: Sequence[Motion], moving: Collection[str]) -> tuple[str, ...]:
+    """The bodies that turn as an angle does."""
+    rate = angle_rate(angle, moving)
+    return tuple(body.body for body in bodies if rate is not None and not is_zero(rate) and body.omega == rate)
 
 
 def _term_rate(term: Tree, moving: Collection[str]) -> Tree | None:

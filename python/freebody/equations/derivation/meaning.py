@@ -41,7 +41,9 @@ def load_words(load: Load) -> str:
         return load.name
     if load.kind in ("motion", "coupling"):
         return f"what {load.name} exerts"
-    what = _COMPONENTS.get(load.component or "", load.component) or {"contact": "normal force", "string": "tension"}.get(load.kind)
+    what = _COMPONENTS.get(load.component or "", load.component) or {"contact": "normal force", "string": "tension"}.get(
+        load.kind
+    )
     first, second = load.of[0], load.of[-1]
     between = f" on {second}, from {first}" if GROUND in (first, second) or first != second else ""
     return f"{what or ('friction' if load.kind == 'friction' else 'force')} of {load.name}{between}"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import minimal_form
 from freebody.balances.states import nearby
@@ -35,10 +38,18 @@ def minimal(subject: Subject) -> Form:
 def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stated] | None:
     """Equations that a search found, in letters; None if one of them has no question."""
     asked = [equation.question for equation in equations]
-    if None in asked:
+    if any(question is None or _several(subject, question) for question in asked):
         return None
     found = subject.balances([question for question in asked if question])
     return [_of_search(subject, balance, equation) for balance, equation in zip(found, equations, strict=True)]
+
+
+def _several(subject: Subject, question: Mapping[str, Any]) -> bool:
+    """Whether a load that makes the point or direction acts on the group in several places, as a cable over pulleys does."""
+    about, along = question.get("about"), question.get("along")
+    named = about.get("meeting", ()) if isinstance(about, Mapping) else along.values() if isinstance(along, Mapping) else ()
+    loads = [subject.free.loads[i] for i in named if isinstance(i, int)]
+    return any(sum(part.body in question["bodies"] for part in load.on) > 1 for load in loads)
 
 
 def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) -> Stated:
@@ -62,12 +73,13 @@ def _introduction(subject: Subject, form: Form, searched: bool, number: int) -> 
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
         return "There is nothing to balance."
-    said = [f"{count}, one for each degree of freedom, in which no reaction stands."]
+    each = "" if number == 1 else ", one for each degree of freedom,"
+    said = [f"{count}{each} in which no reaction stands."]
     if others and searched:
         more = "so there is one" if number == 1 else f"so there are {number}"
         said = [f"No set of balance equations is free of reactions: {joined(others)} cannot be kept out, {more}."]
     elif others:
-        said = [f"{count}, one for each coordinate. {joined(others)} cannot be kept out: they hold the rows above."]
+        said = [f"{count}, one for each coordinate. {joined(others)} cannot be kept out: they hold what is closed above."]
     elif prescribed:
         said = [f"{count}, one for each coordinate, in which no reaction of a joint stands."]
     if prescribed:

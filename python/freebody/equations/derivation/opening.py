@@ -21,7 +21,7 @@ def configuration(subject: Subject) -> list[Block]:
         return [Heading("Configuration"), Paragraph("Nothing can move: there are no coordinates.")]
     rows = [([Sym(c["name"])], _doc(c), c["dimension"] or "1") for c in coordinates]
     degrees = "one degree" if freedom["count"] == 1 else f"{freedom['count'] or 'no'} degrees"
-    prescribed = f"; motions prescribe {freedom['driven']} more" if freedom["driven"] else ""
+    prescribed = f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     return [
         Heading("Configuration"),
         Paragraph(f"The mechanism has {degrees} of freedom{prescribed}. {_count(len(coordinates))} where it is:"),
@@ -68,8 +68,13 @@ def unit_text(unit: str) -> str:
 
 
 def _doc(coordinate: dict) -> str:
-    turned = "; it does not follow the bodies between" if coordinate["absolute"] else ""
-    return plain(coordinate["doc"]) + turned
+    """What it measures; a way along a guide in more words than the core's."""
+    doc = plain(coordinate["doc"])
+    way = re.fullmatch(r"(s|x|y) of (.+) from (.+) at (.+)", doc)
+    if not way:
+        return doc
+    letter, second, first, joint = way.groups()
+    return f"way of {second} along {joint}, on {first}" if letter == "s" else f"{letter} of {second}, seen from {first}"
 
 
 def _count(number: int) -> str:

@@ -53,13 +53,20 @@ def _numeric(found: SmallestSet) -> list[Block]:
             for body, (x, y, turn) in found.virtual.motion.items()
         ]
         said = f"{_shown(found.wanted)} takes more than four balance equations. One of virtual power gives it: move the bodies so that "
-        return [Heading("Virtual power"), Paragraph(f"{said}of all unknowns only {found.virtual.unknown} does work."), Bullets(moves)]
+        return [
+            Heading("Virtual power"),
+            Paragraph(f"{said}of all unknowns only {found.virtual.unknown} does work."),
+            Bullets(moves),
+        ]
     lines = [line.strip() for line in show(found).splitlines() if line.strip()]
     return [Heading("Balance equations"), Paragraph("The points of this set have no letters; in numbers it is:"), Bullets(lines)]
 
 
 def _numbers(found: SmallestSet) -> list[Block]:
-    rows = [([Sym(name[6:-1], 2)] if name.startswith("accel(") else [Sym(name)], figure(value)) for name, value in found.values.items()]
+    rows = [
+        ([Sym(name[6:-1], 2)] if name.startswith("accel(") else [Sym(name)], figure(value))
+        for name, value in found.values.items()
+    ]
     said = f"They differ from the solution of all equations by {found.check:.0e} of their size."
     exact = "" if found.exact else " Not every set of bodies was tried: there are too many."
     return [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(said + exact)]

@@ -8,7 +8,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from freebody.equations.document import (
-    Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Table, Vector, Words, Written, is_tree, pieces,
+    Block,
+    Bullets,
+    Document,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Side,
+    Table,
+    Vector,
+    Words,
+    Written,
+    is_tree,
+    pieces,
 )  # fmt: skip
 from freebody.equations.letters import Letters
 from freebody.equations.names import ascii_name, unicode_name

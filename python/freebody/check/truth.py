@@ -1,0 +1,167 @@
+"""True motions of a model: random states with random parameters, solved by the core, on which a statement is tried."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody import _core
+from freebody.instant import State
+from freebody.model.errors import Complaint
+from freebody.model.start import evaluate, initial_state
+from freebody.model.units import Dimension
+from freebody.results import Array
+
+from .families import ALL, Family, NoMotion, Sample, Samples
+from .runs import BALANCED, OnRuns
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+SAMPLES = 64
+_TRIES = 40  # for one sample; a four-bar with random bars closes in about one of three
+_FEW_TRIES = 8  # where a parameter is far from the model's, and states are rarer or none
+_PATIENCE = 3  # samples, of which one at least must be found
+_ENOUGH = 8  # samples to judge by
+_FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
+_FACTOR = (0.3, 3.0)
+_LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
+_ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
+_STEP = 1e-6  # of central differences by coordinates
+
+
+class Truth(OnRuns):
+    """The true motions of a model. Families of samples are made once and kept."""
+
+    def __init__(self, mechanism: Builder, seed: int = 0) -> None:
+        super().__init__(mechanism)
+        self.seed = seed
+        self._families: dict[tuple[Family, int], Samples] = {}
+
+    def samples(self, family: Family = ALL, count: int = SAMPLES, fresh: int = 0) -> Samples:
+        """True states of a family; ``fresh`` other than 0 gives others than before. Raises ``NoMotion``."""
+        key = (family, 1000 * fresh + count)
+        if key not in self._families:
+            self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh), self.parameter_names)
+        if not self._families[key].samples:
+            raise NoMotion("no motion of this model was found that is not singular, on a limit or of another mode than its start")
+        return self._families[key]
+
+    def has(self, family: Family) -> bool:
+        """Whether there are motions of a family."""
+        try:
+            return len(self.samples(family, _PATIENCE)) > 0
+        except NoMotion:
+            return False
+
+    def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[Sample]:
+        """``count`` samples; none where the first ones already fail."""
+        rng = np.random.default_rng([self.seed, fresh])
+        found: list[Sample] = []
+        for i in range(count):
+            if i == _PATIENCE and not found:
+                return []
+            if (sample := self._sample(rng, family)) is not None:
+                found.append(sample)
+        return found if len(found) >= min(_ENOUGH, count) else []
+
+    def _sample(self, rng: np.random.Generator, family: Family) -> Sample | None:
+        for _ in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
+            try:
+                values = self._parameters(rng, family)
+                made = self._made(rng, values, family)
+            except (_core.MotionError, _core.ModelError, Complaint, ZeroDivisionError):
+                continue
+            if made is not None:
+                return made
+        return None
+
+    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        if self.restricted:
+            return self.on_a_run(rng, values, family)
+        return Sample(self.started(values)) if family.at_start else self._anywhere(rng, values, family)
+
+    def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
+        held, scaled = dict(family.held), dict(family.scaled)
+        if not family.gravity:
+            held |= dict.fromkeys(self.gravities, 0.0)
+        drawn = {name: self._drawn(rng, name, value, family) for name, value in self.free_parameters.items()}
+        numbers = {name: x for name, x in held.items() if not isinstance(x, str)}
+        plain = {name: numbers.get(name, value) * scaled.get(name, 1.0) for name, value in drawn.items()}
+        return plain | {name: evaluate(x, plain) for name, x in held.items() if isinstance(x, str)}
+
+    def _drawn(self, rng: np.random.Generator, name: str, value: float, family: Family) -> float:
+        dimension = self.start.parameters.get(name)
+        size, sign = rng.random(), rng.choice([-1.0, 1.0])
+        if family.numbers or (value == 0 and not family.zeros):
+            return value
+        low, high = self._factor(dimension)
+        factor = low * (high / low) ** size
+        return value * factor if value else sign * factor * self._unit(dimension)
+
+    def _factor(self, dimension: Dimension | None) -> tuple[float, float]:
+        """By what a parameter may differ from the model's."""
+        if dimension is not None and _is_angle(dimension):
+            return _ANGLE_FACTOR
+        return _LOOP_FACTOR if self.shapes_loop(dimension) else _FACTOR
+
+    def _unit(self, dimension: Dimension | None) -> float:
+        if dimension is None:
+            return 1.0
+        return self.mass**dimension.mass * self.length**dimension.length * self.rate ** (-dimension.time)
+
+    def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        """A random state on the model's branch, none of whose limits is closed."""
+        words = initial_state(self.start, self.core, values)
+        p, t = words["p"], self._time(rng)
+        own = self.first.q
+        wide = self.loops == 0 or bool(words["branch"])
+        spread = np.array([(math.pi if wide else 0.6) if c["dimension"] == "rad" else self.length for c in self.coordinates])
+        guess = own + spread * rng.uniform(-1, 1, len(own))
+        near = {c["name"]: float(x) for c, x in zip(self.coordinates, guess, strict=True)}
+        rates = self.rates(rng, family)
+        q, u, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
+        for text in family.vanishing:
+            q, u = self._vanished(text, State(p, t, q, u))
+        solved = self.core.instant(p, t, q, u)
+        if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
+            return None
+        sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
+        good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(u) < _FAST * sizes)
+        return Sample(State(p, t, q, u)) if good else None
+
+    def _vanished(self, text: str, state: State) -> tuple[Array, Array]:
+        """The nearest place, or else the nearest rates there, where an expression is 0; for mechanisms without loops."""
+        if self.loops:
+            raise NoMotion(f"`{text} = 0` cannot be arranged in a mechanism with closed loops")
+        q, u = state.q, state.u
+        for _ in range(30):
+            value, slope = self._slope(text, state, q, u, 0)
+            if not slope.any() or abs(value) < 1e-14:
+                break
+            q = q - slope * value / (slope @ slope)
+        value, slope = self._slope(text, state, q, u, 1)
+        return q, u - slope * value / (slope @ slope) if slope.any() else u
+
+    def _slope(self, text: str, state: State, q: Array, u: Array, order: int) -> tuple[float, Array]:
+        """The value of an expression and its gradient by coordinates (0) or rates (1)."""
+
+        def at(dq: Array, du: Array) -> float:
+            return float(self.core.evaluate([text], state.p, state.t, q + dq, u + du)[0])
+
+        still, steps = np.zeros_like(q), _STEP * np.eye(len(q))
+        if order:
+            steps = steps / _STEP * self.rate
+            return at(still, still), np.array([at(still, s) - at(still, still) for s in steps]) / self.rate
+        return at(still, still), np.array([at(s, still) - at(-s, still) for s in steps]) / (2 * _STEP)
+
+    def _time(self, rng: np.random.Generator) -> float:
+        return 3 * rng.random() / self.rate
+
+
+def _is_angle(dimension: Dimension) -> bool:
+    return dimension.angle == 1 and dimension.length == dimension.mass == dimension.time == 0
