@@ -13,9 +13,8 @@ if TYPE_CHECKING:
 
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
-    from freebody.equations.answers import Answers
-
     from freebody.check import Verdict
+    from freebody.equations.answers import Answers
     from freebody.equations.derivation import Equations
     from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
