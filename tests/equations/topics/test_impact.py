@@ -1,6 +1,7 @@
 """Blows in letters against those of the run, and against closed forms."""
 
 import pytest
+from models import system
 from numpy.testing import assert_allclose
 
 import freebody as fb
@@ -9,7 +10,6 @@ from freebody.equations.simplify import equal
 from freebody.equations.topics import NotHere, topic
 from freebody.equations.topics.blow import after, blow
 from freebody.equations.topics.impact import _values, rates_after
-from models import system
 
 
 def carts(restitution: float) -> fb.Mechanism:

@@ -1,12 +1,12 @@
 """Answers in letters against closed forms of textbooks, and against numbers at other states."""
 
 import pytest
+from models import atwood, sliding_rod, spring_pendulum, system
 
 from freebody.equations import Sym, evaluate, from_sympy, to_sympy
 from freebody.equations.answers import solve_in_letters
 from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
-from models import atwood, sliding_rod, spring_pendulum, system
 
 
 def tree(text: str, names: str) -> object:

@@ -4,10 +4,15 @@ from unicodedata import normalize
 
 import numpy as np
 import pytest
+from models import SYSTEMS, atwood, random_subjects, sliding_rod, spring_pendulum, system
 from numpy.testing import assert_allclose
+from typer.testing import CliRunner
 
 import freebody as fb
+from freebody.cli import app
+from freebody.cli.equations import Form
 from freebody.equations import Sym, evaluate, symbols
+from freebody.equations.derivation import FORMS
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Equation
@@ -19,7 +24,6 @@ from freebody.equations.topics.lagrange import combination, equations
 from freebody.equations.topics.linear import linearised, numbers
 from freebody.equations.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 from freebody.instant import State
-from models import SYSTEMS, atwood, random_subjects, sliding_rod, spring_pendulum, system
 
 TREES = ["19.3.1", "19.3.10", "19.3.15", "19.3.17", "19.3.20", "19.3.28", "EX-BLOCK", "GEN-CHAIN", "S19.17", "S19.18"]
 LOOPS = ["GEN-FOURBAR", "GEN-SLIDER", "S19.21", "S19.22"]
@@ -198,5 +202,16 @@ def test_every_topic_prints_for_the_catalogue_or_says_why_not() -> None:
 def test_unknown_words_are_named() -> None:
     with pytest.raises(ValueError, match="lagrange"):
         topic(atwood(), "hamilton")
+    with pytest.raises(ValueError, match="point, body"):
+        topic(system("19.3.15"), "frame", corner="rod.A")
     with pytest.raises(ValueError, match=r"rod\.A"):
         topic(system("19.3.15"), "frame", point="rod.Z")
+
+
+def test_the_command_line_has_all_forms_and_topics() -> None:
+    assert [form.value for form in Form] == [*FORMS, *TOPICS]
+    done = CliRunner().invoke(
+        app, ["equations", str(SYSTEMS / "S19.17" / "model.yaml"), "--form", "frame", "--set", "point=collar.G"]
+    )
+    assert done.exit_code == 0, done.output
+    assert "Coriolis" in done.output

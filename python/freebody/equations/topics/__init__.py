@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 from freebody.equations.document import Document
@@ -46,8 +47,13 @@ TOPICS: Mapping[str, Topic] = {
 
 
 def topic(mechanism: Builder, name: str, state: State | None = None, **options: Any) -> Document:
-    """The document of a topic for a mechanism at a state, by default its start. ``TypeError`` for an option that it does not have;
-    ``NotHere``, a ``ValueError``, where the mechanism has nothing for it."""
+    """The document of a topic for a mechanism at a state, by default its start. Raises ``ValueError`` for a topic or an option that
+    there is not; ``NotHere`` (one of these) where the mechanism has nothing for it."""
     if name not in TOPICS:
         raise ValueError(f"topic {name!r} is unknown; there are {', '.join(TOPICS)}")
+    taken = [p for p in signature(TOPICS[name].make).parameters.values() if p.kind in (p.KEYWORD_ONLY, p.VAR_KEYWORD)]
+    if not any(p.kind is p.VAR_KEYWORD for p in taken):
+        for option in options.keys() - {p.name for p in taken}:
+            known = ", ".join(p.name for p in taken) or "none"
+            raise ValueError(f"{name} has no option {option!r}; its options: {known}")
     return TOPICS[name].make(mechanism, mechanism.start()[0] if state is None else state, **options)
