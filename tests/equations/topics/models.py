@@ -59,7 +59,8 @@ def sliding_rod() -> fb.Mechanism:
 def spring_pendulum() -> fb.Mechanism:
     """A bob on a massless rod above its pin, held up by a torsion spring; theta from the vertical."""
     m = fb.Mechanism("inverted pendulum with a spring")
-    mass, length, k = m.parameter("m", "2 kg"), m.parameter("l", "0.5 m"), m.parameter("k", "30 N*m/rad")
+    mass, k = m.parameter("m", "2 kg"), m.parameter("k", "30 N*m/rad")
+    m.parameter("l", "0.5 m")
     rod = m.body("rod", mass=mass, inertia=0, points={"A": [0, "-l"]})
     m.hinge(m.ground.O, rod.A, name="pin", coordinate={"name": "theta", "sense": "clockwise"})
     m.torsion_spring(name="spring", on=rod, stiffness=k)

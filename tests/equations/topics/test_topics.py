@@ -1,5 +1,6 @@
 """What the topics say, against the numbers of the core at random states, and against each other."""
 
+from itertools import pairwise
 from unicodedata import normalize
 
 import numpy as np
@@ -110,7 +111,7 @@ def test_moving_frame(name: str) -> None:
     """The parts add up to the velocity and acceleration that the core has; direct differentiation gives them, too."""
     for subject in random_subjects(system(name), 2):
         bodies = [motion.body for motion in subject.motions]
-        for body, point in zip(bodies, bodies[1:], strict=False):
+        for body, point in pairwise(bodies):
             told = subject.ask([{"ask": "frame", "point": f"{point}.G", "body": body}])[0]
             parts = {
                 word: [value(subject, read(x)) for x in told[word]["xy"]] for word in told if word[0] in "va" and word != "alpha"
