@@ -84,6 +84,8 @@ def solve_in_letters(
     states near by. Raises ``TooLarge``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
     chosen = given(mechanism, set or {})
     state = chosen.start(mechanism, at_rest, initial)
+    if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
+        raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = Subject(mechanism.source(), state, at_rest)
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
     letters = subject.letters
@@ -117,6 +119,9 @@ def _systems(subject: Subject, chosen: Given, names: Sequence[str]) -> list[_Sys
         wanted = _letter(subject, name)
         if any(wanted in system.gives for system in made):
             continue
+        if wanted.dots and _is_prescribed(states[0], wanted):
+            made.append(_closed(subject, [], wanted))
+            continue
         least = smallest_set(name, states, subject.points)
         asked = [e.question for e in least.equations]
         if not asked or None in asked:
@@ -127,6 +132,15 @@ def _systems(subject: Subject, chosen: Given, names: Sequence[str]) -> list[_Sys
         except TooLarge:  # what drops out at these numbers does not in letters
             made.append(_of_all(subject, states, wanted))
     return made
+
+
+def _is_prescribed(free: FreeBodies, wanted: Sym) -> bool:
+    """Whether motions and loops alone give an acceleration."""
+    rows = np.array([list(row.coefficients.values()) for row in free.rows])
+    if not len(rows):
+        return False
+    unit = np.array([name == wanted.name for name in free.rows[0].coefficients], dtype=float)
+    return bool(np.linalg.norm(unit - np.linalg.pinv(rows) @ (rows @ unit)) < AGREES)
 
 
 def _in_letters(subject: Subject, equations: Sequence[BalanceEquation]) -> list[Stated]:
@@ -153,12 +167,12 @@ def _closed(subject: Subject, stated: Sequence[Stated], wanted: Sym) -> _System:
     linear = [s.balance.linear for s in stated]
     rows = [row.linear for row in subject.rows]
     while True:
-        unknown = {x for each in linear for x in each.coefficients}
+        unknown = {wanted, *(x for each in linear for x in each.coefficients)}
         more = next((row for row in rows if row not in linear and unknown & row.coefficients.keys()), None)
         if more is None or len(unknown) <= len(linear):
             break
         linear.append(more)
-    if len(unknown) != len(linear) or wanted not in unknown:
+    if len(unknown) != len(linear) or not any(wanted in each.coefficients for each in linear):
         raise TooLarge(f"{wanted.name}: {len(linear)} equations leave {len(unknown)} unknowns; ask for numbers")
     return _System(tuple(stated), tuple(linear), tuple(unknown))
 
@@ -215,11 +229,9 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
     """Holds the answers against numbers at the state and at others; says at how many."""
     rng, compared = np.random.default_rng(_SEED), 0
     for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS))]:
-        if state is None:
+        there = state and _like(subject, Subject(subject.source, state, subject.at_rest))
+        if not there:
             continue
-        there = Subject(subject.source, state, subject.at_rest)
-        if [x.symbol for x in there.free.loads] != [x.symbol for x in subject.free.loads]:
-            continue  # something else touches there
         numbers = there.values
         for x, tree in values.items():
             found, true = float(evaluate(tree, numbers, there.tables)), numbers[x]
@@ -227,6 +239,17 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
                 raise ArithmeticError(f"the answer for {x.name} is {found:g} where the numbers are {true:g}; take the numbers")
         compared += 1
     return compared
+
+
+def _like(subject: Subject, there: Subject) -> Subject | None:
+    """Another state of a subject, if the same loads act there."""
+    from freebody import _core
+
+    try:
+        same = [x.symbol for x in there.free.loads] == [x.symbol for x in subject.free.loads]
+    except _core.MotionError:  # what touches here would be pressed in
+        return None
+    return there if same else None
 
 
 def _scale(free: FreeBodies, x: Sym) -> float:

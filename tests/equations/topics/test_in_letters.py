@@ -3,7 +3,7 @@
 import pytest
 from models import atwood, sliding_rod, spring_pendulum, system
 
-from freebody.equations import Sym, evaluate, from_sympy, to_sympy
+from freebody.equations import Sym, evaluate, from_sympy, symbols, to_sympy
 from freebody.equations.answers import solve_in_letters
 from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
@@ -82,6 +82,15 @@ def test_limits() -> None:
 def test_what_is_too_long_is_refused() -> None:
     with pytest.raises(TooLarge, match="ask for numbers"):
         system("S19.21").solve_in_letters(["theta"], at_rest=True)
+
+
+def test_what_is_driven_follows_from_its_motion() -> None:
+    """The support has the acceleration that is prescribed, and the pendulum on it feels it."""
+    answers = system("19.3.18").solve_in_letters(["xA", "theta"])
+    assert answers["xA"] == Sym("aA")
+    assert Sym("aA") in symbols(answers["theta"]) or Sym("xA", 2) in symbols(answers["theta"])
+    with pytest.raises(ValueError, match="not at rest"):
+        system("GEN-FOURBAR").solve_in_letters(["beta"], at_rest=True)
 
 
 def test_what_is_not_unknown_is_named() -> None:
