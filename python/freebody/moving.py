@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
     from freebody.check import Verdict
+    from freebody.equations.answers import Answers
     from freebody.equations.derivation import Equations
     from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
@@ -106,6 +107,14 @@ class Moving:
         with self.told():
             subject = Subject(self.source(notes), state, at_rest)
             return derive(subject.with_numbers(list(chosen)), form, want)
+
+    def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
+        """Accelerations (``theta``) and reactions (``pivot.Fx``) in letters near the start: the fewest balance equations, solved,
+        simplified, and held against numbers. ``at_rest``, ``set={"theta": "45 deg", "m2": "m1"}``, ``limits={"m2": "inf"}``; see
+        ``freebody.equations.answers.solve_in_letters``."""
+        from freebody.equations.answers import solve_in_letters
+
+        return solve_in_letters(self, wanted, **asked)
 
     def code(
         self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
