@@ -147,7 +147,7 @@ class _Writer:
         first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
         if self.form != "constraints":
             first += opening.configuration(self.subject)
-        blocks = (*first, *opening.letters(self.letters, _used(body)), *body)
+        blocks = (*first, *opening.letters(self.letters, used(body)), *body)
         return Document(tuple(map(readable, blocks)), self.letters)
 
     def _body(self) -> list[Block]:
@@ -155,7 +155,7 @@ class _Writer:
         return [*kinematics, *self.content.blocks, *matrices.section(self.form, self.content, self.letters)]
 
 
-def _used(blocks: Any) -> set[str]:
+def used(blocks: Any) -> set[str]:
     """Names of all letters in blocks, and in whatever these hold."""
     found: set[str] = set()
     waiting = [blocks]

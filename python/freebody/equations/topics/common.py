@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from freebody.equations.collect import factored
 from freebody.equations.derivation import opening
-from freebody.equations.derivation.derive import _used
+from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.told import Arrow, Subject
 from freebody.equations.document import Block, Document, Heading
 from freebody.equations.letters import Letter, Letters
@@ -33,7 +33,7 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
-    return Document((first, *opening.letters(letters, _used(list(blocks))), *blocks), letters)
+    return Document((first, *opening.letters(letters, used(list(blocks))), *blocks), letters)
 
 
 def moving_names(subject: Subject) -> list[str]:
