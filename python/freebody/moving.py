@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
+    from freebody.check import Verdict
     from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
@@ -139,6 +140,15 @@ class Moving:
             told = ", ".join(f"`{name}` {value}" for name, value in moving.items())
             hint = "look for a load that nothing carries, or leave `equilibrium` out"
             raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {told}", hint)
+
+    def check(self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None) -> Verdict:
+        """Whether an equation, lines of them or a claim is true of every motion; see ``freebody.check.Checker``.
+
+        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``. Raises ``StatementError`` and ``Complaint``.
+        """
+        from freebody.check import check
+
+        return check(self, text, letters)
 
     @contextmanager
     def told(self: Builder) -> Iterator[None]:

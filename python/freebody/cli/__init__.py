@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from freebody.cli.check import check
 from freebody.cli.mistakes import Guarded, Mistake
 
 if TYPE_CHECKING:
@@ -166,6 +167,9 @@ def systems(
         show.show_summary(results)
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(BAD_END)
+
+
+app.command()(check)
 
 
 @app.command()

@@ -1,0 +1,91 @@
+"""Checking statements about one model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from freebody.model.errors import Complaint
+
+from .case import Case
+from .claims import claimed
+from .language.dimensions import DimensionError, check_dimensions
+from .language.errors import StatementError
+from .language.parser import parse
+from .letters import Letters
+from .meaning import StatementLetters
+from .mend import mends
+from .truth import ALL, Family, Truth
+from .verdict import Kind, Verdict, judged
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+Declared = Mapping[str, str | Sequence[str | float]]
+"""Own letters, each an expression of the model language, components of a vector or a phrase; see ``Letters``."""
+
+
+class Checker:
+    """Checks many statements about one model; its true motions are made once.
+
+    ``letters`` are own letters for all of them. ``seed`` makes the random motions reproducible.
+    """
+
+    def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0) -> None:
+        self.mechanism = mechanism
+        self.declared = dict(letters or {})
+        self.truth = Truth(mechanism, seed)
+        self.hypothesis = ALL
+        self._run: Any = None
+
+    def letters(self, declared: Declared | None = None) -> Letters:
+        """The letters of the model with own ones. Raises ``Complaint``."""
+        return Letters(self.mechanism, {**self.declared, **(declared or {})}, self.truth.gravity)
+
+    def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
+        """A statement beside the motions that decide about it. Raises ``StatementError`` and ``Complaint``."""
+        known = self.letters(letters)
+        program = parse(text, known.names)
+        return Case(program, StatementLetters(known, program, self.truth), self.truth, hypothesis or self.hypothesis)
+
+    def check(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Verdict:
+        """The verdict about an equation, several lines of them, or a claim (see docs/check.md).
+
+        ``hypothesis``: the motions of which it is said. Raises ``StatementError`` and ``Complaint``.
+        """
+        before, self.hypothesis = self.hypothesis, hypothesis or self.hypothesis
+        try:
+            return claimed(self, text, letters or {}) or self._equations(text, letters)
+        finally:
+            self.hypothesis = before
+
+    def _equations(self, text: str, letters: Declared | None) -> Verdict:
+        case = self.case(text, letters)
+        try:
+            check_dimensions(case.program, case.meaning.letters.dimensions)
+        except DimensionError as error:
+            found = tuple(mend for equation in case.equations for mend in mends(case, equation))
+            return Verdict(Kind.DIMENSIONS, text, error.what, mends=found)
+        except StatementError:
+            pass  # kinds that do not go together are told with the verdict
+        return judged(case)
+
+    def moment(self, name: str) -> tuple[Any, float]:
+        """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
+        from freebody.model.start import evaluate
+
+        if self._run is None:
+            self._run = self.mechanism.simulate(None if self.mechanism.run_numbers().until is not None else 1.0)
+        times = {"start": float(self._run.t[0]), "end": float(self._run.outcome.t)}
+        times |= {event.name: event.t for event in reversed(self._run.events)}
+        if name in times:
+            return self._run, times[name]
+        try:
+            return self._run, evaluate(name, {})
+        except Complaint:
+            raise Complaint(f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`") from None
+
+
+def check(mechanism: Builder, text: str, letters: Declared | None = None) -> Verdict:
+    """Whether a statement is true of every motion of a model; see ``Checker``."""
+    return Checker(mechanism, letters).check(text)

@@ -1,0 +1,55 @@
+"""A statement beside the motions that decide about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from .language.evaluate import Array
+from .language.nodes import Equation, Program, inlined
+from .residual import Residual, residual
+from .truth import ALL, SAMPLES, Family, Samples, Truth
+from .vocabulary import Vocabulary
+
+
+class Meaning(Protocol):
+    """What the letters of a statement are."""
+
+    @property
+    def vocabulary(self) -> Vocabulary:
+        """The letters that a true equation may be written in."""
+
+    def values(self, samples: Samples) -> Mapping[str, Array]:
+        """The value of every letter on true states, by ``Letter.key``."""
+
+
+@dataclass
+class Case:
+    """A program of statements, what its letters mean, and true motions. ``hypothesis`` is the family of which it is said."""
+
+    program: Program
+    meaning: Meaning
+    truth: Truth
+    hypothesis: Family = ALL
+    known: dict[tuple[Family, int, int], Mapping[str, Array]] = field(default_factory=dict)
+
+    @property
+    def equations(self) -> tuple[Equation, ...]:
+        """What is stated, with assigned names written out."""
+        return inlined(self.program)
+
+    def samples(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Samples:
+        """True states of a family. Raises ``NoMotion``."""
+        return self.truth.samples(family or self.hypothesis, count, fresh)
+
+    def values(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Mapping[str, Array]:
+        """The letters on true states of a family. Raises ``NoMotion``."""
+        key = (family or self.hypothesis, fresh, count)
+        if key not in self.known:
+            self.known[key] = self.meaning.values(self.samples(family, fresh, count))
+        return self.known[key]
+
+    def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
+        """How far an equation is from holding."""
+        return residual(equation, self.values(family, fresh))

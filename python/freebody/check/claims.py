@@ -1,0 +1,250 @@
+"""Claims that are more than an equation: constants, limits, figures at a moment, consequences, and what holds only if."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.model.errors import Complaint
+from freebody.results import Array
+
+from .case import Case
+from .hypothesis import FAR, family
+from .language.evaluate import equation_sides, evaluate
+from .language.nodes import Equation, Letter, Number, Program, letters, walk
+from .language.nodes import replace as replaced
+from .language.parser import parse, parse_expression
+from .meaning import StatementLetters
+from .residual import HOLDS, magnitude, residual
+from .truth import Sample, Samples
+from .verdict import Evidence, Kind, Verdict, evidence
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+
+_STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what the integrator leaves
+_MOMENTS = 6
+_RUNS = 12
+_ROUND = 1e-9  # of half a digit, so that a figure that lies on the edge is accepted
+
+
+def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
+    """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``Complaint``."""
+    for pattern, judge in _FORMS:
+        if found := pattern.fullmatch(text.strip()):
+            return replace(judge(checker, declared, *(part.strip() for part in found.groups())), text=text.strip())
+    return None
+
+
+def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
+    """Under a hypothesis."""
+    given = family(condition, checker.truth, lambda more: checker.letters({**declared, **more}))
+    verdict = checker.check(statement, declared, given)
+    return replace(verdict, assumption=condition) if verdict.ok else verdict
+
+
+def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
+    """True under a hypothesis, and broken by an example without it."""
+    under, always = _if(checker, declared, condition, statement), checker.check(statement, declared)
+    if not under.ok:
+        return under
+    if always.ok:
+        return replace(always, kind=Kind.WRONG, reason=f"it holds without `{condition}`, too")
+    reason = f"holds where {condition}; broken without it"
+    return Verdict(Kind.TRUE, statement, reason, condition, evidence=always.evidence)
+
+
+def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
+    """In a limit: what is left shrinks with the parameter, or vanishes."""
+    given = family(limits, checker.truth, lambda more: checker.letters({**declared, **more}))
+    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
+    case = checker.case(statement, declared, given)
+    values, before = case.values(), case.values(near)
+    for equation in case.equations:
+        found = residual(equation, values)
+        rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
+        if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
+            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(case, equation, found))
+    return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
+
+
+def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
+    """The same at all times of each motion."""
+    case = checker.case(f"{expression} = 0", declared, checker.hypothesis)
+    node = case.equations[0].left
+    worst, seen = 0.0, None
+    for sample in case.samples(count=_RUNS).samples:
+        along = _along(checker, sample)
+        values = case.meaning.values(along)
+        value, size = evaluate(node, values), magnitude(node, values)
+        spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), 1e-300))
+        if np.isnan(spread):
+            return Verdict(Kind.UNDECIDABLE, expression, "it has no value along the motion")
+        if spread >= worst:
+            worst = spread
+            seen = Evidence({"t": along.samples[-1].state.t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
+    if worst < _STEADY:
+        return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
+    return Verdict(Kind.WRONG, expression, "not constant: it changes along a motion", evidence=seen)
+
+
+def _along(checker: Checker, sample: Sample) -> Samples:
+    """States along the motion that goes on from a true state."""
+    truth, state = checker.truth, sample.state
+    motion = truth.core.simulate(state.p, state.t, state.q, state.u, state.t + 1 / truth.rate, rtol=1e-11, max_steps=5000)
+    ends = motion.final()[0]
+    times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
+    qs, us = motion.sample(times)
+    states = [replace(state, t=float(t), q=q, u=u) for t, q, u in zip(times, qs, us, strict=True)]
+    return Samples(truth.core, [Sample(s, motion) for s in states], truth.parameter_names)
+
+
+def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
+    """The value of an expression, when some coordinates or rates are changed and all else stays."""
+    case = checker.case(f"{expression} = 0", declared)
+    letters = checker.letters(declared)
+    node, truth = case.equations[0].left, checker.truth
+    samples = case.samples()
+    before, size = evaluate(node, case.meaning.values(samples)), magnitude(node, case.meaning.values(samples))
+    for name in (n.strip() for n in names.split(",")):
+        letter = parse_expression(name, letters.names)
+        moved = [_moved(truth, sample, letter) for sample in samples.samples]
+        after = evaluate(node, case.meaning.values(Samples(truth.core, moved, truth.parameter_names)))
+        change = np.abs(after - before) / np.maximum(size, 1e-300)
+        if change.max() > 1e-8:
+            k = int(np.argmax(change.reshape(len(change), -1).max(axis=1)))
+            seen = Evidence({name: "changed alone"}, before[k].tolist(), after[k].tolist(), float(change.max()), len(moved))
+            return Verdict(Kind.WRONG, expression, f"it depends on {name}", evidence=seen)
+    return Verdict(Kind.TRUE, expression, f"unchanged when {names} change alone, on {len(samples)} motions")
+
+
+def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
+    names = [c["name"] for c in truth.coordinates]
+    if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth._loops:
+        raise Complaint(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
+    state, i = sample.state, names.index(letter.name)
+    q, u = state.q.copy(), state.u.copy()
+    (u if letter.dots else q)[i] += 0.7 * (truth.rate if letter.dots else 1.0)
+    return Sample(replace(state, q=q, u=u))
+
+
+def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:
+    """Whether an equation is true wherever others are, whatever the mechanics."""
+    known = checker.letters(declared)
+    then, given = parse(statement, known.names), parse(premises.replace(" and ", "\n"), known.names)
+    conclusion, case = then.equations[0], checker.case(statement + "\n" + premises.replace(" and ", "\n"), declared)
+    values = dict(case.meaning.values(case.samples()))
+    rng = np.random.default_rng(3)
+    values = {k: v * rng.uniform(0.5, 1.5, v.shape) for k, v in values.items()}
+    _solve(given, values)
+    found = residual(conclusion, values)
+    if max(residual(e, values).worst for e in given.equations) > 1e-9:
+        return Verdict(Kind.UNDECIDABLE, statement, "the premises could not be made true by their accelerations and forces")
+    if found.worst < 1e-8:
+        return Verdict(Kind.TRUE, statement, f"holds wherever `{premises}` does, on {len(found.ratio)} random numbers")
+    return Verdict(
+        Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(case, conclusion, found)
+    )
+
+
+def _solve(given: Program, values: dict[str, Array]) -> None:
+    """Makes premises true by their letters with most dots, by Newton's method on every set of numbers at once."""
+    known = [n for e in given.equations for n in letters(e) if n.key in values and values[n.key].ndim == 1]
+    top = sorted(dict.fromkeys(known), key=lambda n: -n.dots)
+
+    def left() -> Array:
+        return np.concatenate([equation_sides(e, values).residual for e in given.equations], axis=1)
+
+    for _ in range(20):
+        base = left()
+        unknown = top[: base.shape[1]]
+        columns = []
+        for letter in unknown:
+            old, step = values[letter.key], 1e-6 * (1 + np.abs(values[letter.key]))
+            values[letter.key] = old + step
+            columns.append((left() - base) / step[:, None])
+            values[letter.key] = old
+        slopes = np.stack(columns, axis=-1)
+        steps = np.einsum("kij,kj->ki", np.linalg.pinv(slopes), base)
+        for i, letter in enumerate(unknown):
+            values[letter.key] = values[letter.key] - steps[:, i]
+
+
+def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
+    """At a moment of the model's own run, with its own numbers; figures to their printed digits."""
+    known = checker.letters(declared)
+    program = parse(statement, known.names)
+    meaning = StatementLetters(known, program, checker.truth)
+    run, t = checker.moment(moment)
+    values = meaning.values(_OnRun(run, t, checker))
+    case = Case(program, meaning, checker.truth)
+    for equation in case.equations:
+        sides = equation_sides(equation, values)
+        off, allowed = np.abs(sides.residual), rounding(equation, values)
+        if np.any(off > allowed * (1 + _ROUND)):
+            shown = {n.key: values[n.key][0].tolist() for n in letters(equation) if n.key in values}
+            seen = Evidence(shown, sides.left[0].tolist(), sides.right[0].tolist(), float(off.max()), 1)
+            return Verdict(Kind.WRONG, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}", evidence=seen)
+    return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
+
+
+def _figures(sides: Any) -> str:
+    return f"it is {np.array2string(sides.left[0], precision=6)} against {np.array2string(sides.right[0], precision=6)}"
+
+
+def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
+    """How far the sides may lie apart, by half the last printed digit of each figure with a decimal point; (K, n)."""
+    base = equation_sides(equation, values).residual
+    size = (magnitude(equation.left, values) + magnitude(equation.right, values)).reshape(len(base), -1)
+    allowed = HOLDS * size
+    for figure in [n for n in walk(equation) if isinstance(n, Number) and "." in n.text]:
+        half = 0.5 * 10.0 ** -len(figure.text.split("e")[0].split(".")[1]) * _power(figure.text)
+        moved = replaced(equation, figure, Number(figure.value + half, figure.text))
+        allowed = allowed + np.abs(equation_sides(moved, values).residual - base)
+    return allowed
+
+
+def _power(text: str) -> float:
+    return 10.0 ** int(text.split("e")[1]) if "e" in text else 1.0
+
+
+class _OnRun:
+    """A moment of a run as one sample."""
+
+    def __init__(self, run: Any, t: float, checker: Checker) -> None:
+        self.run, self.t, self.checker = run, t, checker
+
+    def __len__(self) -> int:
+        return 1
+
+    def values(self, texts: Any) -> dict[str, Array]:
+        """Each expression, (1,)."""
+        gravity = self.checker.truth.gravity
+        return {text: np.array([self._value(text, gravity)]) for text in texts}
+
+    def _value(self, text: str, gravity: str | None) -> float:
+        if text == gravity:
+            return float(self.checker.truth.free_parameters[text])
+        return float(np.asarray(self.run.evaluate(text, self.t)).ravel()[0])
+
+    def masses(self) -> dict[str, tuple[Array, Array]]:
+        """As of the model's own numbers."""
+        truth = self.checker.truth
+        return Samples(truth.core, [truth.own], truth.parameter_names).masses()
+
+
+_Judge = Callable[..., Verdict]
+_FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
+    (re.compile(r"only if (.+?):(.+)", re.S), _only_if),
+    (re.compile(r"if (.+?):(.+)", re.S), _if),
+    (re.compile(r"constant:(.+)", re.S), _constant),
+    (re.compile(r"limit:(.+)\bas\b(.+)", re.S), _limit),
+    (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
+    (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
+    (re.compile(r"at (.+?):(.+)", re.S), _at),
+)
+"""Forms of claims, each with what judges it."""

@@ -1,0 +1,78 @@
+"""Edits of the whole equation at once: what a letter measures, and in which sense."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from .edits import Edit
+from .language.nodes import Cross, Dot, Equation, Letter, Negative, Node, Number, Quotient, Sum, letters, replace, substitute, walk
+from .vocabulary import Vocabulary
+
+_QUARTER = Quotient(Number(math.pi, "pi"), Number(2.0, "2"))
+
+
+def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """Letters of the other sense, from another axis, relative for absolute, and two letters exchanged.
+
+    A letter that stands once is left to the edits of its place.
+    """
+    yield from _products(equation)
+    found = [n for n in walk(equation) if isinstance(n, Letter)]
+    often = [name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1]
+    for name in often:
+        plain = Letter(name)
+        if plain in vocabulary.angular and plain in vocabulary.coordinates:
+            yield from _angles(equation, plain, vocabulary)
+        if plain not in vocabulary.vectors:
+            yield _edit(equation, {name: _opposite}, f"`{name}` taken in the other sense")
+    for name in often:
+        for other in vocabulary.alike(Letter(name)):
+            if name < other.name and other.name in often:
+                swapped = {Letter(a, d): Letter(b, d) for a, b in ((name, other.name), (other.name, name)) for d in range(3)}
+                after = _exchanged(equation, swapped)
+                yield Edit("convention", None, None, after, words=f"`{name}` and `{other.name}` exchanged")
+
+
+def _products(equation: Equation) -> Iterator[Edit]:
+    """Every cross product a scalar product, and the other way round."""
+    for kind, other, words in ((Cross, Dot, "`·` for every `×`"), (Dot, Cross, "`×` for every `·`")):
+        after = equation
+        while (old := next((n for n in walk(after) if isinstance(n, kind)), None)) is not None:
+            after = replace(after, old, other(old.left, old.right, span=old.span))
+        if after is not equation:
+            yield Edit("convention", None, None, after, words=words)
+
+
+def _angles(equation: Equation, plain: Letter, vocabulary: Vocabulary) -> Iterator[Edit]:
+    name = plain.name
+    for sign, words in ((1, "plus"), (-1, "minus")):
+        quarter: Node = _QUARTER if sign > 0 else Negative(_QUARTER)
+        after = substitute(equation, {plain: Sum((plain, quarter))})
+        yield Edit("convention", None, None, after, words=f"`{name}` {words} a quarter turn")
+        for other in vocabulary.alike(plain):
+            say = "absolute where it is relative" if sign > 0 else "relative where it is absolute"
+            words_of = f"`{name}` {words} `{other.name}`: {say}, or the other way round"
+            yield _edit(equation, {name: lambda n, o=other, s=sign: _shifted(n, o, s)}, words_of)
+
+
+def _shifted(letter: Node, other: Letter, sign: int) -> Node:
+    assert isinstance(letter, Letter)
+    same = Letter(other.name, letter.dots)
+    return Sum((Letter(letter.name, letter.dots), same if sign > 0 else Negative(same)))
+
+
+def _opposite(letter: Letter) -> Node:
+    return Negative(Letter(letter.name, letter.dots))
+
+
+def _edit(equation: Equation, changes: dict, words: str) -> Edit:
+    inside = {n: changes[n.name](n) for n in letters(equation) if n.name in changes}
+    return Edit("convention", None, None, substitute(equation, inside), words=words)
+
+
+def _exchanged(equation: Equation, swapped: dict[Letter, Letter]) -> Equation:
+    """Letters exchanged at once, by way of names that nothing else has."""
+    between = {old: Letter(f"\0{old.name}", old.dots) for old in swapped}
+    there = substitute(equation, dict(between))
+    return substitute(there, {between[old]: new for old, new in swapped.items()})

@@ -1,0 +1,177 @@
+"""Single edits of an equation: those that a slip of the pen would need, to be tried one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .language.evaluate import is_zero
+from .language.nodes import (
+    Call,
+    Column,
+    Cross,
+    Dot,
+    Equation,
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    children,
+    replace,
+    walk,
+)
+from .vocabulary import Vocabulary
+
+SIZES = {
+    "sign": 1.0,
+    "function": 1.0,
+    "letter": 1.0,
+    "angle": 1.0,
+    "derivative": 1.0,
+    "factor": 1.0,
+    "power": 1.0,
+    "rates": 1.0,
+    "unit vector": 1.0,
+    "extra factor": 1.1,
+    "missing factor": 1.1,
+    "extra term": 1.1,
+    "missing term": 1.2,
+    "convention": 1.1,
+    "other term": 2.0,
+}
+"""How large each kind of edit is; those within ``mend.EQUAL`` are equally small."""
+
+_SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
+
+
+@dataclass(frozen=True)
+class Edit:
+    """``old`` (None: nothing was there) becomes ``new`` (None: nothing is left) in an equation that is then ``after``."""
+
+    kind: str
+    old: Node | None
+    new: Node | None
+    after: Equation
+    extra: float = 0.0
+    words: str = ""
+
+    @property
+    def size(self) -> float:
+        """How large it is, smaller first."""
+        return SIZES[self.kind] + self.extra
+
+
+def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """All single edits that need no number to be found."""
+    for node, addend in _parts(equation):
+        for kind, new in _changes(node, vocabulary):
+            yield Edit(kind, node, new, replace(equation, node, new))
+        if addend:
+            opposite = node.of if isinstance(node, Negative) else Negative(node, span=node.span)
+            yield Edit("sign", node, opposite, replace(equation, node, opposite))
+            yield from _fewer(equation, node)
+            yield from _more(equation, node, vocabulary)
+
+
+def _parts(equation: Equation) -> Iterator[tuple[Node, bool]]:
+    """Every part once, and whether it is added to something."""
+    addends = {id(side) for side in (equation.left, equation.right) if not isinstance(side, Sum)}
+    for node in walk(equation):
+        if isinstance(node, Sum):
+            addends |= {id(term) for term in node.terms}
+        if isinstance(node, Column):
+            addends |= {id(item) for item in node.items if not isinstance(item, Sum)}
+        if isinstance(node, Matrix):
+            addends |= {id(item) for row in node.rows for item in row if not isinstance(item, Sum)}
+    seen: set[int] = set()
+    for node in walk(equation):
+        if node is not equation and id(node) not in seen and not is_zero(node):
+            seen.add(id(node))
+            yield node, id(node) in addends
+
+
+def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
+    at = {"span": node.span}
+    match node:
+        case Letter(name=name, dots=dots):
+            yield from (("letter", Letter(other.name, other.dots, **at)) for other in vocabulary.alike(node))
+            if Letter(name) in vocabulary.coordinates:
+                yield from (("derivative", Letter(name, n, **at)) for n in range(3) if n != dots)
+            if node in vocabulary.vectors:
+                yield "sign", Negative(node, **at)
+                yield from (("letter", Negative(other, **at)) for other in vocabulary.alike(node))
+        case Call(function=function, arguments=(argument,)):
+            yield from (("function", Call(other, (argument,), **at)) for other in _SWAPS.get(function, ()))
+            yield from (("angle", Call(function, (angle,), **at)) for angle in _angles(argument, vocabulary))
+        case Power(base=base, exponent=Number(value=n)):
+            yield from (("power", Power(base, Number(m, f"{m:g}"), **at)) for m in (n - 1, n + 1) if m > 1)
+            yield "power", base
+            yield from _rates(base, n, vocabulary)
+        case Product(factors=(Letter(dots=1) as a, Letter(dots=1) as b)):
+            yield from (("rates", Power(x, Number(2.0, "2"), **at)) for x in (a, b))
+        case Product(factors=factors):
+            kept = [factors[:i] + factors[i + 1 :] for i in range(len(factors))]
+            yield from (("extra factor", Product(rest, **at) if len(rest) > 1 else rest[0]) for rest in kept)
+        case Quotient(top=top, bottom=bottom):
+            yield "extra factor", top
+            yield "missing factor", Product((top, bottom), **at)
+        case Cross(left=left, right=right):
+            yield "sign", Cross(right, left, **at)
+            yield "function", Dot(left, right, **at)
+        case Dot(left=left, right=right):
+            yield "function", Cross(left, right, **at)
+    if isinstance(node, Letter) and Letter(node.name) in vocabulary.coordinates and node.dots == 1:
+        yield "power", Power(node, Number(2.0, "2"), **at)
+
+
+def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
+    """A rate squared that should be a product of two, or an acceleration."""
+    if n == 2 and isinstance(base, Letter) and base.dots == 1:
+        yield from (("rates", Product((base, other), span=base.span)) for other in vocabulary.alike(base))
+        yield "derivative", Letter(base.name, 2, span=base.span)
+
+
+def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
+    """Other angles: each letter, sums and differences of two, twice and half of what is there."""
+    known = vocabulary.angles
+    yield from (angle for angle in known if angle != argument)
+    for i, a in enumerate(known):
+        for b in known[i + 1 :]:
+            yield from (Sum((a, b)), Sum((a, Negative(b))))
+            if not isinstance(argument, Letter):
+                yield Sum((b, Negative(a)))
+    yield Product((Number(2.0, "2"), argument))
+    yield Quotient(argument, Number(2.0, "2"))
+
+
+def _fewer(equation: Equation, node: Node) -> Iterator[Edit]:
+    """Without a term."""
+    yield Edit("extra term", node, None, replace(equation, node, Number(0.0, "0")))
+
+
+def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """A term with a sine, a cosine or a letter more."""
+    extras: list[Node] = [Call(name, (angle,)) for angle in vocabulary.angles for name in ("sin", "cos")]
+    extras += [n for n in vocabulary.parameters if n not in vocabulary.angular]
+    extras += [Letter(n.name, dots) for n in vocabulary.coordinates for dots in (1, 2)]
+    for extra in extras:
+        new = Product((node, extra), span=node.span)
+        yield Edit("missing factor", node, new, replace(equation, node, new))
+
+
+def with_unit_vectors(equation: Equation, units: tuple[Letter, ...]) -> Iterator[Edit]:
+    """A number beside vectors that lacks its direction, or a vector that should be a component."""
+    for node, _ in _parts(equation):
+        for unit in units:
+            for new in (Product((node, unit), span=node.span), Dot(node, unit, span=node.span)):
+                yield Edit("unit vector", node, new, replace(equation, node, new))
+
+
+def depth(node: Node) -> int:
+    """How many parts a tree has."""
+    return 1 + sum(depth(child) for child in children(node))

@@ -1,0 +1,143 @@
+"""Files of many statements about a model."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from ruamel.yaml import YAML, YAMLError
+
+from freebody.model.errors import Complaint
+
+from .api import Checker
+from .language.errors import StatementError
+from .verdict import Kind, Verdict
+
+_SAID = str | list[str | float]
+
+
+class Statement(BaseModel):
+    """One statement: ``says`` is an equation, lines of them or a claim. ``model`` (beside the file), ``set`` (parameters; a list
+    of numbers tries each) and ``letters`` are added to those of the file; ``verdict`` is what is expected, if it is said."""
+
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
+
+    id: str = Field(description="name of the statement")
+    says: str = Field(description="an equation, lines of them, or a claim")
+    model: str | None = Field(None, description="another model, a file beside this one")
+    set_: dict[str, Any] = Field({}, alias="set", description="parameters with other numbers; a list tries each")
+    letters: dict[str, _SAID] = Field({}, description="own letters")
+    verdict: str | None = Field(None, description="what is expected: true, if, wrong, undecidable or dimensions")
+    note: str = Field("", description="what a reader should know")
+
+
+class Statements(BaseModel):
+    """A file of statements about a model."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    model: str = Field("model.yaml", description="the model, a file beside this one")
+    letters: dict[str, _SAID] = Field({}, description="own letters for all statements")
+    statements: list[Statement] = Field(description="the statements, in order")
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A statement with its verdict. ``as_expected`` is None where the file expects nothing."""
+
+    statement: Statement
+    verdict: Verdict
+    as_expected: bool | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {"id": self.statement.id, **as_json(self.verdict), "as expected": self.as_expected, "note": self.statement.note}
+
+
+WORDS = {
+    "true": Kind.TRUE,
+    "if": Kind.TRUE_IF,
+    "wrong": Kind.WRONG,
+    "undecidable": Kind.UNDECIDABLE,
+    "dimensions": Kind.DIMENSIONS,
+}
+"""Verdicts as a file writes them."""
+
+
+def read(path: Path) -> Statements:
+    """The statements of a file. Raises ``Complaint``."""
+    try:
+        data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+        return Statements.model_validate(data)
+    except YAMLError as error:
+        raise Complaint(f"{path}: {error}") from None
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(part) for part in first["loc"])
+        raise Complaint(f"{path}: {place}: {first['msg']}", "see docs/check.md for what a file of statements holds") from None
+
+
+def judge(path: Path) -> Iterator[Judged]:
+    """The verdicts about all statements of a file, one by one. Raises ``Complaint``."""
+    given = read(path)
+    checkers: dict[tuple[str, str], Checker] = {}
+    for statement in given.statements:
+        found = [_one(path, given, statement, values, checkers) for values in _settings(statement.set_)]
+        verdict = next((v for v in found if not v.ok), found[0])
+        expected = None if statement.verdict is None else verdict.kind is WORDS.get(statement.verdict)
+        yield Judged(statement, verdict, expected)
+
+
+def _one(
+    path: Path, given: Statements, statement: Statement, values: Mapping[str, Any], checkers: dict[tuple[str, str], Checker]
+) -> Verdict:
+    from freebody.model import Mechanism
+
+    key = (statement.model or given.model, json.dumps(values, sort_keys=True))
+    if key not in checkers:
+        mechanism = Mechanism.load(path.parent / key[0])
+        mechanism.parameters.update(values)
+        checkers[key] = Checker(mechanism, given.letters)
+    try:
+        verdict = checkers[key].check(statement.says, statement.letters)
+    except (StatementError, Complaint) as error:
+        raise Complaint(f"{path}: {statement.id}: {error}") from None
+    told = ", ".join(f"{name} = {value}" for name, value in values.items())
+    return replace(verdict, reason=f"{verdict.reason} ({told})") if told and not verdict.ok else verdict
+
+
+def _settings(given: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """One mapping for each number of a list."""
+    lists = {name: value for name, value in given.items() if isinstance(value, Sequence) and not isinstance(value, str)}
+    if not lists:
+        return [dict(given)]
+    count = max(len(values) for values in lists.values())
+    return [{name: lists[name][i] if name in lists else value for name, value in given.items()} for i in range(count)]
+
+
+def as_json(verdict: Verdict) -> dict[str, Any]:
+    """A verdict as plain data."""
+    seen = verdict.evidence
+    return {
+        "statement": verdict.text,
+        "verdict": verdict.kind.value,
+        "reason": verdict.reason,
+        "assumption": verdict.assumption,
+        "mends": [
+            {
+                "edits": [dict(zip(("kind", "before", "after"), e, strict=True)) for e in m.edits],
+                "equation": m.equation,
+                "given": m.given,
+                "where": list(m.where),
+            }
+            for m in verdict.mends
+        ],
+        "untested": list(verdict.untested),
+        "evidence": None
+        if seen is None
+        else {"letters": seen.letters, "left": seen.left, "right": seen.right, "ratio": seen.ratio, "states": seen.states},
+    }

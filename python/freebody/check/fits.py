@@ -1,0 +1,247 @@
+"""Edits whose number or term is found from what the equation lacks: factors, missing terms, terms that should be others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from .edits import Edit, depth
+from .language.evaluate import Array, evaluate
+from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Product, Quotient, Sum, letters, replace, walk
+from .language.nodes import terms as terms_of
+from .needed import Need, needs
+from .vocabulary import Powers, Vocabulary, dimension
+
+_SAME = 1e-8  # relative spread below which a factor is one number on all states
+_DENOMINATOR = 12
+_NUMERATOR = 60
+
+
+def recognised(value: float) -> Node | None:
+    """A number as a person writes it: p/q with q ≤ 12, or such a part of π; None where it is neither."""
+    for unit, name in ((1.0, ""), (math.pi, "pi")):
+        fraction = Fraction(value / unit).limit_denominator(_DENOMINATOR)
+        if fraction and abs(fraction.numerator) <= _NUMERATOR and abs(float(fraction) * unit / value - 1) < _SAME:
+            return _fraction(fraction, name)
+    return None
+
+
+def _fraction(fraction: Fraction, name: str) -> Node:
+    top: Node = Number(float(fraction.numerator), str(fraction.numerator))
+    if name:
+        pi = Number(math.pi, "pi")
+        top = pi if fraction.numerator == 1 else Product((top, pi))
+    if fraction.denominator == 1:
+        return top
+    return Quotient(top, Number(float(fraction.denominator), str(fraction.denominator)))
+
+
+@dataclass
+class Fits:
+    """What can be fitted to an equation: ``values`` are those of true states, ``terms`` the shapes of missing terms."""
+
+    values: Mapping[str, Array]
+    vocabulary: Vocabulary
+
+    def edits(self, equation: Equation, terms: bool = True) -> Iterator[Edit]:
+        """Single edits found by solving for each part; ``terms``: missing and other terms, too."""
+        with np.errstate(all="ignore"):
+            for need in needs(equation, self.values):
+                yield from self._leaves(equation, need)
+                if need.addend:
+                    yield from self._factors(equation, need)
+                    if terms:
+                        yield from self._replaced(equation, need)
+                if terms and (isinstance(need.node, Sum) or need.node in (equation.left, equation.right)):
+                    yield from self._missing(equation, need)
+
+    def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        """A number that should be another, a letter or a function that should be a letter of another kind."""
+        found = _constant(need.needed) if isinstance(need.node, Number) else None
+        if found is not None and (number := recognised(found)) is not None:
+            yield Edit("factor", need.node, number, replace(equation, need.node, number))
+        if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
+            for letter in self._letters:
+                if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
+                    new = Letter(letter.name, letter.dots, span=need.node.span)
+                    yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+
+    @cached_property
+    def _letters(self) -> list[Letter]:
+        known = self.vocabulary
+        moving = [Letter(q.name, dots) for q in known.coordinates for dots in range(3)]
+        return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
+
+    def _factors(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        factor = need.factor
+        if factor is None or not np.isfinite(factor).all():
+            return
+        found = _constant(factor)
+        if found is not None:
+            number = recognised(found)
+            if number is not None and found not in (0, 1, -1):
+                new = multiplied(need.node, number)
+                own = 0.05 if any(isinstance(n, Number) for n in walk(need.node)) else 0.0
+                yield Edit("factor", need.node, new, replace(equation, need.node, new), own)
+            return
+        for size, new in self._monomials(need.node, factor, equation):
+            yield Edit("missing factor", need.node, new, replace(equation, need.node, new), 0.2 * (size - 1))
+
+    def _monomials(self, node: Node, factor: Array, equation: Equation) -> Iterator[tuple[int, Node]]:
+        """The node with the product of powers of letters that it lacks."""
+        known = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
+        used = [n for n in known if _varies(self.values[n.key])]
+        if not used or len(used) + 1 >= len(factor) or not (np.all(factor > 0) or np.all(factor < 0)):
+            return
+        columns = np.column_stack([np.ones(len(factor)), *[np.log(np.abs(self.values[n.key])) for n in used]])
+        fit, *_ = np.linalg.lstsq(columns, np.log(np.abs(factor)), rcond=None)
+        powers = np.round(fit[1:]).astype(int)
+        if np.max(np.abs(fit[1:] - powers)) > 1e-6 or not powers.any() or np.abs(powers).max() > 3:
+            return
+        number = recognised(float(np.sign(factor[0]) * np.exp(fit[0])))
+        if number is not None:
+            chosen = [(n, int(p)) for n, p in zip(used, powers, strict=True) if p]
+            yield sum(abs(p) for _, p in chosen) + (number != Number(1.0)), powered(node, number, chosen)
+
+    # -- terms
+
+    def _missing(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        """A sum that lacks a term."""
+        for term in self._matching(equation, need.missing):
+            old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
+            new = Sum((*old, term), span=need.node.span)
+            yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term))
+
+    def _replaced(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        """A term that should be quite another."""
+        for term in self._matching(equation, need.needed):
+            yield Edit("other term", need.node, term, replace(equation, need.node, term), 0.02 * depth(term))
+
+    def _matching(self, equation: Equation, wanted: Array) -> Iterator[Node]:
+        """Terms of the dictionary that are ``wanted`` but for a number."""
+        scale = np.max(np.abs(wanted))
+        if wanted.ndim == 2:
+            yield from self._matching_vectors(equation, wanted)
+            return
+        if not np.isfinite(scale) or scale == 0:
+            return
+        nodes, rows = self._dictionary(equation)
+        for i in _proportional(rows, wanted):
+            ratio = float(np.sum(wanted * rows[i]) / np.sum(rows[i] ** 2))
+            if (number := recognised(ratio)) is not None:
+                yield multiplied(nodes[i], number)
+
+    def _matching_vectors(self, equation: Equation, wanted: Array) -> Iterator[Node]:
+        """Terms that are a number times a known vector."""
+        for vector in self.vocabulary.vectors:
+            value = self.values[vector.key]
+            along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
+            off = np.abs(wanted - along[:, None] * value).max(axis=1)
+            if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
+                yield from (Product((term, vector)) for term in self._matching(equation, along))
+
+    def _dictionary(self, equation: Equation) -> tuple[list[Node], Array]:
+        wanted = self._dimension(equation)
+        moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
+        key = (wanted, moving)
+        if key not in self._made:
+            nodes = list(self.vocabulary.terms(wanted, moving))
+            rows = self._rows(nodes)
+            good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
+            self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
+        return self._made[key]
+
+    def _rows(self, nodes: Sequence[Node]) -> Array:
+        """The value of each term; factors, of which there are few, are worked out once."""
+        known: dict[Node, Array] = {}
+
+        def value(node: Node) -> Array:
+            if node not in known:
+                known[node] = evaluate(node, self.values)
+            return known[node]
+
+        count = len(next(iter(self.values.values())))
+        made = [np.prod([value(f) for f in n.factors], axis=0) if isinstance(n, Product) else value(n) for n in nodes]
+        return np.array(made).reshape(len(nodes), count)
+
+    def _dimension(self, equation: Equation) -> Powers | None:
+        """That of most terms of the equation, as one of them may be wrong."""
+        found = [
+            dimension(term.node, self.values, self.vocabulary, [n for n in letters(term.node) if n.key in self.values])
+            for term in terms_of(equation, expand=True)
+        ]
+        known = [powers for powers in found if powers is not None]
+        return max(known, key=known.count) if known else None
+
+    @cached_property
+    def _made(self) -> dict[tuple[Powers | None, tuple[Letter, ...]], tuple[list[Node], Array]]:
+        return {}
+
+
+def _constant(values: Array) -> float | None:
+    if values.ndim != 1 or not np.isfinite(values).all():
+        return None
+    mean = float(np.median(values))
+    return mean if mean and np.max(np.abs(values - mean)) <= _SAME * abs(mean) else None
+
+
+def _varies(values: Array) -> bool:
+    return bool(values.ndim == 1 and np.all(values != 0) and np.ptp(np.log(np.abs(values))) > 1e-3)
+
+
+def _proportional(rows: Array, wanted: Array) -> list[int]:
+    """Rows that are ``wanted`` but for a factor."""
+    dots, sizes = rows @ wanted, np.sum(rows**2, axis=1)
+    off = np.abs(rows * (dots / sizes)[:, None] - wanted).max(axis=1)
+    return np.flatnonzero(off <= _SAME * np.abs(wanted).max()).tolist()
+
+
+def multiplied(node: Node, number: Node) -> Node:
+    """A term times a number, as a person writes it."""
+    if number == Number(1.0):
+        return node
+    if number == Number(-1.0):
+        return Negative(node)
+    if isinstance(node, Negative):
+        return Negative(multiplied(node.of, number), span=node.span)
+    if (own := _own_number(node)) is not None:
+        first, *rest = own
+        together = recognised(first.value * float(evaluate(number, {})[0]))
+        if together is not None:
+            return multiplied(rest[0] if len(rest) == 1 else Product(tuple(rest), span=node.span), together)
+    if isinstance(number, Quotient) and isinstance(number.top, Number) and number.top.value < 0:
+        return Negative(multiplied(node, Quotient(Number(-number.top.value, number.top.text.lstrip("-")), number.bottom)))
+    if isinstance(number, Number) and number.value < 0:
+        return Negative(multiplied(node, Number(-number.value, number.text.lstrip("-"))))
+    if isinstance(number, Quotient) and number.top == Number(1.0):
+        return Quotient(node, number.bottom, span=node.span)
+    return Product((number, *(node.factors if isinstance(node, Product) else (node,))), span=node.span)
+
+
+def _own_number(node: Node) -> tuple[Any, ...] | None:
+    """The factors of a product that begins with a number."""
+    return node.factors if isinstance(node, Product) and isinstance(node.factors[0], Number) else None
+
+
+def powered(node: Node, number: Node, chosen: Sequence[tuple[Letter, int]]) -> Node:
+    """A term times a number and powers of letters; factors that it has itself are taken off first."""
+    own = list(node.factors) if isinstance(node, Product) else [node]
+    below: list[Node] = []
+    for letter, power in chosen:
+        for _ in range(abs(power)):
+            if power > 0:
+                own.append(letter)
+            elif letter in own:
+                own.remove(letter)
+            else:
+                below.append(letter)
+    top = own[0] if len(own) == 1 else Product(tuple(own)) if own else Number(1.0, "1")
+    if below:
+        top = Quotient(top, below[0] if len(below) == 1 else Product(tuple(below)))
+    return multiplied(top, number)

@@ -1,0 +1,69 @@
+"""Hypotheses in words: ``m1 = 2*m2, at rest`` as a family of motions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from freebody.model.errors import Complaint
+
+from .letters import Letters
+from .truth import ALL, Family, Truth
+
+FAR = 1e7
+"""How far a parameter goes that goes to infinity (its inverse: to 0)."""
+
+_WORDS: dict[str, Callable[[Family], Family]] = {
+    "at rest": lambda f: replace(f, at_rest=True),
+    "at the start": lambda f: replace(f, at_start=True),
+    "without gravity": lambda f: replace(f, gravity=False),
+    "with these numbers": lambda f: replace(f, numbers=True, zeros=False),
+}
+_INFINITE = ("inf", "infinity", "∞", "oo")
+
+
+def family(text: str, truth: Truth, letters: Callable[[dict[str, str]], Letters], given: Family = ALL) -> Family:
+    """The motions of which a hypothesis is true: parts with commas or ``and`` between them, each ``at rest``, ``at the start``,
+    ``without gravity``, ``with these numbers``, ``p = value``, ``expression = value``, ``p -> inf`` or ``p -> 0``.
+
+    ``letters`` are those of the statement with some more declared. Raises ``Complaint``.
+    """
+    for part in filter(None, (p.strip() for p in re.split(r",|\band\b", text))):
+        given = _part(part, truth, letters, given)
+    return given
+
+
+def _part(part: str, truth: Truth, letters: Callable[[dict[str, str]], Letters], given: Family) -> Family:
+    if part in _WORDS:
+        return _WORDS[part](given)
+    if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(\S+)", part):
+        return limit(found[1], found[2], truth, letters, given)
+    if part.count("=") != 1:
+        raise Complaint(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(_WORDS)}")
+    left, right = (side.strip() for side in part.split("="))
+    name = parameter(left, truth, letters)
+    if name is not None:
+        text = letters({"hypothesis": right}).meanings["hypothesis"].texts[0]
+        return replace(given, held=(*given.held, (name, text)))
+    zero = letters({"hypothesis": f"({left}) - ({right})"}).meanings["hypothesis"].texts[0]
+    return replace(given, vanishing=(*given.vanishing, zero))
+
+
+def limit(name: str, value: str, truth: Truth, letters: Callable[[dict[str, str]], Letters], given: Family) -> Family:
+    """A parameter that goes to infinity or to 0; 0 itself where the model can have it. Raises ``Complaint``."""
+    found = parameter(name, truth, letters)
+    if found is None or value not in ("0", *_INFINITE):
+        raise Complaint(f"`{name} → {value}` is no limit that can be taken", "a free parameter goes to `inf` or to `0`")
+    if value == "0":
+        zero = replace(given, held=(*given.held, (found, 0.0)))
+        if truth.has(zero):
+            return zero
+    return replace(given, scaled=(*given.scaled, (found, FAR if value != "0" else 1 / FAR)))
+
+
+def parameter(name: str, truth: Truth, letters: Callable[[dict[str, str]], Letters]) -> str | None:
+    """The free parameter of the model that a letter stands for, or None."""
+    meaning = letters({}).meanings.get(name)
+    texts = (name,) if meaning is None else meaning.texts
+    return texts[0] if len(texts) == 1 and texts[0] in truth.free_parameters else None

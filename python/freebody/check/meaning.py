@@ -1,0 +1,135 @@
+"""The letters of a statement as the verdict needs them: their values on true states, and what else could stand there."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from functools import cached_property
+
+from freebody.model.errors import Complaint
+from freebody.model.units import Dimension
+
+from .declared import Meaning as One
+from .language.evaluate import Array
+from .language.nodes import Letter, Program, walk
+from .letters import Letters
+from .truth import Samples, Truth
+from .vocabulary import Powers, Vocabulary
+
+_WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
+_BEYOND = re.compile(
+    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum)\("
+    r"|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|friction|force|value|power|work|N|T)\b"
+)
+"""What reads more than the configuration."""
+
+
+class StatementLetters:
+    """What the letters of a program mean in a model. Raises ``StatementError`` at a letter without a meaning."""
+
+    def __init__(self, letters: Letters, program: Program, truth: Truth) -> None:
+        self.letters, self.truth = letters, truth
+        self.required = letters.require(program)
+        named = {line.name for line in program.assignments}
+        used = [n for n in walk(program) if isinstance(n, Letter) and n not in named]
+        self.used = list(dict.fromkeys(Letter(n.name) for n in used))
+
+    def values(self, samples: Samples) -> Mapping[str, Array]:
+        """The value of every letter on true states, by ``Letter.key``."""
+        return self.letters.values(dict.fromkeys([*self.required, *self._more]), samples)
+
+    @cached_property
+    def _more(self) -> list[Letter]:
+        known = self.vocabulary
+        dotted = [Letter(n.name, dots) for n in known.coordinates for dots in range(3)]
+        return [*known.parameters, *dotted, *known.others, *known.vectors]
+
+    @cached_property
+    def vocabulary(self) -> Vocabulary:
+        """The letters that a true equation may be written in: those of the statement, and what of the model it leaves out."""
+        parameters = [n for n in self._parameters if not self._one(n).is_vector]
+        coordinates = self._coordinates
+        taken = {*parameters, *coordinates}
+        vectors = [n for n in self.used if self._one(n).is_vector]
+        known = dict.fromkeys([*self.used, *(Letter(name) for name in self.letters.of_kind("declared"))])
+        others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
+        plain = {n: self._powers(n) for n in (*parameters, *coordinates, *others)}
+        return Vocabulary(
+            {n: plain[n] for n in parameters},
+            {n: plain[n] for n in coordinates},
+            {n: plain[n] for n in others},
+            tuple(dict.fromkeys((*vectors, *(Letter(n) for n in self.letters.of_kind("direction"))))),
+            frozenset(n for n in plain if (n in coordinates and plain[n] == (0, 0, 0)) or self._is_angle(n)),
+        )
+
+    def _one(self, letter: Letter) -> One:
+        return self.letters.meanings[letter.name]
+
+    def _powers(self, letter: Letter) -> Powers | None:
+        """The dimension of a letter; a parameter that is a bare number has none."""
+        dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
+        return (0, 0, 0) if dimension is None and name in self.truth.free_parameters else _powers(dimension)
+
+    def _is_angle(self, letter: Letter) -> bool:
+        dimension = self._one(letter).dimension
+        return dimension is not None and dimension.angle == 1 and _powers(dimension) == (0, 0, 0)
+
+    @cached_property
+    def _parameters(self) -> list[Letter]:
+        own = [Letter(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
+        made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
+        return self._once([*made, *(n for n in self.used if n in own), *own])
+
+    def _once(self, found: list[Letter]) -> list[Letter]:
+        """Without letters that only name again what another does."""
+        by_meaning: dict[tuple[str, ...], Letter] = {}
+        for letter in found:
+            by_meaning.setdefault(self._one(letter).texts, letter)
+        return list(by_meaning.values())
+
+    def _matters(self, name: str) -> bool:
+        """Whether a parameter is more than a number of the start."""
+        return name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) is not None
+
+    @cached_property
+    def _mechanics(self) -> str:
+        spec = self.truth.spec
+        used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
+        for parameter in reversed(spec["parameters"]):
+            if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
+                used += " " + parameter["value"]
+        return used
+
+    def _is_fixed(self, letter: Letter) -> bool:
+        """Whether it is made of parameters alone."""
+        words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
+        return bool(words) and words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+
+    @cached_property
+    def _coordinates(self) -> list[Letter]:
+        """Letters that measure the configuration, those of the statement first; the model's own where some are missing."""
+        movable = self._once([n for n in self.used if self._moves(n)])
+        said = {self._one(n).texts for n in movable}
+        own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        missing = max(len(self.truth.coordinates) - len(movable), 0)
+        return [*movable, *[n for n in own if n not in movable][:missing]]
+
+    def _moves(self, letter: Letter) -> bool:
+        """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""
+        one = self._one(letter)
+        if any(_BEYOND.search(text) for text in one.texts):
+            return False
+        if one.is_vector or one.kind not in ("coordinate", "declared", "gauge") or self._is_fixed(letter):
+            return False
+        try:
+            return all(one.needed(dots) for dots in (1, 2))
+        except Complaint:
+            return False
+
+
+def _powers(dimension: Dimension | None) -> Powers | None:
+    if dimension is None:
+        return None
+    parts = (dimension.length, dimension.mass, dimension.time)
+    return (int(parts[0]), int(parts[1]), int(parts[2])) if all(p == int(p) for p in parts) else None

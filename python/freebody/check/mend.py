@@ -1,0 +1,251 @@
+"""The smallest edits that make a wrong equation true."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain, combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .conventions import conventions
+from .edits import Edit, depth, edits, with_unit_vectors
+from .fits import Fits
+from .language.errors import StatementError
+from .language.evaluate import Array
+from .language.nodes import Equation, Letter, Number, letters
+from .language.nodes import replace as replaced
+from .language.spelling import spell
+from .residual import HOLDS, Residual, residual
+from .rows import rows
+
+if TYPE_CHECKING:
+    from .case import Case
+    from .truth import Family
+
+EQUAL = 0.35
+"""Edits whose sizes differ by less are equally small."""
+_FEW = 5  # states on which an edit is tried first
+_PROMISING = 1e-7  # worst residual there of one that is tried on all
+_BEST = 40  # single edits of which pairs are tried
+_SHOWN = 6
+_FRESH = 1
+_LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
+
+
+@dataclass(frozen=True)
+class Mend:
+    """One way to make a statement true: ``edits`` by kind with what stood there and what should; ``equation`` is the result.
+    ``where`` are the characters of each edit in the statement, ``given`` under what it is true, if not always."""
+
+    edits: tuple[tuple[str, str, str], ...]
+    equation: str
+    size: float
+    where: tuple[tuple[int, int], ...] = ()
+    given: str = ""
+
+    @property
+    def is_slip(self) -> bool:
+        """Whether something stands there that is wrong, rather than something left out."""
+        return not any(kind in _LEFT_OUT for kind, _, _ in self.edits)
+
+    def __str__(self) -> str:
+        told = " and ".join(_told(*edit) for edit in self.edits)
+        return f"{told}: {self.equation}" + (f" (with {self.given})" if self.given else "")
+
+
+def _told(kind: str, before: str, after: str) -> str:
+    if kind == "convention":
+        return after
+    if not before:
+        return f"{kind} `{after}`"
+    return f"{kind} `{before}`" if not after else f"{kind}: `{before}` should be `{after}`"
+
+
+@dataclass(frozen=True)
+class _Found:
+    edits: tuple[Edit, ...]
+
+    @property
+    def after(self) -> Equation:
+        return self.edits[-1].after
+
+    @property
+    def size(self) -> float:
+        return sum(edit.size for edit in self.edits)
+
+
+Step = Callable[["_Search"], Iterator[_Found]]
+"""A way to look for mends."""
+
+
+def mends(case: Case, equation: Equation) -> Iterator[Mend]:
+    """The smallest mends of an equation, equally small ones together; nothing where no one or two edits mend it."""
+    families = [(case.hypothesis, "")]
+    given, zeros = case.hypothesis, [name for name, value in case.truth.free_parameters.items() if value == 0]
+    if zeros and given.zeros:
+        families += [(replace(given, held=(*given.held, (name, 0.0))), f"{name} = 0") for name in zeros]
+        if len(zeros) > 1:
+            families.append((replace(given, zeros=False), ", ".join(f"{name} = 0" for name in zeros)))
+    parts = rows(equation)
+    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, (_Search.singles,)))):
+        yield from whole
+        return
+    for row in parts:
+        yield from _of_row(case, row, families, (_Search.singles, _Search.pairs))
+
+
+def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Mend]:
+    """The smallest mends of an equation, in the widest family in which they are smallest."""
+    searches = [(_Search(case, row, family), given) for family, given in families]
+    if any(search.right for search, _ in searches):
+        return
+    for step in steps:
+        every = [(search.best(step(search)), given) for search, given in searches]
+        some = [(found, given) for found, given in every if found]
+        if some:
+            found, given = min(some, key=lambda pair: pair[0][0].size)
+            yield from (_mend(each, given) for each in found)
+            return
+
+
+def _mend(found: _Found, given: str) -> Mend:
+    told = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in found.edits)
+    where = tuple(e.old.span for e in found.edits if e.old is not None and e.old.span != (0, 0))
+    return Mend(told, spell(found.after), found.size, where, given)
+
+
+class _Search:
+    """The edits of one equation beside one family of motions."""
+
+    def __init__(self, case: Case, equation: Equation, family: Family) -> None:
+        self.equation, self.vocabulary = equation, case.meaning.vocabulary
+        self.values, self.fresh = case.values(family), case.values(family, _FRESH)
+        self.few = {key: value[:_FEW] for key, value in self.values.items()}
+        self.other = _elsewhere(self.few)
+        self.fits = Fits(self.values, self.vocabulary)
+        self.right = self._worst(equation, self.values) < HOLDS
+
+    def singles(self) -> Iterator[_Found]:
+        """Every single edit that may mend it."""
+        return ((_Found((edit,))) for edit in self._promising(self._all(self.equation)))
+
+    def pairs(self) -> Iterator[_Found]:
+        """Pairs of the edits that bring it nearest, and of one of them and what is then found to be lacking."""
+        scored = [(self._score(edit.after), edit) for edit in edits(self.equation, self.vocabulary)]
+        near = [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:_BEST]]
+        for first, second in combinations(near, 2):
+            if (both := _both(first, second)) is not None and self._passes(both.after):
+                yield _Found((first, both))
+        for first in near:
+            second = (edit for edit in self._fitted(first.after) if edit.kind != "other term")
+            yield from (_Found((first, edit)) for edit in self._promising(second))
+
+    def _all(self, equation: Equation) -> Iterator[Edit]:
+        units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))
+        broken = not self._readable(equation)
+        return chain(
+            with_unit_vectors(equation, units) if broken else (),
+            edits(equation, self.vocabulary),
+            conventions(equation, self.vocabulary),
+            () if broken else self._fitted(equation),
+        )
+
+    def _fitted(self, equation: Equation) -> Iterator[Edit]:
+        try:
+            yield from self.fits.edits(equation)
+        except StatementError:
+            return
+
+    def best(self, found: Iterable[_Found]) -> list[_Found]:
+        """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
+        ranked = sorted(found, key=lambda each: (each.size, depth(each.after)))
+        kept: dict[tuple[float, ...], _Found] = {}
+        for each in ranked:
+            if kept and each.size > next(iter(kept.values())).size + EQUAL:
+                break
+            mark = self._mark(each.after)
+            if mark is not None and mark not in kept and self._confirmed(each.after):
+                kept[mark] = each
+        return list(kept.values())[:_SHOWN]
+
+    def _confirmed(self, equation: Equation) -> bool:
+        return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
+
+    def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
+        return (edit for edit in found if self._passes(edit.after))
+
+    def _passes(self, equation: Equation) -> bool:
+        return self._worst(equation, self.few) < _PROMISING
+
+    def _worst(self, equation: Equation, values: Mapping[str, Array]) -> float:
+        found = self._residual(equation, values)
+        return float("inf") if found is None or np.isnan(found.worst) else found.worst
+
+    def _score(self, equation: Equation) -> float:
+        found = self._residual(equation, self.few)
+        size = float("inf") if found is None else float(np.sqrt(np.mean(found.ratio**2)))
+        return size if size > 0 else float("inf")
+
+    def _residual(self, equation: Equation, values: Mapping[str, Array]) -> Residual | None:
+        try:
+            return residual(equation, values)
+        except (StatementError, ValueError):
+            return None
+
+    def _readable(self, equation: Equation) -> bool:
+        return self._residual(equation, self.few) is not None
+
+    def _mark(self, equation: Equation) -> tuple[float, ...] | None:
+        """What an equation says, however it is arranged; None where it says nothing (a = a)."""
+        found = self._residual(equation, self.other)
+        if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
+            return None
+        solved = self._solved(equation, found.sides.residual)
+        if solved is None:
+            ratio = found.ratio.ravel()
+            solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
+        return tuple(np.round(solved, 7).tolist())
+
+    def _solved(self, equation: Equation, base: Array) -> Array | None:
+        """The equation solved for a letter in which it and the one given are linear."""
+        known = {n.key for n in letters(equation)}
+        for key in (key for key in self._pivots if key in known):
+            if (solved := self._solved_for(key, equation, base)) is not None:
+                return solved
+        return None
+
+    @cached_property
+    def _pivots(self) -> list[str]:
+        """Letters in which the equation given is linear, accelerations first."""
+        found = self._residual(self.equation, self.other)
+        known = [n for n in letters(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
+        ranked = sorted(known, key=lambda n: -n.dots)
+        return [n.key for n in ranked if found and self._solved_for(n.key, self.equation, found.sides.residual) is not None]
+
+    def _solved_for(self, key: str, equation: Equation, base: Array) -> Array | None:
+        once, twice = (self._residual(equation, self.other | {key: self.other[key] + step}) for step in (1.0, 2.0))
+        if base.shape[1] != 1 or once is None or twice is None:
+            return None
+        slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
+        return self.other[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
+
+
+def _elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
+    """Values that are no true state, where only what is the same by itself is the same; two names of one quantity stay equal."""
+    rng = np.random.default_rng(5)
+    factors: dict[bytes, Array] = {}
+    for value in values.values():
+        factors.setdefault(value.tobytes(), rng.uniform(0.7, 1.4, value.shape))
+    return {key: value * factors[value.tobytes()] for key, value in values.items()}
+
+
+def _both(first: Edit, second: Edit) -> Edit | None:
+    """The second edit after the first, where both can be made."""
+    if second.old is None or (second.new is None and second.kind != "extra term"):
+        return None
+    new = second.new if second.new is not None else Number(0.0, "0")
+    after = replaced(first.after, second.old, new)
+    return None if after is first.after else replace(second, after=after)

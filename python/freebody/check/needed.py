@@ -1,0 +1,102 @@
+"""What a part of a wrong equation would have to be: the equation solved for that part, on every state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .language.evaluate import Array, evaluate, is_zero
+from .language.nodes import Call, Dot, Equation, Negative, Node, Number, Power, Product, Quotient, Sum
+
+_PARALLEL = 1e-9  # sine of the angle below which two vectors have one direction
+
+
+@dataclass(frozen=True)
+class Need:
+    """A part with its value and the value that would make the equation true; ``addend``: it is added to something."""
+
+    node: Node
+    value: Array
+    needed: Array
+    addend: bool = False
+
+    @property
+    def missing(self) -> Array:
+        """What has to be added to it."""
+        return self.needed - self.value
+
+    @property
+    def factor(self) -> Array | None:
+        """By what it has to be multiplied, (K,); None where a vector would have to turn."""
+        if self.value.ndim == 1:
+            return self.needed / self.value
+        along = np.sum(self.value * self.needed, axis=1) / np.sum(self.value**2, axis=1)
+        off = np.linalg.norm(self.needed - along[:, None] * self.value, axis=1)
+        size = np.linalg.norm(self.needed, axis=1) + np.linalg.norm(self.value, axis=1)
+        return along if np.all(off <= _PARALLEL * size) else None
+
+
+def needs(equation: Equation, values: Mapping[str, Array]) -> Iterator[Need]:
+    """Every part of numbers or vectors for which the equation can be solved, sides first."""
+    with np.errstate(all="ignore"):
+        zero = is_zero(equation.left), is_zero(equation.right)
+        left = None if zero[0] else evaluate(equation.left, values)
+        right = None if zero[1] else evaluate(equation.right, values)
+        if left is not None and left.ndim < 3:
+            yield from _inside(Need(equation.left, left, np.zeros_like(left) if right is None else right, True), values)
+        if right is not None and right.ndim < 3:
+            yield from _inside(Need(equation.right, right, np.zeros_like(right) if left is None else left, True), values)
+
+
+def _inside(need: Need, values: Mapping[str, Array]) -> Iterator[Need]:
+    yield need
+    match need.node:
+        case Sum(terms=terms):
+            parts = [(term, evaluate(term, values)) for term in terms if not is_zero(term)]
+            for term, value in parts:
+                yield from _inside(Need(term, value, value + need.missing, True), values)
+        case Negative(of=of):
+            yield from _inside(Need(of, -need.value, -need.needed, need.addend), values)
+        case Product(factors=factors):
+            yield from _factors(need, factors, values)
+        case Dot(left=left, right=right):
+            yield from _factors(need, (left, right), values)
+        case Quotient(top=top, bottom=bottom):
+            yield from _quotient(need, top, bottom, values)
+        case Power(base=base, exponent=Number(value=n)) if n and not isinstance(base, Call):
+            value = evaluate(base, values)
+            root = np.abs(need.needed) ** (1 / n) * np.sign(value)
+            if value.ndim == 1 and np.all(need.needed >= 0):
+                yield from _inside(Need(base, value, root), values)
+
+
+def _factors(need: Need, factors: tuple[Node, ...], values: Mapping[str, Array]) -> Iterator[Need]:
+    found = [evaluate(factor, values) for factor in factors]
+    if any(value.ndim > 2 for value in found) or sum(value.ndim == 2 for value in found) > 1:
+        return
+    for i, (factor, value) in enumerate(zip(factors, found, strict=True)):
+        others = [v for j, v in enumerate(found) if j != i]
+        scalars = np.prod([v for v in others if v.ndim == 1], axis=0) if any(v.ndim == 1 for v in others) else np.ones(len(value))
+        vector = next((v for v in others if v.ndim == 2), None)
+        if value.ndim == 2:
+            wanted: Array | None = need.needed / scalars[:, None]
+        elif vector is None:
+            wanted = need.needed / scalars
+        else:
+            along = Need(factor, vector, need.needed).factor
+            wanted = None if along is None else along / scalars
+        if wanted is not None:
+            yield from _inside(Need(factor, value, wanted), values)
+
+
+def _quotient(need: Need, top: Node, bottom: Node, values: Mapping[str, Array]) -> Iterator[Need]:
+    above, below = evaluate(top, values), evaluate(bottom, values)
+    if below.ndim != 1:
+        return
+    spread = below.reshape(below.shape + (1,) * (above.ndim - 1))
+    yield from _inside(Need(top, above, need.needed * spread), values)
+    factor = need.factor
+    if factor is not None:
+        yield from _inside(Need(bottom, below, below / factor), values)

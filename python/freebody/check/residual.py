@@ -1,0 +1,122 @@
+"""How far an equation is from holding on true motions, relative to its own terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+
+from .language.evaluate import Array, Sides, equation_sides, evaluate
+from .language.nodes import Call, Column, Cross, Dot, Equation, Letter, Matrix, Negative, Node, Power, Product, Quotient, Sum
+from .language.nodes import terms as terms_of
+
+HOLDS = 1e-10
+"""Below it, relative to the terms, an equation holds but for round-off."""
+FAILS = 1e-6
+"""Above it an equation is wrong; between the two a bad condition is to be suspected."""
+REACH = 1e-3
+"""A term below it, relative to all, cannot be told right or wrong."""
+OFTEN = 8
+"""Samples in which a term must reach that far."""
+_FLOOR = 1e-6  # of a component of a vector against its largest: below it is round-off of directions
+_MANY = 400  # terms, beyond which brackets stay
+
+
+@dataclass(frozen=True)
+class Residual:
+    """An equation on K samples: ``ratio`` (K, n) is (left − right) over the sum of the sizes of all terms, a column a component."""
+
+    sides: Sides
+    ratio: Array
+
+    @property
+    def worst(self) -> float:
+        """Largest size of all; NaN where the equation has no value."""
+        return float(np.max(np.abs(self.ratio), initial=0.0)) if np.isfinite(self.ratio).all() else float("nan")
+
+    @property
+    def place(self) -> tuple[int, int]:
+        """Sample and component of the worst."""
+        k, i = np.unravel_index(np.argmax(np.abs(self.ratio)), self.ratio.shape)
+        return int(k), int(i)
+
+
+def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
+    """The relative residual. Raises ``StatementError``."""
+    with np.errstate(all="ignore"):
+        found = equation_sides(equation, values)
+        left, right = magnitude(equation.left, values), magnitude(equation.right, values)
+        shape = (len(found.left), -1)
+        size = np.zeros_like(found.residual) + (left.reshape(shape) + right.reshape(shape))
+        if found.left.ndim == 2:
+            size = np.maximum(size, _FLOOR * size.max(axis=1, keepdims=True))
+        ratio = np.divide(found.residual, size, out=np.zeros_like(size), where=size != 0)
+    return Residual(found, ratio)
+
+
+def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
+    """The sum of the sizes of all terms of an expression, brackets multiplied out."""
+    inside = lambda n: magnitude(n, values)
+    match node:
+        case Negative(of=of):
+            return inside(of)
+        case Sum(terms=terms):
+            return reduce(np.add, [inside(term) for term in terms])
+        case Product(factors=factors):
+            return reduce(_times, [inside(factor) for factor in factors])
+        case Quotient(top=top, bottom=bottom):
+            return _over(inside(top), np.abs(evaluate(bottom, values)))
+        case Cross(left=left, right=right):
+            return _crossed(inside(left), inside(right))
+        case Dot(left=left, right=right):
+            a, b = inside(left), inside(right)
+            return np.einsum("ki,ki->k", a, b) if a.ndim == b.ndim == 2 else _times(a, b)
+        case Column(items=items):
+            return np.stack([_scalar(inside(item)) for item in items], axis=-1)[:, :, None]
+        case Matrix(rows=rows):
+            return np.stack([np.stack([_scalar(inside(x)) for x in row], axis=-1) for row in rows], axis=1)
+        case Power() | Call() | Letter() | Node():
+            return np.abs(evaluate(node, values))
+    raise TypeError(type(node).__name__)
+
+
+def _times(a: Array, b: Array) -> Array:
+    if a.ndim == b.ndim == 3:
+        return a @ b
+    small, large = sorted((a, b), key=np.ndim)
+    return small.reshape(small.shape + (1,) * (large.ndim - small.ndim)) * large
+
+
+def _over(top: Array, bottom: Array) -> Array:
+    if top.ndim == bottom.ndim == 2:
+        return top[:, 2] / bottom[:, 2]
+    return top / bottom.reshape(bottom.shape + (1,) * (top.ndim - bottom.ndim))
+
+
+def _crossed(a: Array, b: Array) -> Array:
+    if a.ndim == 1:
+        return a * b
+    turned = [(1, 2), (2, 0), (0, 1)]
+    return np.stack([a[:, i] * b[:, j] + a[:, j] * b[:, i] for i, j in turned], axis=-1)
+
+
+def _scalar(value: Array) -> Array:
+    return value[:, 2] if value.ndim == 2 else value
+
+
+def unreached(equation: Equation, values: Mapping[str, Array]) -> list[Node]:
+    """The terms that stay so small beside the others that this says nothing about them."""
+    found = terms_of(equation, expand=True)
+    if len(found) > _MANY:
+        found = terms_of(equation)
+    size = _length(magnitude(equation.left, values)) + _length(magnitude(equation.right, values))
+    with np.errstate(all="ignore"):
+        reach = [np.nan_to_num(_length(np.abs(evaluate(term.node, values))) / size) for term in found]
+    needed = min(OFTEN, len(size) // 2 or 1)
+    return [term.node for term, share in zip(found, reach, strict=True) if np.sum(share >= REACH) < needed]
+
+
+def _length(value: Array) -> Array:
+    return np.linalg.norm(value.reshape(len(value), -1), axis=1) if value.ndim > 1 else np.abs(value)

@@ -1,0 +1,75 @@
+"""An equation of columns as one equation of numbers for each row."""
+
+from __future__ import annotations
+
+from .language.evaluate import is_zero
+from .language.nodes import Column, Dot, Equation, Matrix, Negative, Node, Number, Product, Quotient, Sum
+
+
+def rows(equation: Equation) -> list[Equation]:
+    """One equation a row, made of the same parts; the equation itself where its sides are no columns."""
+    left, right = _entries(equation.left), _entries(equation.right)
+    count = len(left or right or ())
+    if not count:
+        return [equation]
+    left = left or [equation.left] * count if is_zero(equation.left) or left else None
+    right = right or [equation.right] * count if is_zero(equation.right) or right else None
+    if left is None or right is None or len(left) != len(right):
+        return [equation]
+    return [Equation(a, b, span=equation.span) for a, b in zip(left, right, strict=True)]
+
+
+def _entries(node: Node) -> list[Node] | None:
+    """The entries of a column, or None."""
+    match node:
+        case Column(items=items):
+            return list(items)
+        case Matrix(rows=lines) if all(len(line) == 1 for line in lines):
+            return [line[0] for line in lines]
+        case Negative(of=of):
+            inside = _entries(of)
+            return None if inside is None else [Negative(item) for item in inside]
+        case Sum(terms=terms):
+            return _sums([_entries(term) for term in terms if not is_zero(term)])
+        case Quotient(top=top, bottom=bottom):
+            inside = _entries(top)
+            return None if inside is None else [Quotient(item, bottom) for item in inside]
+        case Product(factors=factors):
+            return _products(factors)
+        case Dot(left=left, right=right):
+            return _products((left, right))
+    return None
+
+
+def _sums(columns: list[list[Node] | None]) -> list[Node] | None:
+    if any(column is None for column in columns) or len({len(c) for c in columns if c}) != 1:
+        return None
+    return [Sum(parts) for parts in zip(*(c for c in columns if c), strict=True)]
+
+
+def _products(factors: tuple[Node, ...]) -> list[Node] | None:
+    """A product whose last column or matrix is multiplied from the left."""
+    out: list[Node] | None = None
+    for factor in reversed(factors):
+        if isinstance(factor, Matrix) and out is not None:
+            if any(len(line) != len(out) for line in factor.rows):
+                return None
+            out = [_row(line, out) for line in factor.rows]
+        elif (column := _entries(factor)) is not None:
+            if out is not None:
+                return None
+            out = column
+        elif out is not None:
+            out = [_times(factor, item) for item in out]
+        else:
+            return None
+    return out
+
+
+def _row(line: tuple[Node, ...], column: list[Node]) -> Node:
+    terms = [_times(a, b) for a, b in zip(line, column, strict=True) if not is_zero(a) and not is_zero(b)]
+    return Sum(tuple(terms)) if len(terms) > 1 else terms[0] if terms else Number(0.0, "0")
+
+
+def _times(a: Node, b: Node) -> Node:
+    return b if a == Number(1.0) else Product((a, b))

@@ -1,0 +1,224 @@
+"""The verdict about a statement, with its evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .assumptions import assumption
+from .case import Case
+from .language.errors import StatementError
+from .language.nodes import Equation, letters
+from .mend import Mend, mends
+from .residual import FAILS, HOLDS, Residual, residual, unreached
+from .truth import Family, NoMotion
+
+if TYPE_CHECKING:
+    from .language.evaluate import Array
+
+_BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
+_FEW = 0.1  # share of such states
+
+
+class Kind(str, Enum):
+    """What can be said of a statement."""
+
+    TRUE = "true"
+    TRUE_IF = "true only under an assumption"
+    WRONG = "wrong"
+    UNDECIDABLE = "not decidable from this model"
+    DIMENSIONS = "dimensions do not fit"
+
+
+_ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS]
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """A true state: the letters of the statement there (SI), the two sides, and how far apart they are beside all terms."""
+
+    letters: dict[str, Any]
+    left: Any
+    right: Any
+    ratio: float
+    states: int
+
+    def __str__(self) -> str:
+        at = ", ".join(f"{name} = {_plain(value)}" for name, value in self.letters.items())
+        return f"at {at}: left {_plain(self.left)}, right {_plain(self.right)}"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is so about one statement. ``reason`` is a sentence; ``assumption`` names under what it holds; ``mends`` are the
+    smallest edits that make it true, equally small ones side by side; ``untested`` are terms about which nothing was learnt."""
+
+    kind: Kind
+    text: str
+    reason: str = ""
+    assumption: str = ""
+    mends: tuple[Mend, ...] = ()
+    evidence: Evidence | None = None
+    untested: tuple[str, ...] = ()
+    parts: tuple[Verdict, ...] = field(default=(), repr=False)
+
+    @property
+    def ok(self) -> bool:
+        """Whether it is true of every motion of the model."""
+        return self.kind is Kind.TRUE
+
+
+def judged(case: Case) -> Verdict:
+    """The verdict about all equations of a statement together. Raises ``StatementError`` where it has no meaning."""
+    parts = [judged_one(case, equation) for equation in case.equations]
+    text = case.program.text
+    if len(parts) == 1:
+        return parts[0]
+    worst = max(parts, key=lambda part: _ORDER.index(part.kind))
+    which = [f"equation {i}: {p.kind.value}" for i, p in enumerate(parts, 1) if not p.ok]
+    reason = "; ".join(which) or _sufficiency(case)
+    together = tuple(mend for part in parts for mend in part.mends)
+    assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
+    untested = tuple(term for part in parts for term in part.untested)
+    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, tuple(parts))
+
+
+def judged_one(case: Case, equation: Equation) -> Verdict:
+    """The verdict about one equation."""
+    text = _text(case, equation)
+    try:
+        found = case.residual(equation)
+    except NoMotion as error:
+        return Verdict(Kind.UNDECIDABLE, text, str(error))
+    except StatementError as error:
+        if any(n.key not in case.values() for n in letters(equation)):
+            raise error.within(case.program.text) from None
+        return Verdict(Kind.DIMENSIONS, text, error.what, mends=tuple(mends(case, equation)))
+    if np.isnan(found.worst):
+        return Verdict(Kind.UNDECIDABLE, text, _valueless(case, equation))
+    if equation.relation != "=":
+        return _compared(case, equation, found, text)
+    worst = found.worst
+    if HOLDS <= worst <= FAILS:
+        worst = _looked_at_again(case, equation)
+    if worst < HOLDS:
+        return _true(case, equation, text, found)
+    if worst <= FAILS:
+        what = f"the two sides differ by {worst:.1e} of their terms: more than round-off, less than a mistake"
+        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, equation, found))
+    return _not_true(case, equation, text, found)
+
+
+def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
+    values = case.values()
+    blind = [_spelled(case, term) for term in unreached(equation, values)]
+    if blind and len(blind) == _count(equation):
+        return Verdict(Kind.TRUE, text, "every term is 0 in every motion of this model", untested=tuple(blind))
+    states = len(found.ratio)
+    reason = f"holds on {states} random motions with random parameters, to {max(found.worst, 1e-16):.0e} of its terms"
+    return Verdict(Kind.TRUE, text, reason, evidence=evidence(case, equation, found), untested=tuple(blind))
+
+
+def _count(equation: Equation) -> int:
+    from .language.nodes import terms
+
+    return len(terms(equation, expand=True))
+
+
+def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
+    """A slip where one mends it; else an assumption that excuses what was left out; else wrong."""
+    seen = evidence(case, equation, found)
+    fixes = tuple(mends(case, equation))
+    if not any(mend.is_slip for mend in fixes) and (assumed := assumption(case, equation)):
+        words, _ = assumed
+        return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", words, fixes, seen)
+    where = "" if fixes else "wrong, and no single or double edit mends it"
+    return Verdict(Kind.WRONG, text, where, mends=fixes, evidence=seen)
+
+
+def _looked_at_again(case: Case, equation: Equation) -> float:
+    """The worst on fresh states, badly conditioned ones aside if they are few."""
+    again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
+    if np.mean(again >= HOLDS) <= _FEW and again.max() < _BLURRED:
+        return float(np.median(again))
+    return float(again.max())
+
+
+def _compared(case: Case, equation: Equation, found: Residual, text: str) -> Verdict:
+    """A statement that one side is not above the other, tried on every state."""
+    gap = found.ratio if equation.relation.startswith("<") else -found.ratio
+    if gap.max() <= HOLDS:
+        return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, equation, found))
+    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, equation, Residual(found.sides, gap)))
+
+
+def _valueless(case: Case, equation: Equation) -> str:
+    values = case.values()
+    lost = [n.key for n in letters(equation) if n.key in values and not np.isfinite(values[n.key]).all()]
+    if lost:
+        return f"{', '.join(lost)} is not determined by the balances of this model (its parts can be pre-stressed)"
+    return "it has no value at some motions: a division by 0, a root or a logarithm of something negative"
+
+
+def _sufficiency(case: Case) -> str:
+    """What a set of true equations is worth: whether they say different things."""
+    rank, count, unknown = independent(case)
+    if rank < count and unknown:
+        return f"all true; {count} equations, but only {rank} of them independent in the accelerations and forces in them"
+    return f"all {count} true" + (f", and independent in {', '.join(unknown)}" if unknown else "")
+
+
+def independent(case: Case) -> tuple[int, int, list[str]]:
+    """Rank of the equations in their unknowns (second derivatives), how many there are, and the unknowns."""
+    values = dict(case.values())
+    unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.dots == 2 and n.key in values))
+    base = _stacked(case, values)
+    if not unknown:
+        return 0, base.shape[1], []
+    columns = []
+    for key in unknown:
+        step = np.max(np.abs(values[key])) or 1.0
+        columns.append((_stacked(case, values | {key: values[key] + step}) - base) / step)
+    slopes = np.stack(columns, axis=-1)
+    scaled = slopes / (np.abs(slopes).max(axis=2, keepdims=True) + 1e-300)
+    ranks = np.linalg.matrix_rank(scaled, tol=1e-8)
+    rows = int(np.sum(np.abs(base).max(axis=0) + np.abs(slopes).max(axis=(0, 2)) > 0))
+    return int(np.median(ranks)), rows, unknown
+
+
+def _stacked(case: Case, values: Any) -> Array:
+    return np.concatenate([residual(e, values).sides.residual for e in case.equations], axis=1)
+
+
+def evidence(case: Case, equation: Equation, found: Residual, family: Family | None = None) -> Evidence:
+    """The state at which the two sides are farthest apart."""
+    k, _ = found.place
+    values = case.values(family)
+    shown = {n.key: values[n.key][k].tolist() for n in letters(equation) if n.key in values}
+    sides = found.sides
+    return Evidence(
+        shown, sides.left[k].tolist(), sides.right[k].tolist(), float(np.max(np.abs(found.ratio[k]))), len(found.ratio)
+    )
+
+
+def _text(case: Case, equation: Equation) -> str:
+    start, end = equation.span
+    return case.program.text[start:end].strip() or case.program.text
+
+
+def _spelled(case: Case, node: Any) -> str:
+    from .language.spelling import spell
+
+    return spell(node)
+
+
+def _plain(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Sequence):
+        return "(" + ", ".join(_plain(v) for v in value) + ")"
+    return f"{value:.6g}"

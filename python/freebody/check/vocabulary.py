@@ -1,0 +1,135 @@
+"""The letters that a true equation may be written in, and the terms that can be made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import combinations, combinations_with_replacement, islice
+
+import numpy as np
+
+from .language.evaluate import Array, evaluate
+from .language.nodes import Call, Letter, Negative, Node, Number, Power, Product, Sum
+
+Powers = tuple[int, int, int]
+"""Powers of length, mass and time."""
+
+_DEGREE = 4  # of the product of parameters in a term: m l² has three, m l r g four
+_MOST = 400  # products, each with all its sines and cosines
+_BLIND_DEGREE = 3  # where dimensions do not thin them out
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """Letters by what they are, each with its dimension: ``parameters`` of the model, ``coordinates`` (without dots; their
+    rates and accelerations are the same with dots), ``others`` (forces, reactions); ``angles`` are those of no dimension."""
+
+    parameters: Mapping[Letter, Powers | None]
+    coordinates: Mapping[Letter, Powers | None]
+    others: Mapping[Letter, Powers | None] = field(default_factory=dict)
+    vectors: tuple[Letter, ...] = ()
+    angular: frozenset[Letter] = frozenset()
+
+    @cached_property
+    def angles(self) -> list[Letter]:
+        """Letters that are angles, coordinates first."""
+        return [n for n in (*self.coordinates, *self.parameters) if n in self.angular]
+
+    def powers(self, letter: Letter) -> Powers | None:
+        """The dimension of a letter with its dots; None where it is not known."""
+        plain = Letter(letter.name)
+        known = {**self.parameters, **self.coordinates, **self.others}
+        found = known.get(plain)
+        return None if found is None else (found[0], found[1], found[2] - letter.dots)
+
+    def alike(self, letter: Letter) -> list[Letter]:
+        """Other letters of the same kind that one may write by mistake."""
+        plain = Letter(letter.name)
+        if letter in self.vectors:
+            return [n for n in self.vectors if n != letter]
+        for group in (self.coordinates, self.parameters, self.others):
+            if plain in group:
+                kin = [n for n in group if n != plain and (group[n] == group[plain])]
+                return [Letter(n.name, letter.dots) for n in kin]
+        return []
+
+    # -- terms
+
+    def terms(self, wanted: Powers | None, moving: Sequence[Letter] = ()) -> Iterator[Node]:
+        """Terms of a dimension (of any where it is None) as equations of motion have them."""
+        for monomial in islice(self._monomials(wanted, list(self._dynamic(moving))), _MOST):
+            for shape in self._shapes:
+                factors = (*monomial, *shape)
+                yield Product(factors) if len(factors) > 1 else factors[0] if factors else Number(1.0, "1")
+
+    def _dynamic(self, moving: Sequence[Letter]) -> Iterator[tuple[tuple[Node, ...], Powers | None]]:
+        """What changes with the motion: accelerations, products of two rates, forces."""
+        yield (), (0, 0, 0)
+        for q in self.coordinates:
+            yield (Letter(q.name, 2),), self.powers(Letter(q.name, 2))
+        for a, b in combinations_with_replacement([Letter(q.name, 1) for q in self.coordinates], 2):
+            yield (_square(a) if a == b else Product((a, b)),), _joined([self.powers(a), self.powers(b)])
+        for letter in dict.fromkeys((*self.others, *moving)):
+            yield (letter,), self.powers(letter)
+        for q in self.coordinates:
+            yield (Letter(q.name, 1),), self.powers(Letter(q.name, 1))
+
+    def _monomials(
+        self, wanted: Powers | None, dynamic: list[tuple[tuple[Node, ...], Powers | None]]
+    ) -> Iterator[tuple[Node, ...]]:
+        sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
+        known = {n: self.powers(n) for n in sizes}
+        blind = wanted is None
+        sizes = sizes if blind else [n for n in sizes if known[n] is not None]
+        for degree in range((_BLIND_DEGREE if blind else _DEGREE) + 1):
+            for chosen in combinations_with_replacement(sizes, degree):
+                if max([chosen.count(n) for n in chosen], default=0) > 2:
+                    continue
+                size = _joined([known[n] for n in chosen])
+                for factors, powers in dynamic:
+                    if blind or powers is None or _joined([size, powers]) == wanted:
+                        yield (*_gathered(chosen), *factors)
+
+    @cached_property
+    def _shapes(self) -> list[tuple[Node, ...]]:
+        """1, and sines and cosines of angles, their sums and differences, and products of two."""
+        arguments: list[Node] = list(self.angles)
+        for a, b in combinations(self.angles, 2):
+            arguments += [Sum((a, Negative(b))), Sum((a, b))]
+        single = [Call(name, (argument,)) for argument in arguments for name in ("sin", "cos")]
+        plain = [Call(name, (argument,)) for argument in self.angles for name in ("sin", "cos")]
+        double = [(_square(a),) if a == b else (a, b) for a, b in combinations_with_replacement(plain, 2)]
+        return [(), *((s,) for s in single), *double]
+
+
+def _square(node: Node) -> Node:
+    return Power(node, Number(2.0, "2"))
+
+
+def _gathered(chosen: Sequence[Letter]) -> tuple[Node, ...]:
+    return tuple(n if chosen.count(n) == 1 else _square(n) for n in dict.fromkeys(chosen))
+
+
+def _joined(powers: Sequence[Powers | None]) -> Powers | None:
+    known = [p for p in powers if p is not None]
+    if len(known) < len(powers):
+        return None
+    return (sum(p[0] for p in known), sum(p[1] for p in known), sum(p[2] for p in known))
+
+
+def dimension(node: Node, values: Mapping[str, Array], vocabulary: Vocabulary, letters: Sequence[Letter]) -> Powers | None:
+    """The dimension of a term, found by measuring it in other units; None where a letter's is not known or it has none."""
+    powers = {n.key: vocabulary.powers(n) for n in letters if n not in vocabulary.vectors}
+    if any(p is None for p in powers.values()) or len(powers) < len(letters):
+        return None
+    plain = np.abs(evaluate(node, values)).sum()
+    found = []
+    for axis in range(3):
+        scaled = {key: 2.0 ** powers[key][axis] * value if key in powers else value for key, value in values.items()}  # type: ignore[index]
+        with np.errstate(all="ignore"):
+            ratio = np.log2(np.abs(evaluate(node, scaled)).sum() / plain)
+        if not np.isfinite(ratio) or abs(ratio - round(ratio)) > 1e-6:
+            return None
+        found.append(round(ratio))
+    return (found[0], found[1], found[2])

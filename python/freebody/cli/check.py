@@ -1,0 +1,96 @@
+"""The command ``check``: is my equation right?"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from freebody.cli.mistakes import Mistake
+
+if TYPE_CHECKING:
+    from freebody.check import Verdict
+
+NOT_TRUE = 3
+
+
+def check(
+    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, or a file of statements about one.")],
+    statements: Annotated[
+        list[str] | None, typer.Argument(metavar="EQUATION", help="Equations or claims; see docs/check.md.")
+    ] = None,
+    where: Annotated[
+        list[str] | None,
+        typer.Option("--where", metavar="LETTER=MEANING", help="An own letter, like 'phi=theta-alpha'; repeatable."),
+    ] = None,
+    changes: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
+) -> None:
+    """Say whether equations and claims are true of every motion of a model, and mend the wrong ones."""
+    from freebody.model.errors import Complaint
+
+    try:
+        told, fine = _statements(model, statements, where, changes, as_json) if statements else _file(model, as_json)
+    except Complaint as complaint:
+        raise Mistake(complaint.what, complaint.hint) from None
+    if as_json:
+        typer.echo(json.dumps(told, ensure_ascii=False, indent=1))
+    if not fine:
+        raise typer.Exit(NOT_TRUE)
+
+
+def _statements(
+    path: Path, texts: Iterable[str], where: list[str] | None, changes: list[str] | None, quiet: bool
+) -> tuple[list[Any], bool]:
+    from freebody.check import Checker
+    from freebody.check.file import as_json
+    from freebody.check.letters import declarations
+    from freebody.cli import opened
+
+    checker = Checker(opened(path, changes), declarations(where or []))
+    verdicts = []
+    for text in texts:
+        verdicts.append(checker.check(text))
+        if not quiet:
+            show(text, verdicts[-1])
+    return [as_json(v) for v in verdicts], all(v.ok for v in verdicts)
+
+
+def _file(path: Path, quiet: bool) -> tuple[list[Any], bool]:
+    """All statements of a file; fine where each is what the file expects, or true where it expects nothing."""
+    from freebody.check.file import judge
+
+    told, fine = [], True
+    for judged in judge(path):
+        told.append(judged.to_json())
+        fine &= judged.verdict.ok if judged.as_expected is None else judged.as_expected
+        if not quiet:
+            show(f"{judged.statement.id}: {judged.statement.says}", judged.verdict, judged.as_expected is False)
+    return told, fine
+
+
+_COLOURS = {"TRUE": "green", "TRUE_IF": "yellow", "WRONG": "red", "DIMENSIONS": "red", "UNDECIDABLE": "yellow"}
+
+
+def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:
+    """Print a verdict with what is behind it."""
+    from rich.console import Console
+    from rich.text import Text
+
+    console = Console(highlight=False, soft_wrap=True)
+    mark = "  (not what the file expects)" if unexpected else ""
+    console.print(Text(text.strip()))
+    console.print(Text(f"  {verdict.kind.value}{mark}", style=_COLOURS[verdict.kind.name]))
+    lines = [verdict.reason] if verdict.reason else []
+    lines += [f"mend: {mend}" for mend in verdict.mends]
+    if verdict.evidence and not verdict.ok:
+        lines.append(str(verdict.evidence))
+    if verdict.untested:
+        lines.append(f"nothing was learnt about {', '.join(f'`{term}`' for term in verdict.untested)}")
+    for line in lines:
+        console.print(Text(f"  {line}"))
