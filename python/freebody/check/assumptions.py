@@ -17,7 +17,7 @@ from .truth import Family, NoMotion
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
-_STATES = 24
+_STATES = 16
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
 
 
@@ -72,9 +72,9 @@ def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
 
 
 def mattering(case: Case) -> list[str]:
-    """Free parameters that are more than numbers of the start."""
-    known = {letter.name for letter in case.meaning.vocabulary.parameters}
-    return [name for name in case.truth.free_parameters if name in known]
+    """Free parameters that are more than numbers of the start, and may go far without opening a closed loop."""
+    known = {text for n in case.meaning.vocabulary.parameters for text in case.meaning.texts(n)}
+    return [name for name in case.truth.free_parameters if name in known and not case.truth.shapes_loops(name)]
 
 
 def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:

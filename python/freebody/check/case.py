@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from .language.evaluate import Array
-from .language.nodes import Equation, Program, inlined
+from .language.nodes import Equation, Letter, Program, inlined
 from .residual import Residual, residual
 from .truth import ALL, SAMPLES, Family, Samples, Truth
 from .vocabulary import Vocabulary
@@ -19,6 +19,9 @@ class Meaning(Protocol):
     @property
     def vocabulary(self) -> Vocabulary:
         """The letters that a true equation may be written in."""
+
+    def texts(self, letter: Letter) -> tuple[str, ...]:
+        """The expressions of the model language that a letter stands for."""
 
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every letter on true states, by ``Letter.key``."""

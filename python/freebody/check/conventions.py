@@ -6,7 +6,21 @@ import math
 from collections.abc import Iterator
 
 from .edits import Edit
-from .language.nodes import Cross, Dot, Equation, Letter, Negative, Node, Number, Quotient, Sum, letters, replace, substitute, walk
+from .language.nodes import (
+    Cross,
+    Dot,
+    Equation,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Quotient,
+    Sum,
+    letters,
+    replace,
+    substitute,
+    walk,
+)
 from .vocabulary import Vocabulary
 
 _QUARTER = Quotient(Number(math.pi, "pi"), Number(2.0, "2"))

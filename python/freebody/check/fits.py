@@ -64,7 +64,7 @@ class Fits:
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
         found = _constant(need.needed) if isinstance(need.node, Number) else None
-        if found is not None and (number := recognised(found)) is not None:
+        if found is not None and found != -need.node.value and (number := recognised(found)) is not None:
             yield Edit("factor", need.node, number, replace(equation, need.node, number))
         if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
             for letter in self._letters:
@@ -123,15 +123,15 @@ class Fits:
         for term in self._matching(equation, need.needed):
             yield Edit("other term", need.node, term, replace(equation, need.node, term), 0.02 * depth(term))
 
-    def _matching(self, equation: Equation, wanted: Array) -> Iterator[Node]:
-        """Terms of the dictionary that are ``wanted`` but for a number."""
+    def _matching(self, equation: Equation, wanted: Array, less: Powers = (0, 0, 0)) -> Iterator[Node]:
+        """Terms of the dictionary that are ``wanted`` but for a number; their dimension is that of the equation over ``less``."""
         scale = np.max(np.abs(wanted))
         if wanted.ndim == 2:
             yield from self._matching_vectors(equation, wanted)
             return
         if not np.isfinite(scale) or scale == 0:
             return
-        nodes, rows = self._dictionary(equation)
+        nodes, rows = self._dictionary(equation, less)
         for i in _proportional(rows, wanted):
             ratio = float(np.sum(wanted * rows[i]) / np.sum(rows[i] ** 2))
             if (number := recognised(ratio)) is not None:
@@ -139,19 +139,20 @@ class Fits:
 
     def _matching_vectors(self, equation: Equation, wanted: Array) -> Iterator[Node]:
         """Terms that are a number times a known vector."""
-        for vector in self.vocabulary.vectors:
+        for vector, powers in self.vocabulary.vectors.items():
             value = self.values[vector.key]
             along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
             off = np.abs(wanted - along[:, None] * value).max(axis=1)
             if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
-                yield from (Product((term, vector)) for term in self._matching(equation, along))
+                yield from (Product((term, vector)) for term in self._matching(equation, along, powers or (0, 0, 0)))
 
-    def _dictionary(self, equation: Equation) -> tuple[list[Node], Array]:
-        wanted = self._dimension(equation)
+    def _dictionary(self, equation: Equation, less: Powers) -> tuple[list[Node], Array]:
+        whole = self._dimension(equation)
+        wanted = None if whole is None else (whole[0] - less[0], whole[1] - less[1], whole[2] - less[2])
         moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
         key = (wanted, moving)
         if key not in self._made:
-            nodes = list(self.vocabulary.terms(wanted, moving))
+            nodes = [*self.vocabulary.terms(wanted, moving), *self.vocabulary.moments(wanted)]
             rows = self._rows(nodes)
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]

@@ -35,6 +35,10 @@ class StatementLetters:
         used = [n for n in walk(program) if isinstance(n, Letter) and n not in named]
         self.used = list(dict.fromkeys(Letter(n.name) for n in used))
 
+    def texts(self, letter: Letter) -> tuple[str, ...]:
+        """The expressions of the model language that a letter stands for."""
+        return self._one(letter).texts if letter.name in self.letters.meanings else ()
+
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every letter on true states, by ``Letter.key``."""
         return self.letters.values(dict.fromkeys([*self.required, *self._more]), samples)
@@ -59,9 +63,14 @@ class StatementLetters:
             {n: plain[n] for n in parameters},
             {n: plain[n] for n in coordinates},
             {n: plain[n] for n in others},
-            tuple(dict.fromkeys((*vectors, *(Letter(n) for n in self.letters.of_kind("direction"))))),
+            {n: _powers(self._one(n).dimension) for n in (*vectors, *self._units)},
             frozenset(n for n in plain if (n in coordinates and plain[n] == (0, 0, 0)) or self._is_angle(n)),
         )
+
+    @cached_property
+    def _units(self) -> list[Letter]:
+        """Unit vectors and all declared ones."""
+        return [Letter(n) for n in self.letters.of_kind("declared", "direction") if n in self.letters.vectors]
 
     def _one(self, letter: Letter) -> One:
         return self.letters.meanings[letter.name]

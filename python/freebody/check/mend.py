@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -18,7 +19,7 @@ from .language.evaluate import Array
 from .language.nodes import Equation, Letter, Number, letters
 from .language.nodes import replace as replaced
 from .language.spelling import spell
-from .residual import HOLDS, Residual, residual
+from .residual import HOLDS, Residual, residual, unreached
 from .rows import rows
 
 if TYPE_CHECKING:
@@ -84,17 +85,25 @@ Step = Callable[["_Search"], Iterator[_Found]]
 def mends(case: Case, equation: Equation) -> Iterator[Mend]:
     """The smallest mends of an equation, equally small ones together; nothing where no one or two edits mend it."""
     families = [(case.hypothesis, "")]
-    given, zeros = case.hypothesis, [name for name, value in case.truth.free_parameters.items() if value == 0]
+    given, zeros = case.hypothesis, _unmentioned_zeros(case, equation)
     if zeros and given.zeros:
         families += [(replace(given, held=(*given.held, (name, 0.0))), f"{name} = 0") for name in zeros]
         if len(zeros) > 1:
-            families.append((replace(given, zeros=False), ", ".join(f"{name} = 0" for name in zeros)))
+            both = (*given.held, *((name, 0.0) for name in zeros))
+            families.append((replace(given, held=both), ", ".join(f"{name} = 0" for name in zeros)))
     parts = rows(equation)
     if len(parts) > 1 and (whole := list(_of_row(case, equation, families, (_Search.singles,)))):
         yield from whole
         return
     for row in parts:
         yield from _of_row(case, row, families, (_Search.singles, _Search.pairs))
+
+
+def _unmentioned_zeros(case: Case, equation: Equation) -> list[str]:
+    """Parameters that are 0 in the model and that the equation leaves out."""
+    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Letter(letter.name)))
+    words = set(re.findall(r"\w+", said))
+    return [name for name, value in case.truth.free_parameters.items() if value == 0 and name not in words]
 
 
 def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Mend]:
@@ -121,7 +130,7 @@ class _Search:
     """The edits of one equation beside one family of motions."""
 
     def __init__(self, case: Case, equation: Equation, family: Family) -> None:
-        self.equation, self.vocabulary = equation, case.meaning.vocabulary
+        self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
         self.other = _elsewhere(self.few)
@@ -172,6 +181,8 @@ class _Search:
         return list(kept.values())[:_SHOWN]
 
     def _confirmed(self, equation: Equation) -> bool:
+        if self.family.held and unreached(equation, self.values):
+            return False  # what is held at 0 may hide what is wrong
         return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:

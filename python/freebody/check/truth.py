@@ -307,8 +307,14 @@ class Truth:
         """By what a parameter may differ from the model's."""
         if dimension is not None and _is_angle(dimension):
             return _ANGLE_FACTOR
-        shapes_loops = self._loops and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
-        return _LOOP_FACTOR if shapes_loops else _FACTOR
+        return _LOOP_FACTOR if self._shapes(dimension) else _FACTOR
+
+    def _shapes(self, dimension: Dimension | None) -> bool:
+        return self._loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
+
+    def shapes_loops(self, name: str) -> bool:
+        """Whether a parameter may be a length of a closed loop."""
+        return self._shapes(self.start.parameters.get(name))
 
     def _unit(self, dimension: Dimension | None) -> float:
         if dimension is None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import combinations, combinations_with_replacement, islice
+from itertools import combinations, combinations_with_replacement, islice, permutations
 
 import numpy as np
 
 from .language.evaluate import Array, evaluate
-from .language.nodes import Call, Letter, Negative, Node, Number, Power, Product, Sum
+from .language.nodes import Call, Cross, Dot, Letter, Negative, Node, Number, Power, Product, Sum
 
 Powers = tuple[int, int, int]
 """Powers of length, mass and time."""
@@ -28,7 +28,7 @@ class Vocabulary:
     parameters: Mapping[Letter, Powers | None]
     coordinates: Mapping[Letter, Powers | None]
     others: Mapping[Letter, Powers | None] = field(default_factory=dict)
-    vectors: tuple[Letter, ...] = ()
+    vectors: Mapping[Letter, Powers | None] = field(default_factory=dict)
     angular: frozenset[Letter] = frozenset()
 
     @cached_property
@@ -39,7 +39,7 @@ class Vocabulary:
     def powers(self, letter: Letter) -> Powers | None:
         """The dimension of a letter with its dots; None where it is not known."""
         plain = Letter(letter.name)
-        known = {**self.parameters, **self.coordinates, **self.others}
+        known = {**self.parameters, **self.coordinates, **self.others, **self.vectors}
         found = known.get(plain)
         return None if found is None else (found[0], found[1], found[2] - letter.dots)
 
@@ -47,7 +47,7 @@ class Vocabulary:
         """Other letters of the same kind that one may write by mistake."""
         plain = Letter(letter.name)
         if letter in self.vectors:
-            return [n for n in self.vectors if n != letter]
+            return [n for n in self.vectors if n != letter and self.vectors[n] == self.vectors[letter]]
         for group in (self.coordinates, self.parameters, self.others):
             if plain in group:
                 kin = [n for n in group if n != plain and (group[n] == group[plain])]
@@ -62,6 +62,15 @@ class Vocabulary:
             for shape in self._shapes:
                 factors = (*monomial, *shape)
                 yield Product(factors) if len(factors) > 1 else factors[0] if factors else Number(1.0, "1")
+
+    def moments(self, wanted: Powers | None) -> Iterator[Node]:
+        """k · (r × F) of known vectors that are of a dimension."""
+        upright = Letter("k")
+        if wanted is None or upright not in self.vectors:
+            return
+        for arm, force in permutations(self.vectors, 2):
+            if self.vectors[arm] == (1, 0, 0) and _joined([self.vectors[arm], self.vectors[force]]) == wanted:
+                yield Dot(upright, Cross(arm, force))
 
     def _dynamic(self, moving: Sequence[Letter]) -> Iterator[tuple[tuple[Node, ...], Powers | None]]:
         """What changes with the motion: accelerations, products of two rates, forces."""
@@ -120,7 +129,7 @@ def _joined(powers: Sequence[Powers | None]) -> Powers | None:
 
 def dimension(node: Node, values: Mapping[str, Array], vocabulary: Vocabulary, letters: Sequence[Letter]) -> Powers | None:
     """The dimension of a term, found by measuring it in other units; None where a letter's is not known or it has none."""
-    powers = {n.key: vocabulary.powers(n) for n in letters if n not in vocabulary.vectors}
+    powers = {n.key: vocabulary.powers(n) for n in letters}
     if any(p is None for p in powers.values()) or len(powers) < len(letters):
         return None
     plain = np.abs(evaluate(node, values)).sum()

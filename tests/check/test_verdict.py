@@ -1,0 +1,140 @@
+"""What is right is called right, what is wrong is mended, and what is true only sometimes is told with its condition."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from textbook import BOOKS, Book
+
+from freebody.check import Checker, Kind
+from freebody.model import Mechanism
+
+
+def checker(name: str) -> Checker:
+    book = next(book for book in BOOKS if book.name == name)
+    return Checker(Mechanism.loads(f"freebody: 1\n{book.model}"), dict(book.letters))
+
+
+@pytest.fixture(scope="module")
+def cart() -> Checker:
+    return checker("pendulum on a cart")
+
+
+@pytest.mark.parametrize("book", BOOKS, ids=lambda book: book.name)
+def test_textbook_equations_are_true(book: Book) -> None:
+    one = Checker(Mechanism.loads(f"freebody: 1\n{book.model}"), dict(book.letters))
+    for equation in book.equations:
+        verdict = one.check(equation)
+        assert verdict.kind is Kind.TRUE, (equation, verdict)
+        assert not verdict.untested
+
+
+SLIPS = [
+    ("l*theta'' + x''*cos(theta) - g*sin(theta) = 0", "sign", "g*sin(theta)"),
+    ("l*theta'' + x''*sin(theta) + g*sin(theta) = 0", "function", "sin(theta)"),
+    ("l*theta'' + 2*x''*cos(theta) + g*sin(theta) = 0", "factor", "2"),
+    ("theta'' + x''*cos(theta) + g*sin(theta) = 0", "missing factor", "thetaddot"),
+    ("l*theta'' + x'*cos(theta) + g*sin(theta) = 0", "derivative", "xdot"),
+    ("(M+M)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) = F", "letter", "M"),
+    ("(M+m)*x'' + m*l*theta''*cos(theta) - m*l*theta'*sin(theta) = F", "power", "thetadot"),
+    ("(M+m)*x'' + m*l*theta''*cos(theta) - m*l*x'*theta'*sin(theta) = F", "letter", "xdot"),
+    ("l*theta'' + x''*cos(theta) + g*sin(theta)*cos(theta) = 0", "extra factor", "g*sin(theta)*cos(theta)"),
+    ("l*theta'' + x''*cos(theta) + g*sin(theta) + g*cos(theta) = 0", "extra term", "g*cos(theta)"),
+]
+
+
+@pytest.mark.parametrize(("text", "kind", "place"), SLIPS)
+def test_a_slip_is_named_with_its_place(cart: Checker, text: str, kind: str, place: str) -> None:
+    verdict = cart.check(text)
+    assert verdict.kind in (Kind.WRONG, Kind.DIMENSIONS)
+    assert (kind, place) in [edit[:2] for mend in verdict.mends for edit in mend.edits], [str(m) for m in verdict.mends]
+
+
+def test_a_mend_is_a_true_equation(cart: Checker) -> None:
+    for text, _, _ in SLIPS:
+        for mend in cart.check(text).mends:
+            assert cart.check(mend.equation).ok, (text, mend.equation)
+
+
+def test_two_slips_are_found_together(cart: Checker) -> None:
+    verdict = cart.check("(M+m)*x'' - m*l*theta''*cos(theta) - m*l*theta'^2*cos(theta) = F")
+    kinds = [sorted(edit[0] for edit in mend.edits) for mend in verdict.mends]
+    assert verdict.kind is Kind.WRONG
+    assert ["function", "sign"] in kinds
+
+
+def test_what_nothing_small_mends_is_said_to_be_so(cart: Checker) -> None:
+    verdict = cart.check("M*x''*cos(x/l)^2 = F*sin(theta) - m*g*theta'*x'/(l*l*m) * M")
+    assert verdict.kind in (Kind.WRONG, Kind.DIMENSIONS)
+    assert not verdict.mends
+    assert verdict.evidence is not None or verdict.kind is Kind.DIMENSIONS
+
+
+CONDITIONS = [
+    ("(M+m)*x'' + m*l*theta''*cos(theta) = F", "at rest"),
+    ("l*theta'' + x''*cos(theta) = 0", "without gravity"),
+    ("(M+m)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) = 0", "F = 0"),
+    ("l*theta'' + g*sin(theta) = 0", "M → ∞"),
+    ("theta'' + 2*x''*cos(theta) + 2*g*sin(theta) = 0", "these numbers of the model"),
+]
+
+
+@pytest.mark.parametrize(("text", "condition"), CONDITIONS)
+def test_what_was_left_out_is_an_assumption(cart: Checker, text: str, condition: str) -> None:
+    verdict = cart.check(text)
+    if condition == "these numbers of the model":
+        assert verdict.kind in (Kind.TRUE_IF, Kind.DIMENSIONS)  # 1/l is 2 only with the unit of l forgotten
+        return
+    assert verdict.kind is Kind.TRUE_IF
+    assert verdict.assumption == condition
+
+
+def test_an_assumption_does_not_excuse_a_wrong_sign(cart: Checker) -> None:
+    verdict = cart.check("(M+m)*x'' + m*l*theta''*cos(theta) + m*l*theta'^2*sin(theta) = F")
+    assert verdict.kind is Kind.WRONG  # though it holds at rest
+
+
+def test_a_number_beside_a_vector_is_no_equation() -> None:
+    letters = {"e": ["cos(alpha)", "-sin(alpha)"]}
+    verdict = checker("block on a sliding wedge").check("0 = (m1 x'' + m2 (x'' + s'' e))·i", letters)
+    assert verdict.kind is Kind.DIMENSIONS
+
+
+def test_evidence_breaks_the_equation(cart: Checker) -> None:
+    verdict = cart.check("l*theta'' = g*sin(theta) - x''*cos(theta)")
+    seen = verdict.evidence
+    assert seen is not None
+    at = seen.letters
+    left, right = at["l"] * at["thetaddot"], at["g"] * np.sin(at["theta"]) - at["xddot"] * np.cos(at["theta"])
+    assert seen.left == pytest.approx(left)
+    assert seen.right == pytest.approx(right)
+    # The state is a true one: the equation that holds, holds there.
+    assert left == pytest.approx(-at["g"] * np.sin(at["theta"]) - at["xddot"] * np.cos(at["theta"]))
+
+
+def test_equations_that_say_the_same_twice_are_told(cart: Checker) -> None:
+    verdict = cart.check("l*theta'' + x''*cos(theta) + g*sin(theta) = 0\n2*l*theta'' + 2*x''*cos(theta) = -2*g*sin(theta)")
+    assert verdict.ok
+    assert "only 1 of them independent" in verdict.reason
+
+
+def test_the_same_seed_gives_the_same_evidence() -> None:
+    text = "l*theta'' = g*sin(theta)"
+    first, second = (checker("pendulum on a cart").check(text).evidence for _ in range(2))
+    assert first == second
+
+
+REDUNDANT = """
+freebody: 1
+parameters: {m: 2 kg, l: 1 m}
+bodies: {beam: {shape: rod, length: l, mass: m}}
+ground: {points: {B: [l, 0]}}
+joints:
+  a: {type: hinge, of: [ground.O, beam.start]}
+  b: {type: hinge, of: [ground.B, beam.end]}
+"""
+
+
+def test_a_reaction_that_is_not_determined_is_not_judged() -> None:
+    one = Checker(Mechanism.loads(REDUNDANT))
+    assert one.check("a_x = 0").kind is Kind.UNDECIDABLE
