@@ -1,0 +1,94 @@
+"""Whether an equation is true, and whether two say the same, found without the check: trees evaluated at drawn values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from freebody.check.language.nodes import (
+    Call,
+    Equation,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Unit,
+    letters,
+)
+
+Array = NDArray[np.float64]
+Values = Mapping[Letter, Array]
+_ROUND_OFF = 1e-9
+_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp, "abs": np.abs, "atan2": np.arctan2}
+
+
+def valued(node: Node, at: Values) -> tuple[Array, Array]:
+    """The value of an expression and the sum of the sizes of what was added to make it. Raises ``KeyError``."""
+    match node:
+        case Number(value=value):
+            return np.array(value), np.array(abs(value))
+        case Unit(size=size):
+            return np.array(size), np.array(abs(size))
+        case Letter():
+            return at[node], np.abs(at[node])
+        case Negative(of=of):
+            value, size = valued(of, at)
+            return -value, size
+        case Sum(terms=parts):
+            found = [valued(part, at) for part in parts]
+            return sum(v for v, _ in found), sum(s for _, s in found)
+        case Product(factors=parts):
+            found = [valued(part, at) for part in parts]
+            return math.prod(v for v, _ in found), math.prod(s for _, s in found)
+        case Quotient(top=top, bottom=bottom):
+            (a, size), (b, _) = valued(top, at), valued(bottom, at)
+            return a / b, size / np.abs(b)
+        case Power(base=base, exponent=exponent):
+            (a, size), (n, _) = valued(base, at), valued(exponent, at)
+            return a**n, size**n if np.all(n > 0) else np.abs(a**n)
+        case Call(function=name, arguments=arguments):
+            value = _FUNCTIONS[name](*(valued(argument, at)[0] for argument in arguments))
+            return value, np.abs(value)
+    raise KeyError(type(node).__name__)
+
+
+def off(equation: Equation, at: Values) -> Array:
+    """left − right at each place, relative to the sizes of all terms."""
+    with np.errstate(all="ignore"):
+        (left, a), (right, b) = valued(equation.left, at), valued(equation.right, at)
+        return np.nan_to_num((left - right) / (a + b), nan=0.0, posinf=1.0, neginf=1.0)
+
+
+def holds(equation: Equation, at: Values) -> bool:
+    """Whether it holds at every place but for round-off."""
+    return bool(np.max(np.abs(off(equation, at))) < _ROUND_OFF)
+
+
+def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
+    """Whether ``other`` holds just where ``one`` does, at places that are no true states: ``one`` is made to hold there by one
+    letter in which it is linear."""
+    for letter in sorted(letters(one), key=lambda n: -n.dots):
+        made = _solved(one, letter, at)
+        if made is not None:
+            return holds(other, made) and not holds(other, at)
+    return False
+
+
+def _solved(equation: Equation, letter: Letter, at: Values) -> Values | None:
+    """The places moved along one letter so that an equation holds; None where it is not linear in it."""
+    with np.errstate(all="ignore"):
+        a, b, c = (
+            np.subtract(*(valued(side, {**at, letter: at[letter] + step})[0] for side in (equation.left, equation.right)))
+            for step in (0.0, 1.0, 2.0)
+        )
+        slope, bend = b - a, c - 2 * b + a
+        if not np.all(np.abs(slope) > 1e-6) or not np.all(np.abs(bend) < 1e-8 * np.abs(slope)):
+            return None
+        return {**at, letter: at[letter] - a / slope}
