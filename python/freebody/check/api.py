@@ -9,13 +9,14 @@ from freebody.model.errors import Complaint
 
 from .case import Case
 from .claims import claimed
+from .families import ALL, Family
 from .language.dimensions import DimensionError, check_dimensions
 from .language.errors import StatementError
 from .language.parser import parse
 from .letters import Letters
 from .meaning import StatementLetters
 from .mend import mends
-from .truth import ALL, Family, Truth
+from .truth import Truth
 from .verdict import Kind, Verdict, judged
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ import numpy as np
 from freebody import _core
 
 from .case import Case
+from .families import Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation
 from .residual import HOLDS, residual, unreached
-from .truth import Family, NoMotion
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""

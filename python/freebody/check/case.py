@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import numpy as np
+
+from .families import ALL, Family, Samples
 from .language.evaluate import Array
 from .language.nodes import Equation, Letter, Program, inlined
 from .residual import Residual, residual
-from .truth import ALL, SAMPLES, Family, Samples, Truth
+from .truth import SAMPLES, Truth
 from .vocabulary import Vocabulary
 
 
@@ -52,6 +55,17 @@ class Case:
         if key not in self.known:
             self.known[key] = self.meaning.values(self.samples(family, fresh, count))
         return self.known[key]
+
+    def depends_on_stress(self, equation: Equation) -> list[str]:
+        """The reactions that are not determined and of which it depends on their values whether the equation holds."""
+        samples = self.samples()
+        if not samples.loose:
+            return []
+        relaxed = Samples(samples.core, samples.samples, samples.names, stress=0.0)
+        after = residual(equation, self.meaning.values(relaxed)).sides.residual
+        before = self.residual(equation).sides.residual
+        same = np.allclose(after, before, rtol=1e-9, atol=1e-9 * float(np.abs(before).max()))
+        return [] if same else sorted(samples.loose)
 
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""

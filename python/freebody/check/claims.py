@@ -13,6 +13,7 @@ from freebody.model.errors import Complaint
 from freebody.results import Array
 
 from .case import Case
+from .families import Sample, Samples
 from .hypothesis import FAR, family
 from .language.evaluate import equation_sides, evaluate
 from .language.nodes import Equation, Letter, Number, Program, letters, walk
@@ -20,7 +21,6 @@ from .language.nodes import replace as replaced
 from .language.parser import parse, parse_expression
 from .meaning import StatementLetters
 from .residual import HOLDS, magnitude, residual
-from .truth import Sample, Samples
 from .verdict import Evidence, Kind, Verdict, evidence
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
 
 def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
     names = [c["name"] for c in truth.coordinates]
-    if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth._loops:
+    if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth.loops:
         raise Complaint(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
     state, i = sample.state, names.index(letter.name)
     q, u = state.q.copy(), state.u.copy()
@@ -192,6 +192,18 @@ def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ve
     return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
 
 
+def _report(checker: Checker, declared: Declared, label: str, figure: str) -> Verdict:
+    """A quantity of the section ``report``, from the model's own run with its own numbers."""
+    run, _ = checker.moment("end")
+    if label not in run.report:
+        raise Complaint(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
+    printed = parse(f"0 = {figure}").equations[0]
+    value, said = float(run.report[label].value), float(evaluate(printed.right, {})[0])
+    allowed = float(rounding(printed, {}).max())
+    kind = Kind.TRUE if abs(value - said) <= allowed * (1 + _ROUND) else Kind.WRONG
+    return Verdict(kind, label, f"{label} is {value:.6g} against {said:g}" + (", as printed" if kind is Kind.TRUE else ""))
+
+
 def _figures(sides: Any) -> str:
     return f"it is {np.array2string(sides.left[0], precision=6)} against {np.array2string(sides.right[0], precision=6)}"
 
@@ -246,5 +258,6 @@ _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
     (re.compile(r"at (.+?):(.+)", re.S), _at),
+    (re.compile(r"report:(.+)=(.+)", re.S), _report),
 )
 """Forms of claims, each with what judges it."""

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ruamel.yaml import YAML, YAMLError
@@ -31,7 +31,9 @@ class Statement(BaseModel):
     model: str | None = Field(None, description="another model, a file beside this one")
     set_: dict[str, Any] = Field({}, alias="set", description="parameters with other numbers; a list tries each")
     letters: dict[str, _SAID] = Field({}, description="own letters")
-    verdict: str | None = Field(None, description="what is expected: true, if, wrong, undecidable or dimensions")
+    verdict: Literal["right", "if", "wrong", "undecidable", "dimensions"] | None = Field(
+        None, description="what is expected: right, if, wrong, undecidable or dimensions"
+    )
     note: str = Field("", description="what a reader should know")
 
 
@@ -59,7 +61,7 @@ class Judged:
 
 
 WORDS = {
-    "true": Kind.TRUE,
+    "right": Kind.TRUE,
     "if": Kind.TRUE_IF,
     "wrong": Kind.WRONG,
     "undecidable": Kind.UNDECIDABLE,

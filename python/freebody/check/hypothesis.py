@@ -8,8 +8,9 @@ from dataclasses import replace
 
 from freebody.model.errors import Complaint
 
+from .families import ALL, Family
 from .letters import Letters
-from .truth import ALL, Family, Truth
+from .truth import Truth
 
 FAR = 1e7
 """How far a parameter goes that goes to infinity (its inverse: to 0)."""

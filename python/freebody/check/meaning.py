@@ -11,10 +11,11 @@ from freebody.model.errors import Complaint
 from freebody.model.units import Dimension
 
 from .declared import Meaning as One
+from .families import Samples
 from .language.evaluate import Array
 from .language.nodes import Letter, Program, walk
 from .letters import Letters
-from .truth import Samples, Truth
+from .truth import Truth
 from .vocabulary import Powers, Vocabulary
 
 _WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")

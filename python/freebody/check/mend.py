@@ -24,7 +24,7 @@ from .rows import rows
 
 if TYPE_CHECKING:
     from .case import Case
-    from .truth import Family
+    from .families import Family
 
 EQUAL = 0.35
 """Edits whose sizes differ by less are equally small."""

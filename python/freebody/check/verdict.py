@@ -11,11 +11,11 @@ import numpy as np
 
 from .assumptions import assumption
 from .case import Case
+from .families import Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation, letters
 from .mend import Mend, mends
 from .residual import FAILS, HOLDS, Residual, residual, unreached
-from .truth import Family, NoMotion
 
 if TYPE_CHECKING:
     from .language.evaluate import Array
@@ -71,6 +71,20 @@ class Verdict:
         """Whether it is true of every motion of the model."""
         return self.kind is Kind.TRUE
 
+    @property
+    def details(self) -> list[str]:
+        """What is behind it, a line each."""
+        lines = [self.reason] if self.reason else []
+        lines += [f"mend: {mend}" for mend in self.mends]
+        if self.evidence and not self.ok:
+            lines.append(str(self.evidence))
+        if self.untested:
+            lines.append(f"nothing was learnt about {', '.join(f'`{term}`' for term in self.untested)}")
+        return lines
+
+    def __str__(self) -> str:
+        return "\n  ".join([self.kind.value, *self.details])
+
 
 def judged(case: Case) -> Verdict:
     """The verdict about all equations of a statement together. Raises ``StatementError`` where it has no meaning."""
@@ -109,6 +123,9 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         return _true(case, equation, text, found)
     if worst <= FAILS:
         what = f"the two sides differ by {worst:.1e} of their terms: more than round-off, less than a mistake"
+        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, equation, found))
+    if loose := case.depends_on_stress(equation):
+        what = f"{', '.join(loose)} is not determined by the balances of this model: its parts can be pre-stressed"
         return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, equation, found))
     return _not_true(case, equation, text, found)
 

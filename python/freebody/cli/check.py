@@ -86,11 +86,5 @@ def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:
     mark = "  (not what the file expects)" if unexpected else ""
     console.print(Text(text.strip()))
     console.print(Text(f"  {verdict.kind.value}{mark}", style=_COLOURS[verdict.kind.name]))
-    lines = [verdict.reason] if verdict.reason else []
-    lines += [f"mend: {mend}" for mend in verdict.mends]
-    if verdict.evidence and not verdict.ok:
-        lines.append(str(verdict.evidence))
-    if verdict.untested:
-        lines.append(f"nothing was learnt about {', '.join(f'`{term}`' for term in verdict.untested)}")
-    for line in lines:
+    for line in verdict.details:
         console.print(Text(f"  {line}"))

@@ -1,0 +1,147 @@
+"""What a model says of itself before anything of it moves."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody import _core
+from freebody.instant import State
+from freebody.model.start import Start, initial_state
+from freebody.model.units import Dimension
+from freebody.switched import with_dimensions
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+
+class Described:
+    """A model as its true motions need it: its parameters, its own start, and what sizes are typical of it."""
+
+    def __init__(self, mechanism: Builder) -> None:
+        lowered = mechanism.lowered()
+        self.start: Start = lowered.start
+        self.spec: dict[str, Any] = json.loads(json.dumps(lowered.spec))
+        self.gravity = self._parametrised_gravity()
+        self.core = _core.Mechanism(json.dumps(self.spec))
+        self.about = with_dimensions(json.loads(self.core.describe()), self.spec)
+        self.fixed_counts = _counts(mechanism)
+
+    def _parametrised_gravity(self) -> str | None:
+        """A gravity that is a plain number becomes a parameter, so that nothing is true by the number 9.81."""
+        given = self.spec.get("gravity")
+        if given is None or not all(isinstance(part, int | float) for part in given) or given[0] != 0 or given[1] == 0:
+            return None
+        taken = {p["name"] for p in self.spec["parameters"]} | set(self.start.coordinates)
+        name = next(name for name in ("g", "gravity", "gravity_") if name not in taken)
+        self.spec["parameters"] += [{"name": name, "value": -given[1], "unit": "m/s^2"}]
+        self.spec["gravity"] = [0.0, f"-{name}"]
+        self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
+        return name
+
+    @cached_property
+    def free_parameters(self) -> dict[str, float]:
+        """Parameters that are plain numbers in the model, with those; the others follow from them."""
+        numbers = {p["name"]: p["value"] for p in self.spec["parameters"] if isinstance(p["value"], int | float)}
+        return {name: float(value) for name, value in numbers.items() if name not in self.fixed_counts}
+
+    @cached_property
+    def parameter_names(self) -> list[str]:
+        """All parameters in the order of ``p``."""
+        return [p["name"] for p in self.about["parameters"]]
+
+    @cached_property
+    def coordinates(self) -> list[Mapping[str, Any]]:
+        """The coordinates of the state, as the core describes them."""
+        return list(self.about["coordinates"])
+
+    @cached_property
+    def frictions(self) -> list[str]:
+        """Free parameters that are a coefficient of friction."""
+        written = [c.get(word) for c in self.spec.get("contacts", []) for word in ("friction", "static_friction")]
+        written += [j.get(word) for j in self.spec["joints"] for word in ("friction", "static_friction")]
+        return [name for name in self.free_parameters if name in written]
+
+    @cached_property
+    def gravities(self) -> list[str]:
+        """Free parameters that stand alone in the gravity of the model."""
+        parts = [str(part).strip("-() ") for part in self.spec.get("gravity") or ()]
+        return [name for name in self.free_parameters if name in parts]
+
+    # -- the model's own state
+
+    @cached_property
+    def first(self) -> State:
+        """The state in which the model starts."""
+        return self.started({})
+
+    def started(self, parameters: Mapping[str, float]) -> State:
+        """The start with other parameters. Raises ``MotionError`` and ``Complaint``."""
+        words = initial_state(self.start, self.core, parameters)
+        p = words.pop("p")
+        q, u, _ = self.core.assemble(p, 0.0, **words)
+        return State(p, 0.0, q, u)
+
+    @cached_property
+    def length(self) -> float:
+        """A length typical of the model, m."""
+        places = json.loads(self.core.points(self.core.bind({})))
+        found = [math.hypot(*_place(at)) for at in places.values()] if isinstance(places, dict) else []
+        state = self.first
+        found += [abs(q) for q, c in zip(state.q, self.coordinates, strict=True) if c["dimension"] == "m"]
+        return max([x for x in found if x > 0], default=1.0)
+
+    @cached_property
+    def mass(self) -> float:
+        """A mass typical of the model, kg."""
+        return max([b["mass"] for b in self.about["bodies"] if b.get("mass")], default=1.0)
+
+    @cached_property
+    def rate(self) -> float:
+        """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest."""
+        state = self.first
+        sizes = np.array([1.0 if c["dimension"] == "rad" else 1 / self.length for c in self.coordinates])
+        try:
+            solved = self.core.instant(state.p, state.t, state.q, state.u)
+            found = math.sqrt(np.max(np.abs(solved.accelerations * sizes), initial=0.0))
+        except _core.MotionError:
+            found = 0.0
+        own = float(np.max(np.abs(state.u * sizes), initial=0.0))
+        return float(np.clip(max(found, own), 1e-3, 1e3)) if max(found, own) > 0 else 1.0
+
+    @cached_property
+    def freedom(self) -> int:
+        """Rates that can be given at will."""
+        state = self.first
+        solved = self.core.instant(state.p, state.t, state.q, state.u)
+        return max(int(json.loads(solved.rank)["freedom"]) - int(self.about["freedom"].get("driven", 0)), 0)
+
+    @cached_property
+    def loops(self) -> int:
+        """How many joints close a loop."""
+        return len(self.about.get("closure_coordinates", [])) + sum(1 for j in self.about["joints"] if j.get("cut"))
+
+    def shapes_loop(self, dimension: Dimension | None) -> bool:
+        """Whether what has this dimension may be a length of a closed loop."""
+        return self.loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
+
+    def shapes_loops(self, name: str) -> bool:
+        """Whether a parameter may be a length of a closed loop."""
+        return self.shapes_loop(self.start.parameters.get(name))
+
+
+def _place(at: Any) -> Iterator[float]:
+    """Coordinates of a point in its body's frame."""
+    return (float(x) for x in at[1:3]) if len(at) >= 3 and not isinstance(at[1], list) else iter((0.0,))
+
+
+def _counts(mechanism: Builder) -> set[str]:
+    """Parameters that say how many items there are; those cannot vary."""
+    text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
+    return {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}

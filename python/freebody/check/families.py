@@ -1,0 +1,108 @@
+"""Families of true motions, and the samples that stand for them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from freebody import _core
+from freebody.instant import State
+from freebody.results import Array
+
+from .prestress import admissible, written_out
+
+
+class NoMotion(ValueError):
+    """A model, or a family of its motions, of which no true state was found."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """Which motions: ``held`` are parameters with a number of their own (SI, or an expression of others), ``numbers`` holds all
+    at the model's, ``at_rest`` has all rates 0, ``at_start`` stays where the model starts, ``zeros`` lets parameters that are 0
+    in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
+    expressions of configuration and, linearly, rates that are 0."""
+
+    held: tuple[tuple[str, float | str], ...] = ()
+    numbers: bool = False
+    at_rest: bool = False
+    at_start: bool = False
+    zeros: bool = True
+    gravity: bool = True
+    scaled: tuple[tuple[str, float], ...] = ()
+    vanishing: tuple[str, ...] = ()
+
+
+ALL = Family()
+"""Every motion of the model, with every parameter free."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A true state; ``motion``: the run that it lies on, where what switches decides."""
+
+    state: State
+    motion: Any = None
+
+
+@dataclass
+class Samples:
+    """True states of one family. ``values`` reads any expression of the model language on all of them.
+
+    Reactions that are not determined have random admissible values; with ``stress`` 0 those of least norm."""
+
+    core: _core.Mechanism
+    samples: list[Sample]
+    names: list[str]
+    stress: float = 1.0
+    loose: set[str] = field(default_factory=set)
+    known: dict[str, Array] = field(default_factory=dict)
+    weighed: dict[str, tuple[Array, Array]] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    def values(self, texts: Sequence[str]) -> dict[str, Array]:
+        """Each expression on all samples, (K,); NaN where it reads a reaction that is not determined."""
+        new = [text for text in dict.fromkeys(texts) if text not in self.known]
+        if new:
+            rng = np.random.default_rng(17)
+            rows = np.array([self._stressed(sample, new, self._row(sample, new), rng) for sample in self.samples])
+            self.known |= {text: rows[:, i] for i, text in enumerate(new)}
+        return {text: self.known[text] for text in texts}
+
+    def _row(self, sample: Sample, texts: Sequence[str]) -> Array:
+        state = sample.state
+        if sample.motion is not None:
+            return sample.motion.evaluate(texts, np.array([state.t]))[0]
+        return self.core.evaluate(texts, state.p, state.t, state.q, state.u)
+
+    def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
+        """A row in which what reads reactions that are not determined has a value, too."""
+        if not np.isnan(row).any() or sample.motion is not None:
+            return row
+        values = admissible(self.core, sample.state, rng, self.stress)
+        lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and written_out(text, values) != text]
+        state = sample.state
+        if lost:
+            told = [written_out(texts[i], values) for i in lost]
+            row[lost] = self.core.evaluate(told, state.p, state.t, state.q, state.u)
+            self.loose |= {texts[i] for i in lost}
+        return row
+
+    def masses(self) -> dict[str, tuple[Array, Array]]:
+        """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
+        if not self.weighed:
+            told = [json.loads(self.core.free_bodies(s.state.p, s.state.t, s.state.q, s.state.u))["bodies"] for s in self.samples]
+            for i, body in enumerate(told[0]):
+                mass, inertia = (np.array([row[i][word] or 0.0 for row in told]) for word in ("mass", "inertia"))
+                self.weighed[body["name"]] = mass, inertia
+        return self.weighed
+
+    def parameters(self, k: int) -> dict[str, float]:
+        """The parameters of sample ``k`` by name, SI."""
+        return dict(zip(self.names, self.samples[k].state.p.tolist(), strict=True))

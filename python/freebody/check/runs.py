@@ -1,0 +1,141 @@
+"""True states where contacts, strings, stops or friction decide what moves: they are taken from short runs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from freebody.instant import State
+from freebody.results import Array, quote
+
+from .described import Described
+from .families import ALL, Family, Sample
+
+_RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
+_NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
+_STEPS = 2000  # of a run, which is short
+_STEP = 1e-6  # of central differences of gaps, relative to the size of the model
+BALANCED = 1e-11
+"""Largest relative residual of a state that may judge: below it is round-off, above it a bad condition."""
+
+
+class OnRuns(Described):
+    """The part of ``Truth`` that samples runs from the model's start, as long as nothing switches."""
+
+    @cached_property
+    def own(self) -> Sample:
+        """The state of the model at its start, after the events there."""
+        return self._begun(self.first)
+
+    @cached_property
+    def restricted(self) -> bool:
+        """Whether limits, joint friction or events at the start decide what moves, so that states must lie on runs."""
+        if any(event.get("opening") for event in self.spec.get("events", [])) or self._sticky:
+            return True
+        state = self.first
+        limits = json.loads(self.core.instant(state.p, state.t, state.q, state.u).limits)
+        return any(limit["state"] != "open" for limit in limits)
+
+    @cached_property
+    def _sticky(self) -> list[str]:
+        return [j["name"] for j in self.spec["joints"] if j.get("friction")]
+
+    @cached_property
+    def _rubbing(self) -> list[str]:
+        """The rates at which joints with friction slide."""
+        first = {j["name"]: j["coordinates"][0] for j in self.about["joints"] if j["coordinates"]}
+        return [f"rate({quote(first[name])})" for name in self._sticky if name in first]
+
+    def _begun(self, state: State) -> Sample:
+        if not self.restricted:
+            return Sample(state)
+        return Sample(state, self._run(state, 1e-6 / self.rate))
+
+    def _run(self, state: State, until: float) -> Any:
+        return self.core.simulate(state.p, state.t, state.q, state.u, state.t + until, rtol=_RTOL, max_steps=_STEPS)
+
+    def rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
+        n = len(self.coordinates)
+        sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
+        drawn = sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
+        chosen = sorted(rng.permutation(n)[: self.freedom].tolist())
+        return {self.coordinates[i]["name"]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
+
+    def on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        """A state on a run from the model's start with random numbers and admissible rates, as long as nothing switches."""
+        state = self.started(values)
+        late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
+        if family.at_rest:
+            state = State(state.p, state.t, state.q, np.zeros_like(state.u))
+        elif rng.random() < 0.7 and not family.at_start:
+            state = self._moving(rng, state)
+        motion = self._run(state, max(late, 1e-6 / self.rate))
+        ends = motion.final()[0]
+        t = min(late, 0.9 * ends)
+        q, u = (a[0] for a in motion.sample(np.array([t])))
+        same = _same(self._mode(motion.instant(t), motion, t), self._own_mode)
+        return Sample(State(state.p, t, q, u), motion) if same and motion.instant(t).residual < BALANCED else None
+
+    def _moving(self, rng: np.random.Generator, state: State) -> State:
+        """Random rates that keep closed what is closed."""
+        names, sizes = [c["name"] for c in self.coordinates], self.rates(rng, ALL)
+        wanted = np.array([sizes.get(name, 0.0) for name in names])
+        q, u, _ = self.core.assemble(
+            state.p,
+            state.t,
+            guess=dict(zip(names, state.q.tolist(), strict=True)),
+            rates={n: x for n, x in zip(names, wanted.tolist(), strict=True) if n in sizes},
+        )
+        if not np.allclose(q, state.q, atol=1e-9 * self.length):
+            return state
+        return State(state.p, state.t, state.q, _without(u - state.u, self._slopes(state)) + state.u)
+
+    def _slopes(self, state: State) -> Array:
+        """Gradients of the gaps that are closed, and of what sticks, a row each."""
+        steps = _STEP * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
+        closed = [i for i, limit in enumerate(self._limits(state, state.q)) if limit["state"] != "open"]
+        columns = []
+        for i, step in enumerate(steps):
+            moved = np.zeros_like(state.q)
+            moved[i] = step
+            after, before = (self._limits(state, state.q + sign * moved) for sign in (1, -1))
+            columns.append([(after[j]["gap"] - before[j]["gap"]) / (2 * step) for j in closed])
+        return np.array(columns).T.reshape(len(closed), len(steps))
+
+    def _limits(self, state: State, q: Array) -> list[dict[str, Any]]:
+        return json.loads(self.core.instant(state.p, state.t, q, np.zeros_like(q)).limits)
+
+    @cached_property
+    def _own_mode(self) -> tuple[Any, ...]:
+        state = self.first
+        motion = self._run(state, 1e-3 / self.rate)
+        t = motion.final()[0]
+        return self._mode(motion.instant(t), motion, t)
+
+    def _mode(self, solved: Any, motion: Any, t: float) -> tuple[Any, ...]:
+        """How every limit is held, to which side it slides, and to which side every joint rubs."""
+        limits = tuple(
+            (x["state"], np.sign(round(x["friction"] or 0.0, 12)) if x["state"] == "sliding" else 0)
+            for x in json.loads(solved.limits)
+        )
+        rubs = motion.evaluate(self._rubbing, np.array([t]))[0] if self._rubbing else np.empty(0)
+        slow = 1e-9 * self.rate * min(self.length, 1.0)
+        return (*limits, *(float(np.sign(x)) if abs(x) > slow else 0.0 for x in rubs))
+
+
+def _same(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
+    """Whether two modes are one; what slides without friction does so in either sense."""
+
+    def alike(x: Any, y: Any) -> bool:
+        return x == y or (isinstance(x, tuple) and x[0] == y[0] and 0 in (x[1], y[1]))
+
+    return len(a) == len(b) and all(alike(x, y) for x, y in zip(a, b, strict=True))
+
+
+def _without(u: Array, rows: Array) -> Array:
+    """The part of a vector that no row sees."""
+    return u - np.linalg.pinv(rows) @ (rows @ u) if rows.size else u
