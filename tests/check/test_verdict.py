@@ -118,6 +118,11 @@ def test_equations_that_say_the_same_twice_are_told(cart: Checker) -> None:
     assert "only 1 of them independent" in verdict.reason
 
 
+def test_what_is_the_same_by_itself_is_told(cart: Checker) -> None:
+    assert "says nothing" in cart.check("2*l*theta''/l - theta'' = theta''").reason
+    assert "says nothing" not in cart.check("l*theta'' + x''*cos(theta) + g*sin(theta) = 0").reason
+
+
 def test_the_same_seed_gives_the_same_evidence() -> None:
     text = "l*theta'' = g*sin(theta)"
     first, second = (checker("pendulum on a cart").check(text).evidence for _ in range(2))

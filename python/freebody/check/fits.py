@@ -19,6 +19,7 @@ from .needed import Need, needs
 from .vocabulary import Powers, Vocabulary, dimension
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
+_LIKELY = 60  # terms of which pairs with all others are tried
 _DENOMINATOR = 12
 _NUMERATOR = 60
 
@@ -49,16 +50,16 @@ class Fits:
     values: Mapping[str, Array]
     vocabulary: Vocabulary
 
-    def edits(self, equation: Equation, terms: bool = True) -> Iterator[Edit]:
-        """Single edits found by solving for each part; ``terms``: missing and other terms, too."""
+    def edits(self, equation: Equation, others: bool = True) -> Iterator[Edit]:
+        """Single edits found by solving for each part; ``others``: terms that should be quite other ones, too."""
         with np.errstate(all="ignore"):
             for need in needs(equation, self.values):
                 yield from self._leaves(equation, need)
                 if need.addend:
                     yield from self._factors(equation, need)
-                    if terms:
+                    if others:
                         yield from self._replaced(equation, need)
-                if terms and (isinstance(need.node, Sum) or need.node in (equation.left, equation.right)):
+                if isinstance(need.node, Sum) or need.node in (equation.left, equation.right):
                     yield from self._missing(equation, need)
 
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
@@ -117,6 +118,23 @@ class Fits:
             old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
             new = Sum((*old, term), span=need.node.span)
             yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term))
+
+    def two_missing(self, equation: Equation) -> Iterator[Edit]:
+        """A side that lacks two terms."""
+        with np.errstate(all="ignore"):
+            need = next(needs(equation, self.values), None)
+            if need is None or need.missing.ndim != 1 or not np.isfinite(need.missing).all():
+                return
+            nodes, rows = self._dictionary(equation, (0, 0, 0))
+            for i, j in _spanning(rows, need.missing):
+                sizes, *_ = np.linalg.lstsq(rows[[i, j]].T, need.missing, rcond=None)
+                numbers = [recognised(float(size)) for size in sizes]
+                if all(number is not None for number in numbers):
+                    lost = tuple(multiplied(nodes[k], n) for k, n in zip((i, j), numbers, strict=True) if n is not None)
+                    old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
+                    new = Sum((*old, *lost), span=need.node.span)
+                    after = replace(equation, need.node, new)
+                    yield Edit("missing term", None, Sum(lost), after, 1.2 + 0.02 * sum(depth(term) for term in lost))
 
     def _replaced(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A term that should be quite another."""
@@ -201,6 +219,17 @@ def _proportional(rows: Array, wanted: Array) -> list[int]:
     dots, sizes = rows @ wanted, np.sum(rows**2, axis=1)
     off = np.abs(rows * (dots / sizes)[:, None] - wanted).max(axis=1)
     return np.flatnonzero(off <= _SAME * np.abs(wanted).max()).tolist()
+
+
+def _spanning(rows: Array, wanted: Array) -> Iterator[tuple[int, int]]:
+    """Pairs of rows of which ``wanted`` is made, the first among those most like it."""
+    sizes = np.linalg.norm(rows, axis=1)
+    order = np.argsort(-np.abs(rows @ wanted) / sizes)[:_LIKELY]
+    for i in order.tolist():
+        along = rows[i] / sizes[i]
+        rest, others = wanted - (wanted @ along) * along, rows - np.outer(rows @ along, along)
+        others[np.linalg.norm(others, axis=1) < 1e-6 * sizes] = np.nan
+        yield from ((i, j) for j in _proportional(others, rest) if i < j or j not in order)
 
 
 def multiplied(node: Node, number: Node) -> Node:

@@ -133,7 +133,7 @@ class _Search:
         self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
-        self.other = _elsewhere(self.few)
+        self.other = elsewhere(self.few)
         self.fits = Fits(self.values, self.vocabulary)
         self.right = self._worst(equation, self.values) < HOLDS
 
@@ -149,8 +149,9 @@ class _Search:
             if (both := _both(first, second)) is not None and self._passes(both.after):
                 yield _Found((first, both))
         for first in near:
-            second = (edit for edit in self._fitted(first.after) if edit.kind != "other term")
+            second = self._fitted(first.after, others=False)
             yield from (_Found((first, edit)) for edit in self._promising(second))
+        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
         units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))
@@ -162,9 +163,9 @@ class _Search:
             () if broken else self._fitted(equation),
         )
 
-    def _fitted(self, equation: Equation) -> Iterator[Edit]:
+    def _fitted(self, equation: Equation, others: bool = True) -> Iterator[Edit]:
         try:
-            yield from self.fits.edits(equation)
+            yield from self.fits.edits(equation, others)
         except StatementError:
             return
 
@@ -244,7 +245,7 @@ class _Search:
         return self.other[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
 
 
-def _elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
+def elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
     """Values that are no true state, where only what is the same by itself is the same; two names of one quantity stay equal."""
     rng = np.random.default_rng(5)
     factors: dict[bytes, Array] = {}
