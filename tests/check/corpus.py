@@ -67,7 +67,7 @@ class Bench:
         return [case.equations[0] for case in self.cases]
 
     @cached_property
-    def vocabulary(self):  # noqa: ANN201
+    def vocabulary(self):
         return self.checker.case("\n".join(self.texts)).meaning.vocabulary
 
     @cached_property

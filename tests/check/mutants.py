@@ -19,6 +19,7 @@ from freebody.check.language.nodes import (
     Product,
     Quotient,
     Sum,
+    addends,
     letters,
     replace,
     walk,
@@ -95,8 +96,13 @@ def _derivative(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | 
 
 
 def _lost_term(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    found = [n for n in _places(e) if n not in (e.left, e.right)]
+    found = [n for n in _places(e) if n not in (e.left, e.right) and _is_single(n)]
     return _at(rng, e, found, lambda n: Number(0.0, "0"))
+
+
+def _is_single(node: Node) -> bool:
+    """Whether it is one term, multiplied out."""
+    return len(addends(node, expand=True)) == 1
 
 
 def _twice(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
@@ -120,6 +126,8 @@ def _lost_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation |
     def change(n: Node) -> Node:
         assert isinstance(n, Product)
         i = int(rng.integers(len(n.factors)))
+        if len(addends(n.factors[i], expand=True)) > 2:
+            return None  # a bracket of many terms is more than a slip
         rest = n.factors[:i] + n.factors[i + 1 :]
         return rest[0] if len(rest) == 1 else Product(rest)
 

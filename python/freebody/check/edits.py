@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 from .language.evaluate import is_zero
 from .language.nodes import (
@@ -155,13 +156,10 @@ def _fewer(equation: Equation, node: Node) -> Iterator[Edit]:
 
 
 def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """A term with a sine, a cosine or a letter more."""
-    extras: list[Node] = [Call(name, (angle,)) for angle in vocabulary.angles for name in ("sin", "cos")]
-    extras += [n for n in vocabulary.parameters if n not in vocabulary.angular]
-    extras += [Letter(n.name, dots) for n in vocabulary.coordinates for dots in (1, 2)]
-    for extra in extras:
+    """A term with a factor more."""
+    for extra, more in chain(((n, 0.0) for n in vocabulary.single_factors), ((n, 0.2) for n in vocabulary.double_factors)):
         new = Product((node, extra), span=node.span)
-        yield Edit("missing factor", node, new, replace(equation, node, new))
+        yield Edit("missing factor", node, new, replace(equation, node, new), more)
 
 
 def with_unit_vectors(equation: Equation, units: tuple[Letter, ...]) -> Iterator[Edit]:

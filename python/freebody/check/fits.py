@@ -50,17 +50,22 @@ class Fits:
     values: Mapping[str, Array]
     vocabulary: Vocabulary
 
-    def edits(self, equation: Equation, others: bool = True) -> Iterator[Edit]:
-        """Single edits found by solving for each part; ``others``: terms that should be quite other ones, too."""
+    def edits(self, equation: Equation) -> Iterator[Edit]:
+        """Single edits found by solving for each part, terms that should be quite other ones aside."""
         with np.errstate(all="ignore"):
             for need in needs(equation, self.values):
                 yield from self._leaves(equation, need)
                 if need.addend:
                     yield from self._factors(equation, need)
-                    if others:
-                        yield from self._replaced(equation, need)
                 if isinstance(need.node, Sum) or need.node in (equation.left, equation.right):
                     yield from self._missing(equation, need)
+
+    def other_terms(self, equation: Equation) -> Iterator[Edit]:
+        """Terms that should be quite other ones."""
+        with np.errstate(all="ignore"):
+            for need in needs(equation, self.values):
+                if need.addend:
+                    yield from self._replaced(equation, need)
 
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
