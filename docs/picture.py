@@ -1,6 +1,7 @@
-"""Draws the picture of the README: `.venv/bin/python docs/picture.py` writes docs/four_bar.svg.
+"""Draws the pictures of the documents: `.venv/bin/python docs/picture.py` writes docs/four_bar.svg and docs/free_body.svg.
 
-The linkage of examples/four_bar.yaml from its release until it comes to rest on the other side, and the force at each pin.
+The linkage of examples/four_bar.yaml from its release until it comes to rest on the other side, and the force at each pin; and
+the free-body diagrams of its crank, and of crank and coupler together.
 """
 
 from pathlib import Path
@@ -47,7 +48,8 @@ def draw_forces(run: Run, ax: Axes) -> None:
 
 
 def main() -> None:
-    run = freebody.load(HERE.parent / "examples" / "four_bar.yaml").simulate(until="1.074 s")
+    linkage = freebody.load(HERE.parent / "examples" / "four_bar.yaml")
+    run = linkage.simulate(until="1.074 s")
     with quiet():
         # Letters stay text and names are fixed: a small file, the same each time.
         matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "freebody"})
@@ -56,6 +58,7 @@ def main() -> None:
         draw_motion(run, left)
         draw_forces(run, right)
         figure.savefig(HERE / "four_bar.svg", metadata={"Date": None})
+    linkage.diagram(["crank", "crank+coupler"]).save(HERE / "free_body.svg")
 
 
 if __name__ == "__main__":

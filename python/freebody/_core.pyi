@@ -131,6 +131,8 @@ class Trajectory:
         """Everything about one time, with what is in place and holds then."""
     def free_bodies(self, t: float) -> str:
         """As that of ``Mechanism``, with what is in place and holds then."""
+    def letters(self, t: float, setting: str, questions: str) -> str:
+        """As that of ``Mechanism``, with what is in place and holds then."""
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """Column names and values (nt, k): kinetic, potential, work of each non-conservative force and motion, balance."""
     def final(self) -> tuple[float, Array, Array, Array, str]:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
     from freebody.run import Progress, Run, Source, Times
+    from freebody.views.diagram import Diagram
 
 _MOMENT = 1e-6  # s
 
@@ -168,6 +169,43 @@ class Moving:
 
         state, notes = self.start()
         return drawing(self.source(notes), state, ax, LAYERS if layers is None else layers)
+
+    def diagram(
+        self: Builder,
+        of: str | Sequence[str] | None = None,
+        at: float | str | None = None,
+        *,
+        to_scale: bool = False,
+        effective: bool = True,
+        initial: Mapping[str, Any] | None = None,
+        **changes: Any,
+    ) -> Diagram:
+        """Free-body diagrams: symbolic, with letters in their positive sense, or ``to_scale``, with what acts.
+
+        ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
+        by itself. Drawn is the start with ``changes`` (as in ``solve``), or a time ``at`` of the motion (s, or ``"200 ms"``;
+        0 is after the events at the start).
+        ``effective`` draws m a and I α beside. Raises ``ValueError`` for a body that is none and for a time that the motion
+        does not reach.
+        """
+        from freebody.views.diagram import diagram, groups
+
+        now = self.solve(initial=initial, **changes) if at is None else self._instant_at(at)
+        with self.told():
+            free = now.free_bodies()
+        return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective)
+
+    def _instant_at(self: Builder, at: float | str) -> Instant:
+        """The motion at a time, after what happens then; at its start after the events there."""
+        from freebody.model.start import evaluate
+
+        t = evaluate(at, {})
+        run = self.simulate(t) if t > 0 else self.opening()
+        if run is None:
+            return self.solve()
+        if run.outcome.t < t:
+            raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
+        return run.instant(max(t, 0.0))
 
     def source(self: Builder, notes: Sequence[str] = ()) -> Source:
         """The compiled mechanism with all that views want to know of it."""

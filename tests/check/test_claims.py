@@ -29,6 +29,8 @@ CLAIMS = [
     ("bead on a turning rod", "only if T = 0: constant: (m1*l^2/3 + m2*R^2)*thetadot", Kind.TRUE),
     ("bead on a turning rod", "follows: m2*Rddot = m2*R*thetadot^2 from Rddot = R*thetadot^2", Kind.TRUE),
     ("bead on a turning rod", "follows: Rddot = 0 from Rddot = R*thetadot^2", Kind.WRONG),
+    ("double pendulum", "constant: energy()", Kind.TRUE),
+    ("double pendulum", "constant: kinetic()", Kind.WRONG),
     ("block on a sliding wedge", "constant: xddot", Kind.TRUE),
     ("block on a sliding wedge", "constant: xdot", Kind.WRONG),
 ]

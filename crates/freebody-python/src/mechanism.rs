@@ -7,7 +7,7 @@ use freebody::assembly::{assemble, Wish};
 use freebody::balance::{Balance, Observer, Route, Trouble};
 use freebody::compile::Compiled;
 use freebody::gauges::Law;
-use freebody::letters::{answer, Question};
+use freebody::letters::{answer, Question, Setting};
 use freebody::simulation::{simulate, Rule, Settings, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -157,9 +157,7 @@ impl Mechanism {
     ) -> PyResult<String> {
         let m = self.0.mechanism();
         let mut balance = self.placed(&m, &p, t, &q, &u)?;
-        let wrong = |e: serde_json::Error| errors::motion(Trouble::new("wrong_question", e.to_string()));
-        let setting = serde_json::from_str(setting).map_err(wrong)?;
-        let questions: Vec<Question> = serde_json::from_str(questions).map_err(wrong)?;
+        let (setting, questions) = self::questions(setting, questions)?;
         Ok(answer(&mut balance, &setting, &questions).map_err(errors::motion)?.to_string())
     }
 
@@ -270,6 +268,12 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
         None => Ok(true),
         Some(call) => Ok(call.call1(py, (now,))?.extract::<bool>(py).unwrap_or(true)),
     }
+}
+
+/// A setting and questions in letters, from JSON.
+pub fn questions(setting: &str, questions: &str) -> PyResult<(Setting, Vec<Question>)> {
+    let wrong = |e: serde_json::Error| errors::motion(Trouble::new("wrong_question", e.to_string()));
+    Ok((serde_json::from_str(setting).map_err(wrong)?, serde_json::from_str(questions).map_err(wrong)?))
 }
 
 /// The route of a word.

@@ -3,6 +3,7 @@
 use crate::instant::Instant;
 use crate::mechanism::Shared;
 use crate::{array, errors};
+use freebody::letters::answer;
 use freebody::simulation;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -41,6 +42,17 @@ impl Trajectory {
         let route = crate::mechanism::route(route)?;
         let (solved, freedom) = self.run.instant(&m, t, route).map_err(errors::motion)?;
         Ok(Instant::new(&m, solved, &freedom))
+    }
+    /// Bodies and loads of the free-body diagrams at one time, in numbers, as JSON.
+    fn free_bodies(&self, t: f64) -> PyResult<String> {
+        let told = self.run.at(&self.of.mechanism(), t, freebody::free_bodies::free_bodies);
+        Ok(told.map_err(errors::motion)?.to_string())
+    }
+    /// Answers in letters to questions about one time; see `Mechanism.letters`.
+    fn letters(&self, t: f64, setting: &str, questions: &str) -> PyResult<String> {
+        let (setting, questions) = crate::mechanism::questions(setting, questions)?;
+        let told = self.run.at(&self.of.mechanism(), t, |balance| answer(balance, &setting, &questions));
+        Ok(told.map_err(errors::motion)?.to_string())
     }
     #[getter]
     fn changes(&self) -> String {

@@ -15,6 +15,7 @@ from freebody.results import Array
 from .case import Case
 from .families import Sample, Samples
 from .hypothesis import FAR, family
+from .language.errors import StatementError
 from .language.evaluate import equation_sides, evaluate
 from .language.nodes import Equation, Letter, Number, Program, letters, walk
 from .language.nodes import replace as replaced
@@ -74,7 +75,7 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     """The same at all times of each motion."""
-    case = checker.case(f"{expression} = 0", declared, checker.hypothesis)
+    case = _reading(checker, declared, expression)
     node = case.equations[0].left
     worst, seen = 0.0, None
     for sample in case.samples(count=_RUNS).samples:
@@ -92,6 +93,18 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     return Verdict(Kind.WRONG, expression, "not constant: it changes along a motion", evidence=seen)
 
 
+def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
+    """An expression in letters, or else one of the model language (``energy()``)."""
+    try:
+        return checker.case(f"{expression} = 0", declared)
+    except StatementError:
+        try:
+            return checker.case("quantity = 0", {**declared, "quantity": expression})
+        except Complaint:
+            pass
+        raise
+
+
 def _along(checker: Checker, sample: Sample) -> Samples:
     """States along the motion that goes on from a true state."""
     truth, state = checker.truth, sample.state
@@ -105,7 +118,7 @@ def _along(checker: Checker, sample: Sample) -> Samples:
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
     """The value of an expression, when some coordinates or rates are changed and all else stays."""
-    case = checker.case(f"{expression} = 0", declared)
+    case = _reading(checker, declared, expression)
     letters = checker.letters(declared)
     node, truth = case.equations[0].left, checker.truth
     samples = case.samples()

@@ -119,7 +119,9 @@ class Fits:
 
     def _missing(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A sum that lacks a term."""
-        for term in self._matching(equation, need.missing):
+        inner = not any(need.node is side for side in (equation.left, equation.right))
+        like = Equation(need.node, Number(0.0)) if inner else equation
+        for term in self._matching(like, need.missing):
             old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
             new = Sum((*old, term), span=need.node.span)
             yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term))

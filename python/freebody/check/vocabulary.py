@@ -59,7 +59,8 @@ class Vocabulary:
     @cached_property
     def single_factors(self) -> list[Node]:
         """What a term can have as a factor: a sine or cosine, or a letter."""
-        sines: list[Node] = [Call(name, (angle,)) for angle in self.angles for name in ("sin", "cos")]
+        differences = [Sum((a, Negative(b))) for a, b in combinations(self.angles, 2)]
+        sines: list[Node] = [Call(name, (angle,)) for angle in (*self.angles, *differences) for name in ("sin", "cos")]
         sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
         return [*sines, *sizes, *(Letter(n.name, dots) for n in self.coordinates for dots in (1, 2)), *self.others]
 

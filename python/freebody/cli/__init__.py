@@ -113,6 +113,28 @@ def validate(
 
 
 @app.command()
+def diagram(
+    model: Model,
+    output: Annotated[Path, typer.Option("-o", "--output", help="The picture: .svg, .png or .pdf.")] = Path("fbd.svg"),
+    of: Annotated[
+        list[str] | None, typer.Option(metavar="BODIES", help="A body, a group like crank+rod, or all; repeatable.")
+    ] = None,
+    at: Annotated[
+        list[str] | None, typer.Option(metavar="TIME|NAME=VALUE", help="A time of the motion, or a coordinate.")
+    ] = None,
+    changes: Changes = None,
+    to_scale: Annotated[bool, typer.Option("--to-scale", help="What acts at the instant, with a scale of forces.")] = False,
+    effective: Annotated[bool, typer.Option("--effective/--no-effective", help="Draw m a and I alpha beside.")] = True,
+) -> None:
+    """Draw free-body diagrams, by default of every body by itself."""
+    from freebody.cli import show
+
+    time, state = moment(at)
+    drawn = opened(model, changes).diagram(of, time, to_scale=to_scale, effective=effective, **state)
+    show.written([drawn.save(output)])
+
+
+@app.command()
 def animate(
     model: Model,
     output: Annotated[Path, typer.Option("-o", "--output", help="A .gif, an .mp4 (needs ffmpeg), or .svg for one file a frame.")],
@@ -143,9 +165,11 @@ def compare(
 def systems(
     identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
+    diagrams: Annotated[bool, typer.Option("--diagrams", help="Draw free-body diagrams, of all systems or of this one.")] = False,
+    output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
 ) -> None:
-    """The worked catalogue: list it, or run systems and print their answers."""
+    """The worked catalogue: list it, run systems and print their answers, or draw their diagrams."""
     from freebody import catalogue
     from freebody.catalogue import show
 
@@ -154,6 +178,9 @@ def systems(
     except ModuleNotFoundError as missing:
         what = f"the catalogue checks its answers with other libraries, of which {missing.name} is missing"
         raise Mistake(what, "pip install 'freebody[catalogue]'") from None
+    if diagrams:
+        pictured(chosen(identity), output)
+        return
     if identity is None and not everything:
         if as_json:
             typer.echo(json.dumps([{"id": system.id, "title": system.title} for system in listed], indent=1))
@@ -258,6 +285,14 @@ def pairs(texts: list[str] | None) -> dict[str, str]:
     return {name.strip(): value.strip() for name, _, value in split}
 
 
+def moment(at: list[str] | None) -> tuple[str | None, dict[str, str]]:
+    """``["theta=30 deg"]`` → no time, coordinates; ``["200 ms"]`` → a time."""
+    times = [text for text in at or [] if "=" not in text]
+    if times and len(at or []) > 1:
+        raise Mistake("--at takes one time, or coordinates", "write it like --at '200 ms', or --at 'theta=30 deg'")
+    return (times[0], {}) if times else (None, pairs(at))
+
+
 def chosen(identity: str | None) -> list[System]:
     """The system of that name, or all."""
     from freebody import catalogue
@@ -268,6 +303,15 @@ def chosen(identity: str | None) -> list[System]:
         return [catalogue.find(identity)]
     except KeyError as error:
         raise Mistake(error.args[0], "freebody systems lists them") from None
+
+
+def pictured(systems: list[System], page: Path) -> None:
+    """A page with the diagrams of all models of some systems."""
+    from freebody.cli import show
+    from freebody.views.diagram.gallery import write_gallery
+
+    models = [(f"{system.id}, {path.stem}: {system.title}", path) for system in systems for path in system.models]
+    show.written([write_gallery(models, page)])
 
 
 def answered(system: System, silent: bool) -> list[Asked]:

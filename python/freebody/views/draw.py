@@ -12,8 +12,9 @@ from freebody.instant import State
 from freebody.results import Array, plain
 from freebody.views import shapes
 from freebody.views.labels import Label, place_labels
+from freebody.views.measures import digits, measures, place_of
 from freebody.views.paint import frame_axes, paint
-from freebody.views.scene import GROUND, Scene, Sketch, drawn, named_points, sketch_of_state
+from freebody.views.scene import GROUND, Scene, Sketch, drawn, sketch_of_state
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, axes, colour, quiet
 from freebody.views.touching import string_label
@@ -25,10 +26,8 @@ if TYPE_CHECKING:
 
 LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
-_POINT_TO_POINT = ("link", "rolling_circles", "polar")
 _CORNER = 66.0  # points
-_ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
-_UNTOLD = ("origin", "G", "centre", "start", "end")
+UNTOLD = ("origin", "G", "centre", "start", "end")
 
 
 class _Drawing:
@@ -117,28 +116,18 @@ def _draw_bodies(sheet: _Drawing) -> None:
 
 def _draw_joints(sheet: _Drawing) -> None:
     for joint in sheet.sketch.spec["joints"]:
-        where = _where(sheet.sketch, joint)
+        where = place_of(sheet.sketch, joint)
         if where is not None:
             sheet.say(joint["name"], where, INK, size=9.0)
 
 
-def _where(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
-    """Where a joint is: at the point of its second body."""
-    fields = joint["with"]
-    for key in ("point", "points", "circle", "follower", "line", "of"):
-        names = [name for name in named_points(fields.get(key, [])) if name in sketch.at]
-        if names:
-            return sketch.place(names[-1] if key == "of" else names[0])
-    return None
-
-
 def _draw_points(sheet: _Drawing) -> None:
     """Points with names of their own, each place once; those of joints go by the joint's name."""
-    used = [_where(sheet.sketch, joint) for joint in sheet.sketch.spec["joints"]]
+    used = [place_of(sheet.sketch, joint) for joint in sheet.sketch.spec["joints"]]
     seen = [place for place in used if place is not None]
     for name in sheet.sketch.at:
         place = sheet.sketch.place(name)
-        told = name.rpartition(".")[2] not in _UNTOLD
+        told = name.rpartition(".")[2] not in UNTOLD
         if told and not any(np.allclose(place, other, atol=0.2 * sheet.scene.size) for other in seen):
             seen.append(place)
             sheet.line(np.array([place, place]), INK, marker="o", ms=3)
@@ -146,78 +135,13 @@ def _draw_points(sheet: _Drawing) -> None:
 
 
 def _draw_coordinates(sheet: _Drawing) -> None:
-    """Every coordinate from its zero to its value; an arrow of fixed size shows the sense of one that is 0."""
-    joints = {joint["name"]: joint for joint in sheet.sketch.spec["joints"]}
-    for i, coordinate in enumerate(sheet.sketch.about["coordinates"]):
-        joint = joints.get(coordinate["joint"])
-        if joint is None:
-            continue
-        value = float(sheet.sketch.q[0, i])
-        given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == coordinate["name"]), {})
-        measure = _draw_angle if coordinate["dimension"] == "rad" else _draw_length
-        measure(sheet, joint, coordinate["name"], value, given.get("sense", 1))
-
-
-def _draw_angle(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: float, sense: int) -> None:
-    at, end = _vertex(sheet.sketch, joint), _direction(sheet.sketch, joint)
-    if at is None or end is None:
-        return
-    angle = np.fmod(value, 2 * np.pi) if abs(value) > 0.1 else 0.35
-    start, radius = end - sense * np.fmod(value, 2 * np.pi), 3.4 * sheet.scene.size
-    sheet.line(np.array([at, at + 1.25 * radius * np.array([np.cos(start), np.sin(start)])]), _MEASURE, lw=0.9, ls=(0, (4, 3)))
-    bow = shapes.arc(at, radius, start, start + sense * angle)
-    sheet.line(bow, _MEASURE, arrow=True)
-    sheet.say(f"{plain(name)} = {_figure(np.degrees(value))}°", bow[len(bow) // 2], _MEASURE)
-
-
-def _figure(value: float) -> str:
-    return f"{0.0 if abs(value) < _ROUND_OFF else value:.4g}".replace("-", "−")
-
-
-def _vertex(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
-    """Where the joint's angle is measured: at the first of two points, else at the joint."""
-    return sketch.place(_two_points(joint)[0]) if joint["type"] in _POINT_TO_POINT else _where(sketch, joint)
-
-
-def _direction(sketch: Sketch, joint: Mapping[str, Any]) -> float | None:
-    """Where the joint's angle points to: along the second body's x axis, or from point to point."""
-    if joint["type"] in _POINT_TO_POINT:
-        first, second = (sketch.place(name) for name in _two_points(joint))
-        return float(np.arctan2(*(second - first)[::-1]))
-    about = next(j for j in sketch.about["joints"] if j["name"] == joint["name"])
-    return None if about["second"] == GROUND else float(sketch.poses[0, sketch.names.index(about["second"]), 2])
-
-
-def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
-    fields = joint["with"]
-    return tuple(fields["of"]) if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
-
-
-def _draw_length(sheet: _Drawing, joint: Mapping[str, Any], name: str, value: float, sense: int) -> None:
-    at, along = _where(sheet.sketch, joint), _way(sheet.sketch, joint)
-    if at is None or along is None:
-        return
-    way = along * sense
-    aside = 2.6 * sheet.scene.size * np.array([along[1], -along[0]])
-    shown = value if abs(value) > sheet.scene.size else 3 * sheet.scene.size
-    start = at - value * way
-    arrow = np.array([start, start + shown * way]) - aside
-    sheet.line(arrow, _MEASURE, arrow=True)
-    sheet.line(np.array([start, arrow[0] - 0.2 * aside]), _MEASURE, lw=0.7)
-    sheet.say(f"{plain(name)} = {_figure(value)} m", arrow.mean(axis=0), _MEASURE)
-
-
-def _way(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
-    """Unit direction in which a length grows: along the joint's line, or from the first point to the second."""
-    if joint["type"] == "polar":
-        first, second = (sketch.place(name) for name in _two_points(joint))
-        gap = float(np.hypot(*(second - first)))
-        return (second - first) / gap if gap else None
-    line = joint["with"].get("along") or joint["with"].get("on")
-    if not isinstance(line, Mapping) or "point" not in line:
-        return None
-    body, _, along = sketch.line(line)
-    return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
+    """Every coordinate from its zero to its value."""
+    for measure in measures(sheet.sketch):
+        dashes: Any = (0, (4, 3)) if measure.angle else "-"
+        sheet.line(measure.guide, _MEASURE, lw=0.9 if measure.angle else 0.7, ls=dashes)
+        sheet.line(measure.arrow, _MEASURE, arrow=True)
+        middle = measure.arrow[len(measure.arrow) // 2] if measure.angle else measure.arrow.mean(axis=0)
+        sheet.say(f"{plain(measure.coordinate)} = {measure.value}", middle, _MEASURE)
 
 
 def _draw_forces(sheet: _Drawing) -> None:
@@ -239,7 +163,7 @@ def _draw_contact_forces(sheet: _Drawing) -> None:
         at = np.array(limit.at)
         tail = at - force / np.hypot(*force) * 6 * sheet.scene.size
         sheet.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
-        sheet.say(f"{limit.name}: {_figure(float(np.hypot(*force)))} N", tail, _LOAD)
+        sheet.say(f"{limit.name}: {digits(float(np.hypot(*force)))} N", tail, _LOAD)
 
 
 def _draw_torque(sheet: _Drawing, name: str, fields: Mapping[str, Any]) -> None:

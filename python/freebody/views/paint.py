@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from freebody.views.scene import Scene, Stroke
+from freebody.views.scene import Scene
 from freebody.views.style import GROUND, INK, PAPER, colour
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ def paint(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
         tint = GROUND if i == 0 else colour(i - 1)
         for stroke in figure.strokes:
             points = scene.place(i, stroke.points, frame)
-            artists.append(ax.add_patch(_patch(stroke, points, tint)))
+            artists.append(ax.add_patch(patch(stroke.style, points, tint, stroke.closed)))
     for pair in scene.pairs:
         for line in scene.pair_lines(pair, frame):
             artists += ax.plot(*line.T, color=INK, lw=1.3, zorder=2.37, solid_joinstyle="round")
@@ -33,11 +33,12 @@ def paint(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
     return artists
 
 
-def _patch(stroke: Stroke, points: Any, tint: str) -> Any:
+def patch(style: str, points: Any, tint: str, closed: bool = True) -> Any:
+    """A stroke where its points (k, 2) are on the axes; ``tint`` is the colour of its body."""
     from matplotlib.patches import Polygon
 
     return Polygon(
-        points, closed=stroke.closed, zorder=2 + 0.05 * ORDER.index(stroke.style), joinstyle="round", **_look(stroke.style, tint)
+        points, closed=closed, zorder=2 + 0.05 * ORDER.index(style), joinstyle="round", **_look(style, tint)
     )
 
 

@@ -313,8 +313,8 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     if outline == "none":
         return
     if outline is not None:
-        named = [sketch.at[p][1] if isinstance(p, str) else p for p in outline]
-        figure.add(np.array(named, float), "body")
+        named = np.array([_corner(sketch, body["name"], corner) for corner in outline])
+        figure.add(named if len(named) > 2 else shapes.rounded_hull(named, thickness), "body")
         return
     for piece in body["pieces"]:
         sizes = {name: sketch.number(size) for name, size in piece.get("sizes", {}).items()}
@@ -322,12 +322,20 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
         for points, style in shapes.piece_outlines(piece["shape"], sizes, corners, thickness):
             figure.add(shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), style, len(points) > 2)
-    own = [at for name, at in figure.points.items() if not name.endswith(".origin")]
+    joined = {name for joint in sketch.spec["joints"] for name in named_points(joint["with"])}
+    own = [at for name, at in figure.points.items() if not name.endswith(".origin") or name in joined]
     bare = not any(stroke.style in ("body", "band", "mass") for stroke in figure.strokes)
     if bare:
         figure.add(shapes.rounded_hull(np.array(own or [(0.0, 0.0)]), thickness), "body")
     else:
         _reach_out(figure, np.array(own or [(0.0, 0.0)]), thickness)
+
+
+def _corner(sketch: Sketch, body: str, corner: str | Sequence[float | str]) -> Array:
+    """Place (2,) of a corner of an outline, which may be a point with or without its body's name, in the body's frame."""
+    if isinstance(corner, str):
+        return sketch.at[corner if corner in sketch.at else f"{body}.{corner}"][1]
+    return np.array([sketch.number(x) for x in corner])
 
 
 def _reach_out(figure: Figure, points: Array, thickness: float) -> None:

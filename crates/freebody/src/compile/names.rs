@@ -110,10 +110,13 @@ impl Scope<'_> {
     /// Parses and resolves a condition.
     pub fn condition(&mut self, text: &str) -> Result<crate::expr::Condition<Leaf>, ExprError> {
         let ast = expr::parse(text)?;
-        crate::expr::Condition::resolve(&ast, self)
+        let condition = crate::expr::Condition::resolve(&ast, self)?;
+        check_derivatives(condition.as_expr(), &ast)?;
+        Ok(condition)
     }
 
     fn check_rates(&self, law: &Law, ast: &Ast) -> Result<(), ExprError> {
+        check_derivatives(law, ast)?;
         if self.reach < Reach::Motion && law.depends_on_rates() {
             return Err(Message::new(
                 "a time derivative stands where only the configuration may be read",
@@ -416,4 +419,14 @@ impl Names {
         };
         CompileError { path: path.to_string(), what, hint: error.hint }
     }
+}
+
+/// Refuses time derivatives of what is found by solving an instant: they would need the equations differentiated.
+fn check_derivatives(law: &Law, ast: &Ast) -> Result<(), ExprError> {
+    let found = |leaf: &Leaf| matches!(leaf, Leaf::Reading(_));
+    if law.derivatives().any(|(inner, _)| inner.leaves().any(found)) {
+        let hint = "`rate` and `accel` take expressions of the configuration; sample the quantity over a run instead";
+        return Err(Message::new("a time derivative of a force, a momentum or an energy", hint).at(&ast.span));
+    }
+    Ok(())
 }

@@ -4,7 +4,7 @@
 //! then that of its rate of momentum: Σ M/P = Ḣ/P, or Σ F·e = L̇·e. Loads between its own bodies cancel.
 
 use super::question::{About, Along, Group};
-use super::vectors::{tell, tree, tree_by};
+use super::vectors::{tree, tree_by};
 use super::Letters;
 use crate::algebra::{Letter, Tree};
 use crate::balance::Trouble;
@@ -33,15 +33,6 @@ impl Test {
 
     fn about(point: Vec2<Symbol>) -> Self {
         Test::Moment { about: point, scale: Symbol::one() }
-    }
-
-    fn tell(self) -> Value {
-        match self {
-            Test::Moment { about, scale } => {
-                json!({"kind": "moment", "about": tell(about * (Symbol::one() / scale)), "scale": tree(scale)})
-            }
-            Test::Force(along) => json!({"kind": "force", "along": tell(along)}),
-        }
     }
 }
 
@@ -210,20 +201,25 @@ impl Letters<'_> {
         let residual = right - left;
         json!({
             "bodies": bodies.iter().map(|&b| &self.m.bodies[b].name).collect::<Vec<_>>(),
-            "test": test.tell(), "loads": loads, "inertia": inertia, "momentum": tree(momentum),
+            "test": self.told(test), "loads": loads, "inertia": inertia, "momentum": tree(momentum),
             "left": tree_by(left, &unknowns), "right": tree_by(right, &unknowns),
             "residual": tree_by(residual, &unknowns), "linear": self.linear(residual),
         })
     }
 
+    fn told(&self, test: Test) -> Value {
+        match test {
+            Test::Moment { about, scale } => {
+                let point = about * (Symbol::one() / scale);
+                json!({"kind": "moment", "about": self.vector(point), "scale": tree(scale)})
+            }
+            Test::Force(along) => json!({"kind": "force", "along": self.vector(along)}),
+        }
+    }
+
     /// An expression as coefficients of what is unknown, and the rest.
     pub(super) fn linear(&self, of: Symbol) -> Value {
-        let unknowns = self.unknowns();
-        let (factors, rest) = of.linear_in(&unknowns);
-        let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
-        let told = |(l, c): (&Letter, Symbol)| json!({"letter": Tree::letter(&l.name, l.dots), "tree": tree(c)});
-        let coefficients: Vec<Value> = found.map(told).collect();
-        json!({"coefficients": coefficients, "rest": tree(rest)})
+        linear_in(of, &self.unknowns())
     }
 
     /// The equation of a coordinate: the bodies that it carries, tested by the motion that it allows.
@@ -255,4 +251,13 @@ fn meeting(a: Part<Symbol>, b: Part<Symbol>) -> Test {
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> Trouble {
     let told = crate::compile::unknown(what, name, known);
     Trouble::new("unknown_name", format!("{}; {}", told.what, told.hint))
+}
+
+/// An expression as coefficients of unknowns in which it is linear, and the rest.
+pub(super) fn linear_in(of: Symbol, unknowns: &[Letter]) -> Value {
+    let (factors, rest) = of.linear_in(unknowns);
+    let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
+    let told = |(l, c): (&Letter, Symbol)| json!({"letter": Tree::letter(&l.name, l.dots), "tree": tree(c)});
+    let coefficients: Vec<Value> = found.map(told).collect();
+    json!({"coefficients": coefficients, "rest": tree(rest)})
 }

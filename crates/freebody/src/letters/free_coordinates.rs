@@ -1,5 +1,6 @@
 //! The most brute force: three coordinates a body, and every joint a constraint.
 
+use super::equation::linear_in;
 use super::motion::acceleration;
 use super::vectors::tree_by;
 use super::{sizes, Letters};
@@ -109,6 +110,7 @@ impl Letters<'_> {
                 json!({
                     "body": self.m.bodies[i].name, "kind": kinds[k],
                     "left": tree_by(left[k], unknowns), "right": tree_by(right[k], unknowns),
+                    "linear": linear_in(right[k] - left[k], unknowns),
                 })
             })
             .collect()

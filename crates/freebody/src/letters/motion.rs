@@ -2,6 +2,7 @@
 
 use super::vectors::{tell, tree};
 use super::Letters;
+use crate::algebra::Letter;
 use crate::balance::{closing_rows, Row, Source, Trouble};
 use crate::free_bodies::mass_centre;
 use crate::plane::{Twist, Vec2};
@@ -18,8 +19,8 @@ impl Letters<'_> {
                 "body": body.name, "particle": body.particle,
                 "mass": tree(self.n.mass[i]), "inertia": tree(self.n.inertia[i]),
                 "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(pin.w),
-                "r": tell(mass_centre(self.at(), i)), "v": tell(twist.at(arm)),
-                "a": tell(acceleration(pin, arm, twist.w)),
+                "r": self.vector(mass_centre(self.at(), i)), "v": self.vector(twist.at(arm)),
+                "a": self.vector(acceleration(pin, arm, twist.w)),
             })
         };
         Value::Array(self.m.listed_bodies().into_iter().map(told).collect())
@@ -42,9 +43,9 @@ impl Letters<'_> {
         let a_transport = acceleration(pin, reach, w);
         let coriolis = v_relative.perp() * w.scale(2.0);
         Ok(json!({
-            "v": tell(v), "v_transport": tell(v_transport), "v_relative": tell(v_relative),
-            "a": tell(a), "a_transport": tell(a_transport), "a_coriolis": tell(coriolis),
-            "a_relative": tell(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(pin.w),
+            "v": self.vector(v), "v_transport": self.vector(v_transport), "v_relative": self.vector(v_relative),
+            "a": self.vector(a), "a_transport": self.vector(a_transport), "a_coriolis": self.vector(coriolis),
+            "a_relative": self.vector(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(pin.w),
         }))
     }
 
@@ -66,6 +67,15 @@ impl Letters<'_> {
             "name": row.source.name(self.m), "kind": kind, "value": row.value.map(tree), "rate": row.rate.map(tree),
             "acceleration": tree(row.bias), "linear": self.linear(row.bias),
         })
+    }
+}
+
+impl Letters<'_> {
+    /// A vector in named unit directions.
+    pub(super) fn vector(&self, v: Vec2<Symbol>) -> Value {
+        let coordinates: Vec<Letter> =
+            (0..self.m.freedom()).map(|i| Letter::new(&self.m.coordinate(i).name, 0)).collect();
+        tell(v, &coordinates)
     }
 }
 

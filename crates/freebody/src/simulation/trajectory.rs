@@ -238,18 +238,30 @@ impl Trajectory {
         Ok(Ledger { names, rows })
     }
 
+    /// What `read` finds at one time, with what is in place and holds then.
+    ///
+    /// # Errors
+    /// As [`Trajectory::reactions`]; those of `read`.
+    pub fn at<T>(
+        &self,
+        m: &Mechanism,
+        t: f64,
+        read: impl Fn(&mut Balance<'_>) -> Result<T, Trouble>,
+    ) -> Result<T, Trouble> {
+        let mut found = None;
+        self.each(m, &[t], |balance, _, _| {
+            found = Some(read(balance)?);
+            Ok(())
+        })?;
+        Ok(found.expect("one time was visited"))
+    }
+
     /// Everything about one time, and the degrees of freedom then.
     ///
     /// # Errors
     /// As [`Trajectory::reactions`].
     pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
-        let mut found = None;
-        self.each(m, &[t], |balance, _, _| {
-            let instant = balance.instant(route)?;
-            found = Some((instant, balance.freedom()));
-            Ok(())
-        })?;
-        Ok(found.expect("one time was visited"))
+        self.at(m, t, |balance| Ok((balance.instant(route)?, balance.freedom())))
     }
 
     /// Name of the event of a happening, and whether it crossed.

@@ -1,0 +1,179 @@
+"""Free-body diagrams as pictures: symbolic, or to true scale at an instant."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.free_body import FreeBodies
+from freebody.instant import State
+from freebody.results import Array
+from freebody.run import Source
+from freebody.views.diagram import actions as acting
+from freebody.views.diagram.actions import Action
+from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark
+from freebody.views.diagram.describe import described, spoken
+from freebody.views.diagram.names import Letters
+from freebody.views.diagram.panel import panel
+from freebody.views.diagram.paper import Row, sheet
+from freebody.views.diagram.scenery import Scenery, scenery
+from freebody.views.style import quiet
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_NAMED = 3  # bodies of which the title of a group has the names even where they are all
+_STEP = 1e-3  # m, rad and their rates: enough for a spring at rest to pull
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A group of bodies cut free and drawn: ``forces`` act on it, ``effective`` is the other side of its balance."""
+
+    group: tuple[str, ...]
+    row: Row
+
+    @property
+    def forces(self) -> list[Mark]:
+        """The arrows of all that acts."""
+        return self.row.panels[0].marks
+
+    @property
+    def effective(self) -> list[Mark]:
+        """The arrows of m a and I α; none where they were not asked for."""
+        return self.row.panels[1].marks if len(self.row.panels) > 1 else []
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """Free-body diagrams on one sheet, one cut below the other."""
+
+    name: str
+    cuts: tuple[Cut, ...]
+
+    @cached_property
+    def figure(self) -> Figure:
+        """The sheet as a matplotlib figure, just as large as it must be."""
+        return sheet([cut.row for cut in self.cuts])
+
+    @property
+    def description(self) -> str:
+        """In words, what the diagrams show."""
+        return " ".join(described(cut.group, [mark.action for mark in cut.forces]) for cut in self.cuts)
+
+    def save(self, path: str | Path) -> Path:
+        """Write a file: .svg, .png or .pdf. Raises ``ValueError`` for any other."""
+        path = Path(path)
+        if path.suffix.lower() not in (".svg", ".png", ".pdf"):
+            raise ValueError(f"a diagram is .svg, .png or .pdf, not {path.suffix or 'without a suffix'!r}")
+        if path.suffix.lower() == ".svg":
+            path.write_text(self.svg(), encoding="utf-8")
+        else:
+            with quiet():
+                self.figure.savefig(path, dpi=220)
+        return path
+
+    def svg(self) -> str:
+        """The sheet as SVG with a title and a description, for those who cannot see it."""
+        import matplotlib
+
+        buffer = io.StringIO()
+        with quiet(), matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": self.name}):
+            self.figure.savefig(buffer, format="svg", metadata={"Date": None})
+        told = f"<title>{escape(self.name)}</title>\n <desc>{escape(self.description)}</desc>\n"
+        head, opening, rest = buffer.getvalue().partition("<svg")
+        attributes, end, body = rest.partition(">")
+        return f'{head}{opening}{attributes} role="img"{end}\n {told}{body}'
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+def diagram(
+    source: Source,
+    state: State,
+    free: FreeBodies,
+    groups: Sequence[Sequence[str]] | None = None,
+    scaled: bool = False,
+    effective: bool = True,
+) -> Diagram:
+    """Free-body diagrams of groups of bodies (by default every body by itself) at a state."""
+    near = free if scaled else _further(source, state, free)
+    desk = _Desk(source, state, free, near, Letters(source, free), scaled, effective)
+    chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
+    return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
+
+
+@dataclass(frozen=True)
+class _Desk:
+    """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
+
+    source: Source
+    state: State
+    free: FreeBodies
+    near: FreeBodies
+    letters: Letters
+    scaled: bool
+    effective: bool
+
+    def cut(self, group: tuple[str, ...]) -> Cut:
+        """The diagram of a group."""
+        drawn = scenery(self.source, self.state, self.free, group, self.scaled)
+        forces, terms, notes = self._sides(group, drawn)
+        longest = max((action.size for action in forces + terms if not action.turns), default=0.0)
+        per_newton = LONGEST / longest if self.scaled and longest > 0 else None
+        if per_newton is not None:
+            short = [spoken(a.label) for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
+            notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
+        panels = [panel(drawn, forces, group if len(group) > 1 else (), per_newton, axes=True)]
+        if terms:
+            panels.append(panel(drawn.bare(), terms, (), per_newton, axes=False))
+        title = "all bodies" if len(group) == len(self.free.bodies) > _NAMED else " + ".join(group)
+        return Cut(group, Row(title, panels, per_newton, notes, vanishes=self.effective and not terms))
+
+    def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
+        """What acts, m a and I α, and remarks."""
+        if self.scaled:
+            return acting.to_scale(self.free, group, self.letters, drawn.sketch, self.effective)
+        forces = list(acting.symbolic(self.free, self.near, group, self.letters, drawn.sketch))
+        return forces, list(acting.effective(self.free, group, self.letters)) if self.effective else [], []
+
+
+def _further(source: Source, state: State, free: FreeBodies) -> FreeBodies:
+    """The free bodies a little further on in all coordinates and rates; those of now where that has no answer."""
+    from freebody._core import MotionError
+
+    try:
+        return FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q + _uneven(state.q), state.u + _uneven(state.u)))
+    except MotionError:
+        return free
+
+
+def _uneven(row: Array) -> Array:
+    """Small steps, all different, so that differences of coordinates change as well."""
+    return _STEP * (1.0 + np.arange(len(row)) % 7 / 3.0)
+
+
+def groups(of: str | Sequence[str] | None, free: FreeBodies) -> list[tuple[str, ...]] | None:
+    """The groups that a person names: ``crank``, ``crank+coupler``, ``all``, or several of these. Raises ``ValueError``."""
+    if of is None:
+        return None
+    asked = [of] if isinstance(of, str) else list(of)
+    return [_group(text, free) for text in asked]
+
+
+def _group(text: str, free: FreeBodies) -> tuple[str, ...]:
+    if text in free.bodies:
+        return (text,)
+    named = list(free.bodies) if text.strip() == "all" else [name.strip() for name in text.split("+")]
+    for name in named:
+        if name not in free.bodies:
+            raise ValueError(f"no body is called {name!r}; there are {', '.join(free.bodies)}")
+    return tuple(dict.fromkeys(named))

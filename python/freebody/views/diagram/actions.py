@@ -1,0 +1,182 @@
+"""What acts on a group of bodies cut free, as arrows that know nothing yet of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from freebody.free_body import FreeBodies, Load, Part
+from freebody.results import Array
+from freebody.views.diagram.names import Letters
+from freebody.views.measures import digits, place_of
+from freebody.views.scene import Sketch
+
+_ROUND_OFF = 1e-9
+"""Relative to the largest force of a diagram, below which an arrow would show only round-off."""
+
+_NOTHING = 1e-30
+"""N and N·m: what is left of nothing where everything else is nothing, too."""
+_ACROSS = 50.0
+"""Sizes of symbols in a mechanism: how far a force may be from where its moment is taken."""
+
+
+@dataclass(frozen=True)
+class Action:
+    """A force or a couple on one body. ``at`` (2,) in m and ``force`` (2,), fixed axes; ``couple`` is counter-clockwise. Of a
+    symbolic diagram ``force`` is a unit direction and ``couple`` a sign; to scale they are in N and N·m.
+
+    ``name`` and ``kind`` are those of the load; ``kind`` ``effective`` is a term m a or I α.
+    """
+
+    name: str
+    kind: str
+    label: str
+    body: str
+    at: Array
+    force: Array
+    couple: float = 0.0
+    loads: tuple[Load, ...] = ()
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is a couple."""
+        return not self.force.any()
+
+    @property
+    def size(self) -> float:
+        """In N or N·m, to scale."""
+        return abs(self.couple) if self.turns else float(np.hypot(*self.force))
+
+
+def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch) -> Iterator[Action]:
+    """Every load on a group in the positive sense of its letter. ``near``: the same a little further on in all coordinates,
+    where what is 0 now has a direction."""
+    beyond = {load.path: load for load in near.on(*group)}
+    for load in free.on(*group):
+        if not load.unknown and not any(any(part.force) or part.couple for part in load.on):
+            load = beyond.get(load.path, load)
+        for part in load.on:
+            if part.body in group:
+                yield from _positive(load, part, letters.of(load), sketch)
+
+
+def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Action]:
+    force, couple = _sense(load, part, sketch)
+    size, at = np.hypot(*force), attached(load, part, sketch)
+    plain = Action(load.name, load.kind, label, part.body, at, force, couple, (load,))
+    if size > 0:
+        yield replace(plain, force=force / size, couple=0.0)
+    if couple:
+        yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
+
+
+def attached(load: Load, part: Part, sketch: Sketch) -> Array:
+    """Where a diagram shows a part: of a link at its own end, of a torque at the joint of its two bodies, else where it acts."""
+    joint = next((j for j in sketch.spec["joints"] if j["name"] == load.name and j["type"] == "link"), None)
+    if joint is not None:
+        return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
+    if load.kind in ("force", "motion") and not any(part.force):
+        between = {j["name"] for j in sketch.about["joints"] if {j["first"], j["second"]} == set(load.of)}
+        places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
+        return next((place for place in places if place is not None), np.array(part.point))
+    return np.array(part.point)
+
+
+def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
+    """Force and couple of a part in the sense in which the load's letter is positive."""
+    force, couple = np.array(part.force), part.couple
+    if load.unknown or load.kind == "weight":
+        return force, couple
+    others = [other for other in load.on if other is not part]
+    spec = next((f for f in sketch.spec.get("forces", []) if f["name"] == load.name), None)
+    if spec is None:
+        return force, couple
+    if spec["type"] in ("torque", "torsion_spring"):
+        return np.zeros(2), 1.0 if part.body == spec["with"]["on"] else -1.0
+    if "between" in spec["with"] and len(others) == 1:
+        pull = np.subtract(others[0].point, part.point)
+        return (pull if pull.any() else force), 0.0
+    return force, couple
+
+
+def to_scale(
+    free: FreeBodies, group: Collection[str], letters: Letters, sketch: Sketch, effective: bool
+) -> tuple[list[Action], list[Action], list[str]]:
+    """What acts on a group at the instant, the components of a pin's force together; m a and I α where asked for; and what
+    cannot be drawn, in words."""
+    loads = free.on(*group)
+    forces = list(_acting(loads, group, letters, sketch))
+    terms = list(_terms(free, group, letters)) if effective else []
+    largest = max((action.size for action in forces + terms if not action.turns), default=0.0)
+    turning = max([action.size for action in forces + terms if action.turns] + [largest * _ACROSS * sketch.size])
+    least = max(_ROUND_OFF * largest, _NOTHING), max(_ROUND_OFF * turning, _NOTHING)
+
+    def seen(actions: list[Action]) -> list[Action]:
+        return [action for action in actions if action.size > least[action.turns]]
+
+    shown = {load.symbol for action in seen(forces) for load in action.loads}
+    unknown = [load.symbol for load in loads if not load.determinate]
+    none = [load.symbol for load in loads if load.determinate and load.symbol not in shown]
+    notes = [f"not determined: {', '.join(unknown)}"] * bool(unknown) + [f"{', '.join(none)} = 0"] * bool(none)
+    return [_with_value(a) for a in seen(forces)], [_with_value(a) for a in seen(terms)], notes
+
+
+def _acting(loads: Collection[Load], group: Collection[str], letters: Letters, sketch: Sketch) -> Iterable[Action]:
+    found: dict[tuple[str, bool, str], Action] = {}
+    for load in (load for load in loads if load.determinate):
+        for i, part in enumerate(load.on):
+            if part.body not in group:
+                continue
+            force, couple = load.value * np.array(part.force), load.value * part.couple
+            new = Action(
+                load.name, load.kind, letters.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
+            )
+            for one in (replace(new, couple=0.0), replace(new, force=np.zeros(2))):
+                key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
+                if one.force.any() or one.couple:
+                    found[key] = _together(found[key], one) if key in found else one
+    return found.values()
+
+
+def _together(first: Action, second: Action) -> Action:
+    return replace(first, force=first.force + second.force, couple=first.couple + second.couple, loads=first.loads + second.loads)
+
+
+def _with_value(action: Action) -> Action:
+    unit = r"N\,m" if action.turns else "N"
+    return replace(action, label=rf"{action.label} = {_figure(action.size)}\ \mathrm{{{unit}}}")
+
+
+def effective(free: FreeBodies, group: Collection[str], letters: Letters) -> Iterator[Action]:
+    """The other side of the balance, symbolic: m a at every mass centre, by components for a body by itself; I α."""
+    for term in _terms(free, group, letters, moving=False):
+        if term.turns:
+            yield replace(term, couple=1.0)
+        elif len(group) > 1:
+            yield replace(term, force=term.force / np.hypot(*term.force))
+        else:
+            for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+                yield replace(term, label=rf"{letters.mass(term.body)}\,a_{part}", force=np.array(way))
+
+
+def _terms(free: FreeBodies, group: Collection[str], letters: Letters, moving: bool = True) -> Iterator[Action]:
+    """m a and I α of every body, those that are 0 at the instant left out or, unless ``moving``, in any direction."""
+    alone = len(group) == 1
+    for name in group:
+        body = free.bodies[name]
+        plain = Action(name, "effective", "", name, np.array(body.G), np.zeros(2))
+        a = np.array(body.a) if moving or np.any(body.a) else np.array([1.0, 1.0])
+        if body.mass and a.any():
+            yield replace(plain, label=rf"{letters.mass(name)}\,{letters.acceleration(name, alone)}", force=body.mass * a)
+        alpha = body.alpha if moving else 1.0
+        if body.inertia and not body.particle and alpha:
+            label = rf"{letters.inertia(name)}\,{letters.angular(name, alone)}"
+            yield replace(plain, label=label, couple=body.inertia * alpha)
+
+
+def _figure(value: float) -> str:
+    text = digits(float(f"{value:.3g}"))
+    mantissa, _, exponent = text.partition("e")
+    return rf"{mantissa}\times 10^{{{int(exponent.replace('−', '-'))}}}" if exponent else text

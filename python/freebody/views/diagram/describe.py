@@ -1,0 +1,33 @@
+"""A free-body diagram in words."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from freebody.views.diagram.actions import Action
+
+_WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to the left", "down and to the left", "down",
+         "down and to the right")  # fmt: skip
+
+
+def described(group: Sequence[str], actions: Iterable[Action]) -> str:
+    """What acts on a group, each with its letter and its direction."""
+    told = [f"{spoken(action.label)} {_way(action)} on {action.body}" for action in actions]
+    return f"On {' and '.join(group)} {'act' if told else 'nothing acts'}{': ' if told else ''}{'; '.join(told)}."
+
+
+def _way(action: Action) -> str:
+    if action.turns:
+        return "counter-clockwise" if action.couple > 0 else "clockwise"
+    eighth = round(float(np.arctan2(action.force[1], action.force[0])) / (np.pi / 4)) % 8
+    return _WAYS[eighth]
+
+
+def spoken(label: str) -> str:
+    """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``."""
+    plain = re.sub(r"\\(?:mathrm|mathbf)\{([^{}]*)\}", r"\1", label)
+    plain = re.sub(r"\\[, ]", " ", plain)
+    return re.sub(r"[{}]|\\", "", plain)

@@ -1,0 +1,228 @@
+"""The bodies of a group on paper, in points (1/72 inch): outlines, what joins them inside, named points, coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from freebody.free_body import FreeBodies
+from freebody.instant import State
+from freebody.results import Array
+from freebody.run import Source
+from freebody.views import shapes
+from freebody.views.diagram.actions import Action, attached
+from freebody.views.diagram.names import letter
+from freebody.views.draw import UNTOLD
+from freebody.views.measures import measures
+from freebody.views.scene import Scene, Sketch, drawn, sketch_of_state
+from freebody.views.style import colour
+
+SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
+_ROOM = 130.0, 115.0  # pt, what a single body may take
+_WIDER = 260.0, 160.0  # pt, what two or three may take
+_WIDEST = 380.0, 260.0  # pt, what more may take
+_LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
+_FAR = 60.0  # pt, longest arrow of a coordinate on a small body
+_STUB = 26.0  # pt, what is shown of a longer one
+_BESIDE = 8.0  # pt from its body at which a force hangs in the air
+_LOOSE = ("rail", "slot", "hatch")
+_SOLID = ("body", "block", "band", "mass")
+_CUT = ("pin", "weld")
+_PINNED = ("hinge", "link", "slot", "curved_slot", "polar")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A stroke on paper: style of ``Stroke``, points (k, 2), colour and name of its body."""
+
+    style: str
+    points: Array
+    tint: str
+    closed: bool
+    body: str
+
+
+@dataclass(frozen=True)
+class Tag:
+    """A name for a place."""
+
+    text: str
+    at: Array
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A coordinate on paper: its arrow (k, 2) and guides (2, 2)."""
+
+    text: str
+    arrow: Array
+    guides: list[Array]
+    angle: bool
+
+
+@dataclass(frozen=True)
+class Scenery:
+    """What is seen of a group on paper. ``inner``: lines of springs and strings within it; ``pins``, ``centres``: places (k, 2)."""
+
+    strokes: list[Drawn]
+    inner: list[Array]
+    pins: Array
+    centres: dict[str, Array]
+    points: list[Tag]
+    dimensions: list[Dimension]
+    scale: float
+    sketch: Sketch
+
+    def place(self, at: Array) -> Array:
+        """From fixed axes in m to paper in pt."""
+        return self.scale * at
+
+    def bare(self) -> Scenery:
+        """The same without coordinates and points other than mass centres."""
+        return replace(self, dimensions=[], points=[tag for tag in self.points if tag.text == "G"])
+
+    @property
+    def solids(self) -> list[Array]:
+        """Outlines of what is solid."""
+        return [stroke.points for stroke in self.strokes if stroke.style in _SOLID]
+
+    def slides(self, action: Action) -> bool:
+        """Whether it is the force of a slider, which has no point of its own."""
+        kinds = {joint["name"]: joint["type"] for joint in self.sketch.about["joints"]}
+        return action.kind == "joint" and kinds[action.name] == "slider"
+
+    def within(self, places: Array) -> bool:
+        """Whether any of some places (k, 2) is on a body."""
+        return any(_contains(outline, places) for outline in self.solids)
+
+    def ink(self) -> Array:
+        """Places (k, 2) all along what is drawn, a few pt apart."""
+        lines = (
+            [closed(stroke) for stroke in self.strokes]
+            + self.inner
+            + [d.arrow for d in self.dimensions]
+            + [guide for d in self.dimensions for guide in d.guides]
+        )
+        return dense(lines)
+
+
+def closed(stroke: Drawn) -> Array:
+    """The line (k, 2) of a stroke."""
+    return np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
+
+
+def _contains(outline: Array, places: Array) -> bool:
+    """Whether any of some places (k, 2) is within an outline."""
+    from matplotlib.path import Path
+
+    return bool(Path(outline).contains_points(places).any())
+
+
+def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
+    """Places along polylines, at most a step apart."""
+    sides = [(a, b) for line in lines for a, b in pairwise(line)]
+    return np.vstack([np.linspace(a, b, int(np.hypot(*(b - a)) / step) + 2) for a, b in sides] or [np.zeros((0, 2))])
+
+
+def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool) -> Scenery:
+    """The bodies of a group as large as the paper allows."""
+    room = _ROOM if len(group) == 1 else _WIDER if len(group) < 4 else _WIDEST
+    sketch = sketch_of_state(source, state)
+    scene, whole = drawn(sketch), sketch.size
+    for _ in range(2):  # the thickness of slender parts depends on the scale, and the extent on it
+        extent = np.ptp(np.vstack([stroke.points for stroke in _strokes(scene, group, 1.0)] or [np.zeros((1, 2))]), axis=0)
+        scale = float(min([size / along for size, along in zip(room, extent, strict=True) if along > 0] + [_LARGEST / whole]))
+        sketch = sketch_of_state(source, state)
+        sketch.size = SYMBOL / scale
+        scene = drawn(sketch)
+    strokes = _strokes(scene, group, scale)
+    strokes = _arms(strokes, sketch, free, group, scale) + strokes
+    centres = {name: scale * np.array(free.bodies[name].G) for name in group}
+    inner = [scale * line for line in _inner(scene, free, group)]
+    pins = scale * _pins(sketch, free, group)
+    points = _points(sketch, group, centres, scale)
+    across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
+    dimensions = _dimensions(sketch, group, scale, scaled, max(across, _FAR))
+    return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
+
+
+def _strokes(scene: Scene, group: Collection[str], scale: float) -> list[Drawn]:
+    """All strokes of the group's bodies but the symbols of joints."""
+    return [
+        Drawn(stroke.style, scale * scene.place(i, stroke.points), colour(i - 1), stroke.closed, figure.name)
+        for i, figure in enumerate(scene.figures)
+        for stroke in figure.strokes
+        if figure.name in group and stroke.style not in _CUT
+    ]
+
+
+def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collection[str], scale: float) -> list[Drawn]:
+    """An arm of its body to every force that would hang in the air."""
+    arms = []
+    cuts = [(load, part) for load in free.loads for part in load.on if part.body in group and any(part.force)]
+    for load, part in cuts:
+        own = [stroke for stroke in strokes if stroke.body == part.body and stroke.style not in _LOOSE]
+        solid = [stroke for stroke in own if stroke.style in _SOLID]
+        at, seen = scale * attached(load, part, sketch), dense([closed(stroke) for stroke in own])
+        if not solid or any(_contains(stroke.points, at[None]) for stroke in solid):
+            continue
+        gaps = np.hypot(*(seen - at).T)
+        if gaps.min() > _BESIDE:
+            outline = shapes.rounded_hull(np.array([seen[gaps.argmin()], at]), 0.6 * SYMBOL)
+            arms.append(Drawn("body", outline, solid[0].tint, True, part.body))
+    return arms
+
+
+def _inner(scene: Scene, free: FreeBodies, group: Collection[str]) -> list[Array]:
+    """Springs, links and strings that are not cut."""
+    inside = {load.name for load in free.inside(*group)}
+    lines = [line for pair in scene.pairs if pair.name in inside for line in scene.pair_lines(pair)]
+    return lines + [cord.path[0] for cord in scene.cords if cord.name in inside and cord.shown[0]]
+
+
+def _pins(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> Array:
+    """Where the group's bodies are pinned, to each other or to others, (k, 2) in m."""
+    kinds = {joint["name"]: joint["type"] for joint in sketch.about["joints"]}
+    cut = [(load, part) for load in free.loads if kinds.get(load.name) in _PINNED for part in load.on]
+    places = [attached(load, part, sketch) for load, part in cut if part.body in group]
+    return np.unique(np.round(np.reshape(places, (-1, 2)), 12), axis=0)
+
+
+def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], scale: float) -> list[Tag]:
+    """Points with names of their own, each place once, and the mass centre of a single body."""
+    tags: list[Tag] = []
+    for name, (body, _) in sketch.at.items():
+        last, place = name.rpartition(".")[2], scale * sketch.place(name)
+        seen = any(np.hypot(*(tag.at - place)) < 1.0 for tag in tags)
+        if body in group and last not in UNTOLD and not seen:
+            tags.append(Tag(letter(last), place))
+    particles = {body["name"] for body in sketch.spec["bodies"] if body["particle"]}
+    if len(group) == 1 and not particles & set(group):
+        [place] = centres.values()
+        if not any(np.hypot(*(tag.at - place)) < 1.0 for tag in tags):
+            tags.append(Tag("G", place))
+    return tags
+
+
+def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bool, far: float) -> list[Dimension]:
+    """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
+    found = []
+    for measure in measures(sketch, radius=5.0):
+        if measure.second not in group:
+            continue
+        value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
+        arrow, guides = scale * measure.arrow, [scale * measure.guide]
+        length = float(np.hypot(*(arrow[-1] - arrow[0])))
+        aside = scale * measure.place - guides[0][0]
+        if measure.angle and measure.first not in group and np.hypot(*aside) > 1.0:
+            # The vertex is not on these bodies: the same angle at what they are held by.
+            end = arrow[-1] - guides[0][0]
+            guides = [guides[0] + aside, scale * measure.place + np.outer([0.0, 1.25], end)]
+            arrow = arrow + aside
+        elif not measure.angle and length > far:
+            arrow, guides = arrow[-1] + np.array([[_STUB / length], [0.0]]) * (arrow[0] - arrow[-1]), []
+        found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle))
+    return found

@@ -1,0 +1,145 @@
+"""What a diagram is called, says and becomes on paper."""
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from freebody.cli import app
+from freebody.model import Mechanism
+from freebody.views.diagram.layout import Ink, Label, placed
+from freebody.views.diagram.names import letter
+from freebody.views.diagram.paper import round_below
+
+GUN = "systems/S19.17/model.yaml"
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture(scope="module")
+def gun():
+    return Mechanism.load(GUN)
+
+
+def labels(cut):
+    return {mark.action.label for mark in cut.forces}
+
+
+def test_letters_are_short_and_those_of_the_model(gun):
+    rod, collar = gun.diagram().cuts
+    assert labels(rod) == {r"\mathrm{pivot}_{x}", r"\mathrm{pivot}_{y}", "N", "T"}
+    assert labels(collar) == {"N"}
+    assert {mark.action.label for mark in collar.effective} == {r"m_{2}\,a_x", r"m_{2}\,a_y"}
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [("m2", "m_{2}"), ("mA", "m_{A}"), ("phi[3]", r"\phi_{3}"), ("m_rod", r"m_{\mathrm{rod}}"), ("theta", r"\theta")],
+)
+def test_letters_of_names(name, shown):
+    assert letter(name) == shown
+
+
+def test_a_group_has_neither_the_forces_within_nor_its_bodies_alone(gun):
+    [both] = gun.diagram("rod+collar").cuts
+    assert both.group == ("rod", "collar")
+    assert labels(both) == {r"\mathrm{pivot}_{x}", r"\mathrm{pivot}_{y}", "T"}
+    assert [cut.group for cut in gun.diagram(["collar", "all"]).cuts] == [("collar",), ("rod", "collar")]
+
+
+def test_the_effective_side_may_be_left_out(gun):
+    assert not any(cut.effective for cut in gun.diagram(effective=False).cuts)
+
+
+def test_a_place_may_be_given(gun):
+    [cut] = gun.diagram("collar", theta="90 deg").cuts
+    [normal] = cut.forces
+    assert normal.head - normal.tail == pytest.approx([-np.hypot(*(normal.head - normal.tail)), 0], abs=1e-9)
+
+
+def test_svg_is_told_to_those_who_cannot_see_it_and_its_text_is_text(gun):
+    root = ElementTree.fromstring(gun.diagram()._repr_svg_())
+    assert root.get("role") == "img"
+    assert root[0].tag == f"{SVG}title" and gun.source().name in root[0].text
+    assert root[1].tag == f"{SVG}desc" and "pivot_x to the right on rod" in root[1].text
+    assert root.findall(f".//{SVG}text")
+
+
+def test_the_same_model_gives_the_same_picture(gun):
+    assert gun.diagram().svg() == Mechanism.load(GUN).diagram().svg()
+
+
+def test_a_body_that_is_none(gun):
+    with pytest.raises(ValueError, match="no body is called 'barrel'; there are rod, collar"):
+        gun.diagram("rod+barrel")
+
+
+def test_a_time_that_is_never_reached(gun):
+    with pytest.raises(ValueError, match="the motion ends at"):
+        gun.diagram(at="100 s")
+
+
+@pytest.mark.parametrize("suffix", ["svg", "png", "pdf"])
+def test_the_command_writes_a_picture(tmp_path, suffix):
+    file = tmp_path / f"fbd.{suffix}"
+    done = CliRunner().invoke(app, ["diagram", GUN, "-o", str(file), "--of", "all", "--at", "theta=30 deg", "--to-scale"])
+    assert done.exit_code == 0, done.output
+    assert file.stat().st_size > 1000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--of", "barrel"], "there are rod, collar"),
+        (["-o", "fbd.docx"], ".svg, .png or .pdf"),
+        (["--at", "1 s", "--at", "theta=0"], "--at takes one time, or coordinates"),
+    ],
+)
+def test_mistakes_are_said_in_a_line(arguments, said):
+    done = CliRunner().invoke(app, ["diagram", GUN, *arguments])
+    assert done.exit_code == 2
+    assert said in done.output
+
+
+def test_the_page_of_all_diagrams(tmp_path):
+    page = tmp_path / "page.html"
+    done = CliRunner().invoke(app, ["systems", "19.3.23", "--diagrams", "-o", str(page)])
+    assert done.exit_code == 0, done.output
+    text = page.read_text(encoding="utf-8")
+    assert text.count("<section>") == 3 and "no inertia" in text
+    own = [line.split('"')[0] for line in text.split(' id="')[1:]]
+    assert len(own) == len(set(own))
+
+
+def test_labels_of_one_place_make_room_for_each_other():
+    wanted = [Label(f"label {i}", np.zeros((1, 2)), 9.0, "k") for i in range(12)]
+    found = placed(wanted, Ink.of((np.zeros((1, 2)), 1.0)))
+    for i, a in enumerate(found):
+        for b in found[:i]:
+            assert (np.abs(a.centre - b.centre) >= a.half + b.half - 1e-9).any()
+
+
+@pytest.mark.parametrize(("value", "bar"), [(7.3, 5), (1.0, 1), (0.3, 0.2), (99, 50), (1e-3, 1e-3)])
+def test_a_scale_bar_is_of_a_round_number(value, bar):
+    assert round_below(value) == pytest.approx(bar)
+
+
+def test_a_time_of_the_motion(gun):
+    [then] = gun.diagram("collar", at="0.5 s", to_scale=True).cuts
+    run = gun.simulate("0.5 s")
+    [normal] = then.forces
+    size = np.hypot(*(normal.head - normal.tail)) / then.row.per_newton
+    assert size == pytest.approx(abs(run.evaluate("track.Fn", 0.5)), rel=1e-9)
+
+
+def test_what_was_released_acts_no_more():
+    m = Mechanism("two carts, released at the start", gravity=0)
+    bodies = [m.particle(name, mass=1) for name in ("a", "b")]
+    m.free(m.ground.O, bodies[0].centre, coordinates=["xa", "ya"])
+    m.free(m.ground.O, bodies[1].centre, coordinates=["xb", "yb"])
+    m.link(bodies[0].centre, bodies[1].centre, name="bar", length=1)
+    m.event("cut", at="start", then={"release": "bar"})
+    m.initial(xb=1)
+    before, after = m.diagram("a").cuts[0], m.diagram("a", at=0).cuts[0]
+    assert [mark.action.name for mark in before.forces] == ["bar"]
+    assert after.forces == []
