@@ -52,7 +52,10 @@ def every(count: int, seed: int, models: Sequence[str]) -> Iterator[Outcome]:
     """``count`` correct equations and as many mutants, of all models alike, made by two processes."""
     jobs = [(model, count // len(models) + (i < count % len(models))) for i, model in enumerate(models)]
     with get_context("spawn").Pool(2) as pool:
-        for found in pool.imap_unordered(partial(_of_model, seed=seed), jobs):
+        for i, found in enumerate(pool.imap_unordered(partial(_of_model, seed=seed), jobs), 1):
+            alarms = sum((o.kind is Kind.TRUE) == bool(o.slip) for o in found)
+            lost = sum(not o.found for o in found)
+            print(f"{i} of {len(jobs)} {found[0].model}: {alarms} wrong, {lost} not found", file=sys.stderr)
             yield from found
 
 
