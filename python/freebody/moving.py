@@ -81,6 +81,18 @@ class Moving:
 
         return minimal_form(*self._near(initial, t, changes))
 
+    def code(
+        self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+    ) -> str:
+        """Source of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
+        (C99). Changed parameters become the defaults; a changed place says no more than on which branch things are. Raises
+        ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.equations.program``."""
+        from freebody.equations.program import program
+
+        state, _ = self.start(initial, t, **changes)
+        with self.told():
+            return program(self.source(), state, language)
+
     def _near(
         self: Builder, initial: Mapping[str, Any] | None, t: float, changes: Mapping[str, Any]
     ) -> tuple[list[FreeBodies], dict[str, Any]]:

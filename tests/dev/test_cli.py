@@ -24,7 +24,7 @@ AT_RUN_TIME = {
     "no_equilibrium": "initial:",
     "spin_without_inertia": "crank:",
 }
-COMMANDS = ["run", "solve", "validate", "animate", "compare", "systems", "schema", "version"]
+COMMANDS = ["run", "solve", "validate", "animate", "compare", "systems", "code", "schema", "version"]
 
 
 def test_help_names_every_command(command):
@@ -43,6 +43,17 @@ def test_run_says_what_happened(command):
     for words in ("new gun: the event `leaves` ended the run, t = 1.14724 s", "exit speed", "2.36899", "work of motor", "pivot"):
         assert words in done.output
     assert "-0 " not in done.output and "parameter changes" not in done.output
+
+
+def test_code_is_printed_or_written(command, tmp_path):
+    printed = command("code", GUN, "--set", "l=2 m")
+    assert printed.exit_code == 0 and "'l': 2.0,  # [m]" in printed.output and "def accelerations(" in printed.output
+    assert "int accelerations(" in command("code", GUN, "--c").output
+    written = tmp_path / "gun.c"
+    assert command("code", GUN, "-o", str(written)).exit_code == 0
+    assert "int accelerations(" in written.read_text(encoding="utf-8")
+    refused = command("code", str(ROOT / "examples" / "tossed_box.yaml"))
+    assert refused.exit_code == 2 and "contacts.floor opens and closes" in refused.output
 
 
 def test_run_as_json_is_json(command, tmp_path):

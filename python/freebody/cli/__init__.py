@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from freebody.cli.code import code
 from freebody.cli.check import check
 from freebody.cli.mistakes import Guarded, Mistake
 
@@ -196,6 +197,7 @@ def systems(
         raise typer.Exit(BAD_END)
 
 
+app.command()(code)
 app.command()(check)
 
 

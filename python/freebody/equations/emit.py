@@ -61,7 +61,8 @@ class NumPy(Language):
         safe = [line.replace("\\", "\\\\").replace('"', "'") for line in header]
         top = ['"""Generated from the equations of a freebody model, in SI units and radians.', "", *safe, '"""']
         top += ["", "import numpy as np", "", "", "def _array(entries, shape):"]
-        top += ["    return np.stack(np.broadcast_arrays(*entries)).reshape(shape + np.broadcast(*entries).shape)"]
+        top += ["    entries = np.broadcast_arrays(*entries)"]
+        top += ["    return np.stack(entries).reshape(shape + entries[0].shape)"]
         return "\n\n\n".join(["\n".join(top), *functions]) + "\n"
 
 

@@ -2,9 +2,10 @@
 
 use super::atom::{Atom, AtomId, Factor, Function};
 use super::coefficient::Coefficient;
+use super::pretty::Known;
 use super::ratio::Ratio;
+use rustc_hash::FxHashMap;
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::rc::Rc;
 
 /// The position of a sum in the arena.
@@ -36,14 +37,15 @@ pub(super) type Lead = (MonomialId, Coefficient, SumId);
 #[derive(Default)]
 pub(crate) struct Arena {
     atoms: Vec<(Atom, f64)>,
-    atom_ids: HashMap<Atom, AtomId>,
+    atom_ids: FxHashMap<Atom, AtomId>,
     monomials: Vec<Rc<[Factor]>>,
-    monomial_ids: HashMap<Rc<[Factor]>, MonomialId>,
+    monomial_ids: FxHashMap<Rc<[Factor]>, MonomialId>,
     sums: Vec<Rc<[Term]>>,
-    sum_ids: HashMap<Rc<[Term]>, SumId>,
-    pub(super) products: HashMap<(MonomialId, MonomialId), SumId>,
-    pub(super) leads: HashMap<SumId, Option<Lead>>,
-    pub(super) rules: HashMap<Rc<str>, Rule>,
+    sum_ids: FxHashMap<Rc<[Term]>, SumId>,
+    pub(super) products: FxHashMap<(MonomialId, MonomialId), SumId>,
+    pub(super) leads: FxHashMap<SumId, Option<Lead>>,
+    pub(super) known: Known,
+    pub(super) rules: FxHashMap<Rc<str>, Rule>,
 }
 
 thread_local! {

@@ -2,7 +2,6 @@
 
 use super::arena::{Arena, SumId, Term};
 use super::atom::{with_exponent, AtomId, Factor};
-use super::coefficient::Coefficient;
 use super::ratio::Ratio;
 
 impl Arena {
@@ -17,9 +16,8 @@ impl Arena {
             let mut found = factors.iter().enumerate().filter_map(|(at, f)| place(f).map(|k| (at, k)));
             match (found.next(), found.next()) {
                 (Some((at, k)), None) => {
-                    let without = self.product_of(with_exponent(&factors, at, Ratio::ZERO), Coefficient::ONE);
-                    let scaled = self.scale(without, coefficient);
-                    parts[k].extend(self.terms(scaled).iter().copied());
+                    let without = self.monomial(with_exponent(&factors, at, Ratio::ZERO));
+                    parts[k].push((without, coefficient));
                 }
                 _ => rest.push((monomial, coefficient)),
             }

@@ -2,10 +2,13 @@
 
 use super::limits::force_on_first;
 use super::reactions::joint_load;
-use super::{Balance, JointLoad, Reached, Trouble};
-use crate::contact::complementarity::{self, Strike};
+use super::{Balance, JointLoad, Reached, Scale, Trouble};
+use crate::contact::complementarity::{self, Problem, Strike};
 use crate::contact::Friction;
 use crate::plane::{Twist, Vec2, Wrench};
+
+/// Within a jam loads act for this part of the time in which they would bring about a speed that counts.
+const BRIEF: f64 = 0.1;
 
 /// A blow: what impulses through limits did.
 #[derive(Clone, Debug)]
@@ -38,6 +41,27 @@ impl Balance<'_> {
         let friction: Vec<f64> = reached.limits.iter().map(|&l| self.friction_of(l)).collect();
         let strike = Strike { g: &reached.g, before: &reached.rates, restitution, friction: &friction };
         let (impulses, note) = settle(&strike)?;
+        Ok(self.blow_of(reached, impulses, note))
+    }
+
+    /// The blow by which limits that have no motion under Coulomb's law come to one; None where each has one already.
+    ///
+    /// # Errors
+    /// `no_impact`; as [`Balance::solve`].
+    pub fn jam(&mut self, reached: &Reached, scale: Scale) -> Result<Option<Blow>, Trouble> {
+        let (free, slips) = (self.free_accelerations(reached)?, reached.slips());
+        let grips = self.grips(reached, &slips, scale.still);
+        let problem = Problem { g: &reached.g, free: &free, grips: &grips };
+        let fastest = free.iter().fold(scale.pace, |most, a| most.max(a.abs()));
+        let impulses = complementarity::jam(&problem, &slips, BRIEF * scale.still / fastest).map_err(|e| {
+            let sentence = format!("no impulses at {} end the jam: {e}", self.names_of(&reached.limits));
+            Trouble::new("no_impact", sentence)
+        })?;
+        let note = Some("the contact jammed: an impact without a collision".to_string());
+        Ok(impulses.map(|impulses| self.blow_of(reached, impulses, note)))
+    }
+
+    fn blow_of(&mut self, reached: &Reached, impulses: complementarity::Impulses, note: Option<String>) -> Blow {
         let p: Vec<f64> = impulses.normal.iter().chain(&impulses.tangent).copied().collect();
         let mut force = vec![0.0; self.m.freedom()];
         for (i, &p) in p.iter().enumerate() {
@@ -50,7 +74,7 @@ impl Balance<'_> {
         let k = reached.len();
         let on_first = (0..k).map(|i| self.on_first(reached, i, p[i], p[k + i])).collect();
         let (normal, tangent) = (impulses.normal, impulses.tangent);
-        Ok(Blow { change, normal, tangent, on_first, joints, note })
+        Blow { change, normal, tangent, on_first, joints, note }
     }
 
     /// The impulses by which the present closing rows come to rest, limits apart from those that carry.

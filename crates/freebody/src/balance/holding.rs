@@ -89,6 +89,11 @@ impl Balance<'_> {
         slide_row(self.at(), limit, None).and_then(|row| row.rate).unwrap_or(0.0)
     }
 
+    /// The speed at which a gap opens at the present state, m/s.
+    pub fn gap_rate(&self, limit: usize) -> f64 {
+        gap_row(self.at(), limit, None).rate.unwrap_or(0.0)
+    }
+
     /// Accelerations of gaps in the last solution, m/s².
     pub fn gap_accelerations(&self, limits: &[usize]) -> Vec<f64> {
         limits.iter().map(|&l| gap_row(self.at(), l, Some(&self.solved.bodies)).bias).collect()

@@ -168,8 +168,7 @@ impl Balance<'_> {
         }
         // Round-off is no reason to part.
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);
-        let grips: Vec<Grip> =
-            reached.limits.iter().zip(slips).map(|(&l, &slip)| self.grip(l, slip, scale.still)).collect();
+        let grips = self.grips(reached, slips, scale.still);
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
         match complementarity::solve(&problem) {
             Verdict::Solved(answer) => Ok(holding(&answer, &problem, scale.pace)),
@@ -231,6 +230,10 @@ impl Balance<'_> {
             }
         }
         self.solve_by(super::Route::Minimal)
+    }
+
+    pub(super) fn grips(&self, reached: &Reached, slips: &[f64], still: f64) -> Vec<Grip> {
+        reached.limits.iter().zip(slips).map(|(&l, &slip)| self.grip(l, slip, still)).collect()
     }
 
     fn grip(&self, limit: usize, slip: f64, still: f64) -> Grip {

@@ -4,7 +4,7 @@ use super::rows::closing_rows;
 use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Trouble, CANCELLED};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
-use crate::solve::{Matrix, Saddle, SaddleError};
+use crate::solve::{Islands, Matrix, SaddleError};
 
 /// Memory of the dense solution.
 #[derive(Clone, Debug, Default)]
@@ -12,7 +12,7 @@ pub struct Dense {
     pub(super) mass: Matrix,
     pub(super) g: Matrix,
     b: Matrix,
-    pub(super) saddle: Saddle,
+    pub(super) saddle: Islands,
 }
 
 /// Along what the multipliers act.

@@ -69,15 +69,11 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
     }
     for (limit, held) in at.mode.limits.iter().enumerate() {
         match held.hold {
-            Hold::Smooth | Hold::Sliding(_) => rows.push(gap_row(at, limit, base)),
+            // What leans is kept from sliding by the rows of others.
+            Hold::Smooth | Hold::Leaning(_) | Hold::Sliding(_) => rows.push(gap_row(at, limit, base)),
             Hold::Stuck => {
                 rows.push(gap_row(at, limit, base));
                 rows.extend(slide_row(at, limit, base));
-            }
-            // It does not slide, but no force of its own sees to that.
-            Hold::Leaning(_) => {
-                rows.push(gap_row(at, limit, base));
-                rows.extend(slide_row(at, limit, base).map(|row| Row { force: Some(vec![]), ..row }));
             }
             Hold::Off | Hold::Open | Hold::Pressed | Hold::Idle => {}
         }

@@ -5,21 +5,27 @@ use crate::balance::Spread;
 use crate::expr::spell;
 use crate::forces::Push;
 use crate::gauges::{gradient, Placed, State};
-use crate::mechanism::Part as Piece;
+use crate::mechanism::{Mechanism, Part as Piece};
 use crate::plane::vec2;
 use crate::scalar::Scalar;
 
 /// The weight of every body that has one.
 pub fn weights<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
     for (body, of) in at.m.bodies.iter().enumerate().skip(1) {
-        let force = at.n.gravity * at.n.mass[body];
-        if force.x.value() == 0.0 && force.y.value() == 0.0 {
+        if weightless(at.m, body) {
             continue;
         }
+        let force = at.n.gravity * at.n.mass[body];
         let parts = vec![Part { body, point: mass_centre(at, body), force, couple: S::zero() }];
         let symbol = format!("{}.weight", spell(&of.name));
         out.push(Load { origin: Origin::Weight(body), symbol, of: [0, body], parts, size: Size::Known });
     }
+}
+
+/// Whether the model itself says that a body weighs nothing, whatever its parameters are.
+fn weightless(m: &Mechanism, body: usize) -> bool {
+    let never = |slot: usize| m.slots[slot].literal() == Some(0.0);
+    m.gravity.into_iter().all(never) || m.bodies[body].pieces.iter().all(|piece| never(piece.mass))
 }
 
 /// Every force of the model that is in place, all that it does together.

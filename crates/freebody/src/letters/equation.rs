@@ -3,7 +3,7 @@
 //! The group moves as one, virtually: turned about a point P, or shifted along a direction e. The power of all loads on it is
 //! then that of its rate of momentum: Σ M/P = Ḣ/P, or Σ F·e = L̇·e. Loads between its own bodies cancel.
 
-use super::question::{About, Along, Group};
+use super::question::{About, Along, Group, Parts};
 use super::vectors::{tree, tree_by};
 use super::Letters;
 use crate::algebra::{Letter, Tree};
@@ -175,36 +175,33 @@ impl Letters<'_> {
         sum
     }
 
-    /// The equation with all that it is made of.
-    pub(super) fn equation(&self, bodies: &[usize], test: Test) -> Value {
+    /// The equation, with as much of what it is made of as is asked for.
+    pub(super) fn equation(&self, bodies: &[usize], test: Test, parts: Parts) -> Value {
         let moments = self.moments(bodies, test);
-        let (mut left, mut right, mut momentum) = (Symbol::zero(), Symbol::zero(), Symbol::zero());
-        for (_, moment, internal) in &moments {
-            if !internal {
-                left += *moment;
-            }
-        }
-        let mut inertia = vec![];
-        for &b in bodies {
-            let rate = self.momentum_rate(b, test);
-            right += rate;
-            momentum += self.momentum(b, test);
-            inertia.push(json!({"body": self.m.bodies[b].name, "tree": tree(rate), "zero": rate.is_zero()}));
-        }
-        let loads: Vec<Value> = moments
-            .iter()
-            .map(|(i, moment, internal)| {
-                json!({"load": i, "tree": tree(*moment), "zero": moment.is_zero(), "internal": internal})
-            })
-            .collect();
+        let left = moments.iter().filter(|(_, _, internal)| !internal).fold(Symbol::zero(), |sum, m| sum + m.1);
+        let rates: Vec<(usize, Symbol)> = bodies.iter().map(|&b| (b, self.momentum_rate(b, test))).collect();
+        let right = rates.iter().fold(Symbol::zero(), |sum, rate| sum + rate.1);
         let unknowns = self.unknowns();
         let residual = right - left;
-        json!({
-            "bodies": bodies.iter().map(|&b| &self.m.bodies[b].name).collect::<Vec<_>>(),
-            "test": self.told(test), "loads": loads, "inertia": inertia, "momentum": tree(momentum),
+        let mut told = json!({
+            "bodies": bodies.iter().map(|&b| &self.m.bodies[b].name).collect::<Vec<_>>(), "test": self.told(test),
             "left": tree_by(left, &unknowns), "right": tree_by(right, &unknowns),
             "residual": tree_by(residual, &unknowns), "linear": self.linear(residual),
-        })
+        });
+        if parts.terms {
+            let load = |(i, moment, internal): &(usize, Symbol, bool)| {
+                let told = if *internal { Symbol::zero() } else { *moment };
+                json!({"load": i, "tree": tree(told), "zero": moment.is_zero(), "internal": internal})
+            };
+            let inertia = |&(b, rate): &(usize, Symbol)| json!({"body": self.m.bodies[b].name, "tree": tree(rate), "zero": rate.is_zero()});
+            told["loads"] = moments.iter().map(load).collect();
+            told["inertia"] = rates.iter().map(inertia).collect();
+        }
+        if parts.momentum {
+            let momentum = bodies.iter().fold(Symbol::zero(), |sum, &b| sum + self.momentum(b, test));
+            told["momentum"] = json!(tree(momentum));
+        }
+        told
     }
 
     fn told(&self, test: Test) -> Value {

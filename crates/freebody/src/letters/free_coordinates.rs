@@ -5,11 +5,12 @@ use super::motion::acceleration;
 use super::vectors::tree_by;
 use super::{sizes, Letters};
 use crate::algebra::{Letter, Tree};
-use crate::balance::joint_rows;
-use crate::balance::{closing_rows, Row};
+use crate::balance::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{loads, Load, Size};
 use crate::gauges::Placed;
+use crate::joints::Joint as _;
 use crate::kinematics::Kinematics;
+use crate::mechanism::Part;
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
 use crate::scalar::{Scalar, Symbol};
 use serde_json::{json, Value};
@@ -69,17 +70,44 @@ impl Letters<'_> {
         unknowns.extend(open.map(|l| Letter::new(&l.symbol, 0)));
         let balances: Vec<Value> =
             self.m.listed_bodies().into_iter().flat_map(|i| self.balances(&free, i, &all, &sizes, &unknowns)).collect();
-        let mut rows: Vec<Row<Symbol>> = vec![];
+        let told: Vec<Value> = self.free_rows(&free, at).iter().map(|row| self.row_in(row, &unknowns)).collect();
+        json!({
+            "coordinates": free.coordinates, "unknowns": unknowns.iter().map(|l| Tree::letter(&l.name, l.dots)).collect::<Vec<_>>(), "balances": balances,
+            "rows": told,
+        })
+    }
+
+    /// What all joints, motions and limits ask of bodies that are free otherwise; pins along fixed axes.
+    fn free_rows(&self, free: &Free, at: Placed<'_, Symbol>) -> Vec<Row<Symbol>> {
+        let mut rows = vec![];
         for (index, joint) in self.m.joints.iter().enumerate() {
-            if joint.child.is_some() && joint.curve.is_none() && !joint.rows.is_empty() {
+            if joint.curve.is_none() && !joint.rows.is_empty() && at.mode.has(Part::Joint(index)) {
                 joint_rows(at, index, Some(&free.bodies), &mut rows);
             }
         }
-        rows.extend(closing_rows(at, Some(&free.bodies)));
-        json!({
-            "coordinates": free.coordinates, "unknowns": unknowns.iter().map(|l| Tree::letter(&l.name, l.dots)).collect::<Vec<_>>(), "balances": balances,
-            "rows": rows.iter().map(|row| self.row(row)).collect::<Vec<_>>(),
-        })
+        let tree = |row: &Row<Symbol>| matches!(row.source, Source::Joint(..));
+        rows.extend(closing_rows(at, Some(&free.bodies)).into_iter().filter(|row| !tree(row)));
+        for row in &mut rows {
+            let Source::Joint(joint, r) = row.source else { continue };
+            if let Some(axis) = self.m.joints[joint].kind.card().rows[r].pin {
+                let [value, rate, bias] = self.apart(free, joint).map(|v| [v.x, v.y][axis]);
+                (row.value, row.rate, row.bias) = (Some(value), Some(rate), bias);
+            }
+        }
+        rows
+    }
+
+    /// From the first point of a pin to the second, with its rate and its acceleration.
+    fn apart(&self, free: &Free, joint: usize) -> [Vec2<Symbol>; 3] {
+        let joint = &self.m.joints[joint];
+        let place = |site: usize| -> [Vec2<Symbol>; 3] {
+            let body = self.m.body_of(site);
+            let (pose, twist) = (free.k.pose[body], free.k.twist[body]);
+            let arm = pose.turn.apply(self.n.arms[site]);
+            [pose.at + arm, twist.at(arm), acceleration(free.bodies[body], arm, twist.w)]
+        };
+        let (first, second) = (place(joint.first.site), place(joint.second.site));
+        std::array::from_fn(|i| second[i] - first[i])
     }
 
     fn balances(

@@ -1,5 +1,6 @@
 //! Kinematics in letters: every mass centre, a point seen from a moving body, and what loops and motions ask.
 
+use super::equation::linear_in;
 use super::vectors::{tell, tree};
 use super::Letters;
 use crate::algebra::Letter;
@@ -55,7 +56,12 @@ impl Letters<'_> {
         Value::Array(rows.iter().map(|row| self.row(row)).collect())
     }
 
-    pub(super) fn row(&self, row: &Row<Symbol>) -> Value {
+    fn row(&self, row: &Row<Symbol>) -> Value {
+        self.row_in(row, &self.unknowns())
+    }
+
+    /// A row with its acceleration as coefficients of unknowns.
+    pub(super) fn row_in(&self, row: &Row<Symbol>, unknowns: &[Letter]) -> Value {
         let kind = match row.source {
             Source::Joint(..) => "joint",
             Source::Drive(drive) if self.m.drives[drive].coupling => "coupling",
@@ -65,7 +71,7 @@ impl Letters<'_> {
         };
         json!({
             "name": row.source.name(self.m), "kind": kind, "value": row.value.map(tree), "rate": row.rate.map(tree),
-            "acceleration": tree(row.bias), "linear": self.linear(row.bias),
+            "acceleration": tree(row.bias), "linear": linear_in(row.bias, unknowns),
         })
     }
 }

@@ -41,6 +41,22 @@ pub enum Along {
     Body(String),
 }
 
+/// What is told with an equation.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default)]
+pub struct Parts {
+    /// What each load and each body gives to it; loads within the group, which cancel, are not written.
+    pub terms: bool,
+    /// The momentum of the group.
+    pub momentum: bool,
+}
+
+impl Default for Parts {
+    fn default() -> Self {
+        Parts { terms: true, momentum: true }
+    }
+}
+
 /// One question.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case")]
@@ -55,11 +71,17 @@ pub enum Question {
         about: Option<About>,
         /// The direction.
         along: Option<Along>,
+        /// What is told with it.
+        #[serde(flatten)]
+        parts: Parts,
     },
     /// The balance equation of a coordinate: of the bodies that it carries, in the sense in which it moves them.
     Coordinate {
         /// Its name.
         name: String,
+        /// What is told with it.
+        #[serde(flatten)]
+        parts: Parts,
     },
     /// What loops, motions and closed limits ask: the value, rate and acceleration that must vanish.
     Rows,
@@ -122,14 +144,14 @@ impl Letters<'_> {
     fn answer(&self, question: &Question) -> Result<Value, Trouble> {
         match question {
             Question::Kinematics => Ok(self.kinematics()),
-            Question::Equation { bodies, about, along } => {
+            Question::Equation { bodies, about, along, parts } => {
                 let bodies = self.group(bodies)?;
                 let test = self.test(about.as_ref(), along.as_ref(), &bodies)?;
-                Ok(self.equation(&bodies, test))
+                Ok(self.equation(&bodies, test, *parts))
             }
-            Question::Coordinate { name } => {
+            Question::Coordinate { name, parts } => {
                 let (bodies, test) = self.of_coordinate(self.coordinate(name)?);
-                Ok(self.equation(&bodies, test))
+                Ok(self.equation(&bodies, test, *parts))
             }
             Question::Rows => Ok(self.rows()),
             Question::Constraints => Ok(self.constraints()),

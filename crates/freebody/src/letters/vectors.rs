@@ -24,7 +24,7 @@ pub fn tell(v: Vec2<Symbol>, coordinates: &[Letter]) -> Value {
             continue;
         }
         let (sin, cos) = angle.sin_cos();
-        rest = rest - Vec2 { x: along * cos - across * sin, y: along * sin + across * cos };
+        rest -= Vec2 { x: along * cos - across * sin, y: along * sin + across * cos };
         told.push(json!({"angle": tree(angle), "along": tree(along), "across": tree(across)}));
     }
     json!({"directions": told, "i": tree(rest.x), "j": tree(rest.y), "xy": [tree(v.x), tree(v.y)]})

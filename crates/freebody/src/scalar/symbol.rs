@@ -109,13 +109,13 @@ impl Symbol {
     }
     /// The expression as a person writes it.
     pub fn tree(self) -> Tree {
-        self.tree_by(&[])
+        with(|arena| arena.tree(self.id))
     }
     /// The same, as a sum of one term for each of `letters` that occurs linearly, and the rest.
     pub fn tree_by(self, letters: &[Letter]) -> Tree {
         with(|arena| {
             let letters: Vec<_> = letters.iter().map(|letter| arena.letter_id(letter)).collect();
-            arena.tree(self.id, &letters)
+            arena.tree_by(self.id, &letters)
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Guards: functions that stay positive as long as the mode holds.
 
-use super::switching::REACHED;
+use super::switching::{REACHED, STILL};
 use super::Machine;
 use crate::balance::{Route, Trouble};
 use crate::contact::Gap;
@@ -10,6 +10,9 @@ use crate::mode::Hold;
 pub(super) const GUARDS: usize = 4;
 /// Guards of each joint that rubs: friction in either direction, or the speed.
 pub(super) const RUB_GUARDS: usize = 2;
+
+/// Speed, over the mechanism's own, from which what leaned on others slides: well above what counts as none.
+const LOOSE: f64 = 10.0 * STILL;
 
 impl Machine<'_> {
     /// The values of the guards of all limits: positive as long as the mode holds.
@@ -57,8 +60,10 @@ impl Machine<'_> {
                 for (value, margin) in values.iter_mut().zip(margins) {
                     *value = margin / self.strength;
                 }
-                if let Hold::Sliding(sense) = held.hold {
-                    values[1] = sense * self.balance.slide_rate(l) / self.speed;
+                match held.hold {
+                    Hold::Sliding(sense) => values[1] = sense * self.balance.slide_rate(l) / self.speed,
+                    Hold::Leaning(_) => values[1] = LOOSE - self.balance.slide_rate(l).abs() / self.speed,
+                    _ => {}
                 }
             }
         }

@@ -147,23 +147,28 @@ impl Machine<'_> {
     }
 
     /// Contacts that jam seize: the impact without a collision that brings their sliding to an end (Génot & Brogliato
-    /// 1999, *European Journal of Mechanics A* 18).
-    pub(super) fn seize(&mut self, t: f64, y: &mut [f64], limits: &[usize]) -> Result<(), Trouble> {
-        for &limit in limits {
-            self.balance.mode.limits[limit].hold = Hold::Stuck;
-        }
-        let (n, before) = (self.balance.m.freedom(), y.to_vec());
+    /// 1999, *European Journal of Mechanics A* 18). Answers whether anything did.
+    pub(super) fn seize(&mut self, t: f64, y: &mut [f64], limits: &[usize]) -> Result<bool, Trouble> {
         self.place(t, y);
-        let energy = self.balance.kinetic_energy();
-        let blow = self.balance.joining_blow()?;
+        let reached = self.balance.reach(limits.to_vec())?;
+        let (n, before, energy) = (self.balance.m.freedom(), y.to_vec(), self.balance.kinetic_energy());
+        let scale = self.judgement();
+        let Some(blow) = self.balance.jam(&reached, scale)? else { return Ok(false) };
         y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
         self.place(t, y);
-        let lost = energy - self.balance.kinetic_energy();
-        let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
-        let note = Some("the contact jammed: an impact without a collision".to_string());
-        let (impulses, states) = (Some(Impulses { limits: vec![], joints }), Some([before, y.to_vec()]));
-        self.note_jump(Change { t, kind: "impact", of: self.names(limits), lost, states, impulses, note });
-        Ok(())
+        let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
+        let jammed = (0..reached.limits.len()).filter(|&i| blow.normal[i] > NOTHING * most);
+        let jammed: Vec<usize> = jammed.map(|i| reached.limits[i]).collect();
+        self.note_jump(Change {
+            t,
+            kind: "impact",
+            of: self.names(&jammed),
+            lost: energy - self.balance.kinetic_energy(),
+            states: Some([before, y.to_vec()]),
+            impulses: Some(self.impulses(&reached, &blow)),
+            note: blow.note,
+        });
+        Ok(true)
     }
 }
 
@@ -178,20 +183,17 @@ fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::
     };
     let settled = match (complementarity::settle(strike, law), rule) {
         (Ok(settled), _) => settled,
-        (Err(NoImpact::Ambiguous(all)), Rule::Law(_)) => return Ok(least(all)),
+        (Err(NoImpact::Ambiguous(all)), Rule::Law(_)) => {
+            let n = all.len();
+            let note = format!("Taken as plastic, and of {n} outcomes as the one that leaves least energy.");
+            return Ok((complementarity::least(all), Some(note)));
+        }
         (Err(e), _) => {
             return Err(Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))
         }
     };
     let note = (!settled.notes.is_empty()).then(|| settled.notes.join("; "));
     Ok((settled.impulses, note))
-}
-
-/// Of plastic impacts that all satisfy Coulomb's law the one that leaves least energy.
-fn least(all: Vec<complementarity::Impulses>) -> (complementarity::Impulses, Option<String>) {
-    let note = format!("Taken as plastic, and of {} outcomes as the one that leaves least energy.", all.len());
-    let least = all.into_iter().min_by(|a, b| a.work.total_cmp(&b.work)).expect("several outcomes");
-    (least, Some(note))
 }
 
 fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> Trouble {

@@ -10,6 +10,8 @@ use crate::motion::System;
 pub(super) const REACHED: f64 = 1e-10;
 /// Speed, over the mechanism's own, below which there is none.
 pub(super) const STILL: f64 = 1e-10;
+/// The troubles in which friction lets no motion go on, or none that was found.
+const JAMS: [&str; 2] = ["painleve_inconsistent", "contact_unsolved"];
 /// Impacts that one instant may hold.
 const ROUNDS: usize = 100;
 
@@ -80,7 +82,7 @@ impl Machine<'_> {
     fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
-        let (still, mut seized, mut struck) = (STILL * self.speed, false, vec![]);
+        let (still, mut struck) = (STILL * self.speed, vec![]);
         for _ in 0..ROUNDS {
             // Joints pass impulses on without friction.
             self.balance.mode.rubs.fill(Hold::Open);
@@ -96,9 +98,10 @@ impl Machine<'_> {
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| reached.rates[i] > still);
             let staying: Vec<usize> = staying.iter().map(|&i| reached.limits[i]).collect();
             match self.stick(t, y, &staying, loose) {
-                Err(trouble) if self.jams_strike && !seized && trouble.name == "painleve_inconsistent" => {
-                    self.seize(t, y, &staying)?;
-                    seized = true;
+                Err(trouble) if self.jams_strike && JAMS.contains(&trouble.name) => {
+                    if !self.seize(t, y, &staying)? {
+                        return Err(trouble);
+                    }
                     continue;
                 }
                 done => done?,
@@ -158,6 +161,11 @@ impl Machine<'_> {
                 self.balance.mode.limits[l].hold = Hold::Stuck;
             }
         }
+        // What opens does not approach any more, by however little.
+        self.balance.place(t, q, &rest[..n]);
+        let opening = reached.iter().filter(|&&l| holds[l] == Hold::Open && self.balance.gap_rate(l) < 0.0);
+        let opening: Vec<usize> = opening.copied().collect();
+        opening.iter().for_each(|&l| self.balance.mode.limits[l].hold = Hold::Smooth);
         let aligned = self.balance.align(t, q, &mut rest[..n]);
         self.balance.mode.limits.iter_mut().zip(holds).for_each(|(held, hold)| held.hold = hold);
         aligned?;
@@ -173,8 +181,7 @@ impl Machine<'_> {
 
     /// Decides how limits that neither approach nor part go on.
     fn take_holds(&mut self, t: f64, y: &[f64], limits: &[usize]) -> Result<(), Trouble> {
-        let (still, pace) = (STILL * self.speed, self.speed * self.speed / self.balance.length);
-        let scale = Scale { still, pace, stay: self.rule != Rule::Stop };
+        let scale = self.judgement();
         self.place(t, y);
         let reached = self.balance.reach(limits.to_vec())?;
         let slips = reached.slips();
@@ -192,6 +199,12 @@ impl Machine<'_> {
         self.balance.take(&reached, &holding);
         self.place(t, y);
         self.balance.share(&reached, &holding)
+    }
+
+    /// What counts as slow, and what is done where nothing decides.
+    pub(super) fn judgement(&self) -> Scale {
+        let pace = self.speed * self.speed / self.balance.length;
+        Scale { still: STILL * self.speed, pace, stay: self.rule != Rule::Stop }
     }
 
     /// A time that is short beside any of the motion, s.

@@ -1,11 +1,12 @@
 //! Linear algebra of one instant of a mechanism: M a − Bᵀ λ = f, G a = r.
 //!
 //! [`Saddle`] is the dense solver, exact about rank and about directions without inertia; it suits
-//! mechanisms of up to some forty unknowns. [`Pattern`] and [`Factor`] solve the symmetric case for
+//! mechanisms of up to some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart. [`Pattern`] and [`Factor`] solve the symmetric case for
 //! thousands of bodies, at a cost that grows with the fill. The rest is what they stand on.
 
 mod dense;
 mod gmres;
+mod islands;
 mod ldl;
 mod matrix;
 mod ordering;
@@ -15,6 +16,7 @@ mod simplex;
 mod sparse;
 
 pub use dense::{Lu, Singular};
+pub use islands::Islands;
 pub use matrix::Matrix;
 pub use ordering::minimum_degree;
 pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};

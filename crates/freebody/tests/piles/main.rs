@@ -63,7 +63,7 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
         options: Options { max_steps: 200_000, ..Options::default() },
         route: None,
         impacts: Rule::Law(Law::Newton),
-        jams_strike: false,
+        jams_strike: true,
     };
     let clock = Instant::now();
     let start = Start { p: &[], t: 0.0, q: &q, u: &u, mode: None };
@@ -113,7 +113,7 @@ fn nothing_goes_through_anything_and_no_energy_comes_from_nowhere() {
 
 /// All of them, for five seconds. PILES=from..to or a list of seeds chooses others.
 #[test]
-#[ignore = "takes minutes, and fails: three quarters of the piles complete, not 95 %"]
+#[ignore = "takes an hour, and fails: of the piles of ten bodies and more some end by a named trouble, and in two an impact gains energy"]
 fn a_hundred_piles_come_to_rest() {
     let wish = std::env::var("PILES").unwrap_or("0..100".into());
     let seeds: Vec<u64> = match wish.split_once("..") {

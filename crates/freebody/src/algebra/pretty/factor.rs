@@ -1,18 +1,30 @@
 //! Factoring by collecting: the same terms, grouped by what they share, in the way that leaves the
 //! least to read.
 
-use super::super::arena::Arena;
+use super::super::arena::{Arena, SumId};
 use super::super::atom::{inverted, joined, Atom, AtomId, Factor};
 use super::super::coefficient::Coefficient;
 use super::super::ratio::Ratio;
 use super::form::{number_cost, Form, Poly, Product};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Up to this number of terms every letter is tried as what to collect by.
 const FEW: usize = 12;
-/// Up to this number of terms every pair of kinds is tried.
-const MANY: usize = 400;
+
+/// A sum as Σ (Σ numbers · keys) · rest.
+type Collected = Vec<(Poly, Poly)>;
+
+/// How many of the most promising ways to collect a sum are followed to their end.
+fn followed(terms: usize) -> usize {
+    match terms {
+        0..=5 => usize::MAX,
+        6..=16 => 3,
+        17..=60 => 2,
+        _ => 1,
+    }
+}
 
 /// What kind of thing an atom is to a reader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,17 +34,19 @@ pub(super) enum Kind {
     Rate,
 }
 
-pub(super) struct Writer<'a> {
-    pub(super) arena: &'a mut Arena,
-    known: HashMap<Poly, Rc<Product>>,
-    costs: HashMap<AtomId, usize>,
+/// What has been written in this session.
+#[derive(Default)]
+pub(in super::super) struct Known {
+    factored: FxHashMap<Poly, Rc<Product>>,
+    pub(super) whole: FxHashMap<SumId, Rc<Product>>,
+    costs: FxHashMap<AtomId, usize>,
 }
 
-impl<'a> Writer<'a> {
-    pub(super) fn new(arena: &'a mut Arena) -> Self {
-        Writer { arena, known: HashMap::new(), costs: HashMap::new() }
-    }
+pub(super) struct Writer<'a> {
+    pub(super) arena: &'a mut Arena,
+}
 
+impl Writer<'_> {
     pub(super) fn kind(&self, id: AtomId) -> Kind {
         match self.arena.atom(id) {
             Atom::Letter(letter) if letter.dots > 0 => Kind::Rate,
@@ -43,7 +57,7 @@ impl<'a> Writer<'a> {
 
     /// The factored form of a sum.
     pub(super) fn factor(&mut self, poly: &Poly) -> Rc<Product> {
-        if let Some(known) = self.known.get(poly) {
+        if let Some(known) = self.arena.known.factored.get(poly) {
             return known.clone();
         }
         let (content, number, rest) = Self::pulled(poly);
@@ -53,7 +67,7 @@ impl<'a> Writer<'a> {
             _ => outer.times(self.best(&rest)),
         };
         let product = Rc::new(product);
-        self.known.insert(poly.clone(), product.clone());
+        self.arena.known.factored.insert(poly.clone(), product.clone());
         product
     }
 
@@ -62,7 +76,7 @@ impl<'a> Writer<'a> {
         let mut product = Product { number, factors: vec![], cost: number_cost(number) };
         for &(id, e) in factors {
             product = match *self.arena.atom(id) {
-                Atom::Group(of) if e.is_whole() => product.times(self.whole(of).raised(e)),
+                Atom::Group(of) if e.is_whole() => product.times((*self.whole(of)).clone().raised(e)),
                 _ => {
                     product.factors.push((Form::Atom(id), e));
                     product.cost += self.atom_cost(id) + usize::from(e != Ratio::ONE);
@@ -73,7 +87,7 @@ impl<'a> Writer<'a> {
         product
     }
     fn atom_cost(&mut self, id: AtomId) -> usize {
-        if let Some(&cost) = self.costs.get(&id) {
+        if let Some(&cost) = self.arena.known.costs.get(&id) {
             return cost;
         }
         let inside = match self.arena.atom(id) {
@@ -91,7 +105,7 @@ impl<'a> Writer<'a> {
                 cost += number + factors.iter().map(|f| self.atom_cost(f.0)).sum::<usize>();
             }
         }
-        self.costs.insert(id, cost);
+        self.arena.known.costs.insert(id, cost);
         cost
     }
 
@@ -110,11 +124,15 @@ impl<'a> Writer<'a> {
         }
         let terms = poly.iter().map(|(factors, c)| self.single(factors, *c)).collect();
         let mut best = Product::of_sum(terms);
-        for keys in self.groupings(poly) {
-            if let Some(collected) = self.collected(poly, &keys) {
-                if collected.cost < best.cost {
-                    best = collected;
-                }
+        let ways = self.groupings(poly).into_iter().filter_map(|keys| collected(poly, &keys)).enumerate();
+        let mut ways: Vec<(usize, usize, Collected)> = ways.map(|(at, way)| (self.outlook(&way), at, way)).collect();
+        ways.sort_by_key(|way| way.0);
+        ways.truncate(followed(poly.len()));
+        ways.sort_by_key(|way| way.1);
+        for (_, _, way) in ways {
+            let gathered = self.gathered(&way);
+            if gathered.cost < best.cost {
+                best = gathered;
             }
         }
         best
@@ -124,12 +142,8 @@ impl<'a> Writer<'a> {
     fn groupings(&self, poly: &Poly) -> Vec<BTreeSet<AtomId>> {
         use Kind::{Function, Parameter, Rate};
         let atoms: BTreeSet<AtomId> = poly.iter().flat_map(|term| term.0.iter().map(|f| f.0)).collect();
-        let sets: &[&[Kind]] = match poly.len() {
-            0..=MANY => {
-                &[&[Rate], &[Rate, Function], &[Function], &[Parameter], &[Parameter, Function], &[Parameter, Rate]]
-            }
-            _ => &[&[Rate], &[Rate, Function]],
-        };
+        let sets: [&[Kind]; 6] =
+            [&[Rate], &[Rate, Function], &[Function], &[Parameter], &[Parameter, Function], &[Parameter, Rate]];
         let of_kinds = |kinds: &&[Kind]| atoms.iter().copied().filter(|&id| kinds.contains(&self.kind(id))).collect();
         let mut all: Vec<BTreeSet<AtomId>> = sets.iter().map(of_kinds).collect();
         if poly.len() <= FEW {
@@ -144,39 +158,26 @@ impl<'a> Writer<'a> {
         all
     }
 
-    /// The sum as Σ (Σ numbers · keys) · rest; `None` when nothing meets.
-    fn collected(&mut self, poly: &Poly, keys: &BTreeSet<AtomId>) -> Option<Product> {
-        let mut by_key: BTreeMap<Vec<Factor>, Poly> = BTreeMap::new();
-        for (factors, c) in poly {
-            let (key, rest): (Vec<Factor>, Vec<Factor>) = factors.iter().partition(|f| keys.contains(&f.0));
-            by_key.entry(key).or_default().push((rest, *c));
-        }
-        let mut by_rest: BTreeMap<Vec<Vec<Factor>>, Vec<(Poly, Poly)>> = BTreeMap::new();
-        let mut count = 0;
-        for (mut key, mut rest) in by_key {
-            rest.sort_by(|a, b| a.0.cmp(&b.0));
-            let common = if rest.len() > 1 { common_factors(&rest) } else { vec![] };
-            let lead = rest[0].1;
-            rest = divided(&rest, &common, lead);
-            key = joined(&key, &common)?;
-            let same = by_rest.entry(rest.iter().map(|term| term.0.clone()).collect()).or_default();
-            match same.iter_mut().find(|(_, other)| proportional(other, &rest)) {
-                Some((sum, _)) => sum.push((key, lead)),
-                None => {
-                    count += 1;
-                    same.push((vec![(key, lead)], rest));
-                }
-            }
-        }
-        if count == poly.len() {
-            return None;
-        }
+    /// What a way to collect costs when nothing more is collected.
+    fn outlook(&mut self, way: &Collected) -> usize {
+        way.iter().map(|(sum, rest)| self.flat_cost(sum) + self.flat_cost(rest) + 1).sum()
+    }
+    /// What a sum costs with nothing but the common factors of its terms pulled out.
+    pub(super) fn flat_cost(&mut self, poly: &Poly) -> usize {
+        let again = poly.len() - 1;
+        let all: usize = poly.iter().map(|term| self.factors_cost(&term.0) + number_cost(term.1)).sum();
+        all + again - again * self.factors_cost(&common_factors(poly)).min(all / poly.len())
+    }
+    fn factors_cost(&mut self, factors: &[Factor]) -> usize {
+        factors.iter().map(|f| self.atom_cost(f.0) + usize::from(f.1 != Ratio::ONE)).sum()
+    }
+    fn gathered(&mut self, way: &Collected) -> Product {
         let mut terms = Vec::new();
-        for (sum, rest) in by_rest.into_values().flatten() {
-            let product = (*self.factor(&rest)).clone().times((*self.factor(&sum)).clone());
+        for (sum, rest) in way {
+            let product = (*self.factor(rest)).clone().times((*self.factor(sum)).clone());
             terms.extend(product.into_terms());
         }
-        Some(Product::of_sum(terms))
+        Product::of_sum(terms)
     }
 
     /// a² + 2ab + b² = (a + b)², with any number of letters.
@@ -217,10 +218,37 @@ impl<'a> Writer<'a> {
         let cost = inner.cost + 1;
         Some(Product {
             number: Coefficient::ONE,
-            factors: vec![(Form::Sum(inner.into_terms()), Ratio::whole(2))],
+            factors: vec![(Form::Sum(inner.into_terms().into()), Ratio::whole(2))],
             cost,
         })
     }
+}
+
+/// The sum collected by some of its atoms; `None` when nothing meets.
+fn collected(poly: &Poly, keys: &BTreeSet<AtomId>) -> Option<Collected> {
+    let mut by_key: BTreeMap<Vec<Factor>, Poly> = BTreeMap::new();
+    for (factors, c) in poly {
+        let (key, rest): (Vec<Factor>, Vec<Factor>) = factors.iter().partition(|f| keys.contains(&f.0));
+        by_key.entry(key).or_default().push((rest, *c));
+    }
+    let mut by_rest: BTreeMap<Vec<Vec<Factor>>, Collected> = BTreeMap::new();
+    let mut count = 0;
+    for (mut key, mut rest) in by_key {
+        rest.sort_by(|a, b| a.0.cmp(&b.0));
+        let common = if rest.len() > 1 { common_factors(&rest) } else { vec![] };
+        let lead = rest[0].1;
+        rest = divided(&rest, &common, lead);
+        key = joined(&key, &common)?;
+        let same = by_rest.entry(rest.iter().map(|term| term.0.clone()).collect()).or_default();
+        match same.iter_mut().find(|(_, other)| proportional(other, &rest)) {
+            Some((sum, _)) => sum.push((key, lead)),
+            None => {
+                count += 1;
+                same.push((vec![(key, lead)], rest));
+            }
+        }
+    }
+    (count < poly.len()).then(|| by_rest.into_values().flatten().collect())
 }
 
 fn common_factors(poly: &Poly) -> Vec<Factor> {

@@ -3,6 +3,7 @@
 use super::super::atom::{AtomId, Factor};
 use super::super::coefficient::Coefficient;
 use super::super::ratio::Ratio;
+use std::rc::Rc;
 
 /// A sum of products of free factors: sines and cosines may stand as powers and products.
 pub(super) type Poly = Vec<(Vec<Factor>, Coefficient)>;
@@ -11,7 +12,7 @@ pub(super) type Poly = Vec<(Vec<Factor>, Coefficient)>;
 #[derive(Clone, Debug)]
 pub(super) enum Form {
     Atom(AtomId),
-    Sum(Vec<Product>),
+    Sum(Rc<[Product]>),
 }
 
 /// A number times powers of factors.
@@ -55,13 +56,28 @@ impl Product {
         self.factors.iter_mut().for_each(|factor| factor.1 = factor.1.times(e).unwrap_or(factor.1));
         self
     }
+    /// Every atom once.
+    pub(super) fn joined(mut self) -> Product {
+        let mut once: Vec<(Form, Ratio)> = Vec::new();
+        for (form, e) in self.factors {
+            let same =
+                once.iter_mut().find(|(other, _)| matches!((other, &form), (Form::Atom(a), Form::Atom(b)) if a == b));
+            match same.and_then(|(_, sum)| sum.plus(e).map(|joint| *sum = joint)) {
+                Some(()) => {}
+                None => once.push((form, e)),
+            }
+        }
+        once.retain(|factor| !factor.1.is_zero());
+        self.factors = once;
+        self
+    }
     /// A sum of products as one factor.
     pub(super) fn of_sum(mut terms: Vec<Product>) -> Product {
         if terms.len() == 1 {
             return terms.remove(0);
         }
         let cost = terms.iter().map(|term| term.cost).sum::<usize>() + terms.len() - 1;
-        Product { number: Coefficient::ONE, factors: vec![(Form::Sum(terms), Ratio::ONE)], cost }
+        Product { number: Coefficient::ONE, factors: vec![(Form::Sum(terms.into()), Ratio::ONE)], cost }
     }
 }
 

@@ -47,11 +47,7 @@ impl Arena {
         let mut out: Poly = Vec::new();
         self.squares(&mut waves, &mut out);
         if waves.len() <= PAIRS {
-            while let Some((i, j, product)) = self.find_pair(&waves) {
-                waves.remove(i.max(j));
-                waves.remove(i.min(j));
-                out.push(product);
-            }
+            self.pairs(&mut waves, &mut out);
         }
         for (wave, c) in waves {
             out.push(match wave {
@@ -94,19 +90,27 @@ impl Arena {
     }
 
     /// Two waves of equal size that are one product: cos A cos B, sin A sin B or sin A cos B.
-    fn find_pair(&mut self, waves: &[Wave]) -> Option<(usize, usize, (Vec<Factor>, Coefficient))> {
-        for i in 0..waves.len() {
-            for j in i + 1..waves.len() {
-                let (Some((f, x)), Some((g, y)), size) = (waves[i].0, waves[j].0, waves[i].1) else { continue };
-                if f != g || size.abs() != waves[j].1.abs() {
-                    continue;
+    fn pairs(&mut self, waves: &mut Vec<Wave>, out: &mut Poly) {
+        let mut i = 0;
+        while i < waves.len() {
+            let found = (i + 1..waves.len()).find_map(|j| self.paired(waves[i], waves[j]).map(|product| (j, product)));
+            match found {
+                Some((j, product)) => {
+                    waves.remove(j);
+                    waves.remove(i);
+                    out.push(product);
                 }
-                if let Some(factors) = self.pair(f, x, y, size == waves[j].1) {
-                    return Some((i, j, (factors.0, size.times(Coefficient::whole(factors.1)))));
-                }
+                None => i += 1,
             }
         }
-        None
+    }
+    fn paired(&mut self, a: Wave, b: Wave) -> Option<(Vec<Factor>, Coefficient)> {
+        let ((f, x), (g, y), size) = (a.0?, b.0?, a.1);
+        if f != g || size.abs() != b.1.abs() {
+            return None;
+        }
+        let (factors, number) = self.pair(f, x, y, size == b.1)?;
+        Some((factors, size.times(Coefficient::whole(number))))
     }
     /// f(x) ± f(y) as a product, with its number.
     fn pair(&mut self, f: Trig, x: SumId, y: SumId, plus: bool) -> Option<(Vec<Factor>, i64)> {

@@ -24,17 +24,25 @@ impl Writer<'_> {
         self.written_settled(&product)
     }
 
-    /// Sums within in their order, turned round when their first term is negative.
+    /// Sums within in their order, begun with a positive term where that costs no sign.
     fn settled(&self, product: &Product) -> Product {
         let mut settled = product.clone();
         for (form, e) in &mut settled.factors {
             let Form::Sum(terms) = form else { continue };
-            *terms = self.ordered(terms);
-            if e.is_whole() && terms[0].number.is_negative() {
-                let minus = Coefficient::whole(-1);
-                terms.iter_mut().for_each(|term| term.number = term.number.negated());
-                settled.number = if e.is_even() { settled.number } else { settled.number.times(minus) };
+            let mut inner = self.ordered(terms);
+            let positive = inner.iter().position(|term| !term.number.is_negative());
+            let turns = e.is_even() || (e.is_whole() && (settled.number.is_negative() || positive.is_none()));
+            match positive {
+                Some(0) => {}
+                _ if turns => {
+                    let minus = Coefficient::whole(-1);
+                    inner.iter_mut().for_each(|term| term.number = term.number.negated());
+                    settled.number = if e.is_even() { settled.number } else { settled.number.times(minus) };
+                }
+                Some(at) => inner[..=at].rotate_right(1),
+                None => {}
             }
+            *terms = inner.into();
         }
         settled
     }
@@ -96,7 +104,7 @@ impl Writer<'_> {
     }
 
     fn written(&mut self, of: SumId) -> Tree {
-        let terms = self.whole(of).into_terms();
+        let terms = (*self.whole(of)).clone().into_terms();
         Tree::sum(self.written_terms(&terms))
     }
     fn written_atom(&mut self, id: AtomId) -> Tree {
@@ -114,6 +122,11 @@ impl Writer<'_> {
         }
     }
 
+    pub(super) fn holds_function(&self, product: &Product) -> bool {
+        let mut atoms = BTreeSet::new();
+        collect(product, &mut atoms);
+        atoms.into_iter().any(|id| self.kind(id) == Kind::Function)
+    }
     fn place(&self, product: &Product) -> Place {
         let mut atoms = BTreeSet::new();
         collect(product, &mut atoms);

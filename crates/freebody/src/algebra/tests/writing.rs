@@ -71,6 +71,8 @@ fn small_forms() {
             ((a * a + b * b).sqrt(), "(a^2 + b^2)^1/2"),
             (cos(Symbol::of(std::f64::consts::PI / 6.0)) * m, "1/2 3^1/2 m"),
             (a - a * cos(b), "a (1 - cos(b))"),
+            (m * (b - a), "(b - a) m"),
+            (m * (k * a - k * b - l), "((a - b) M - l) m"),
         ];
         for (symbol, expected) in forms {
             assert_eq!(written(symbol), expected);
@@ -122,7 +124,7 @@ fn a_tree_can_be_grouped_by_unknowns() {
         let by = [Letter::new("q", 2), Letter::new("p", 2)];
         assert_eq!(
             text(&lower.tree_by(&by)),
-            "m2 l1 l2 cos(q - p) q'' + m2 l2^2 p'' - m2 l2 (l1 sin(q - p) q'^2 - g sin(p))"
+            "m2 l1 l2 cos(q - p) q'' + m2 l2^2 p'' - m2 l1 l2 sin(q - p) q'^2 + m2 l2 g sin(p)"
         );
     });
 }

@@ -20,6 +20,9 @@ const SELF_STRESS: f64 = 1e-9;
 /// … and oppose the free acceleration by more than this.
 const OPPOSED: f64 = 1e-8;
 
+/// The golden ratio less 1: its multiples leave no gaps.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
 /// What pivoting makes of a task.
 pub(super) enum Proposal {
     /// The modes of a complementary basis.
@@ -42,17 +45,22 @@ enum Variable {
     Speed(usize),
 }
 
-/// Follows Lemke's path, with `apart` added to the free normal accelerations.
-pub(super) fn propose(task: &Task, apart: f64) -> Proposal {
+/// Follows one of Lemke's paths, with `apart` added to the free normal accelerations.
+pub(super) fn propose(task: &Task, apart: f64, path: usize) -> Proposal {
     let variables = variables(task);
     let (m, mut q) = assemble(task, &variables);
     let normals = q.iter_mut().zip(&variables).filter(|(_, v)| matches!(v, Variable::Normal(_)));
     normals.for_each(|(q, _)| *q += apart);
-    match lemke(&m, &q) {
+    match lemke(&m, &q, &cover(path, q.len())) {
         End::Solution { basic, slack } => Proposal::Modes(modes(task, &variables, &basic, &slack)),
         End::Ray(z) if self_stressed(task, &variables, &z) => Proposal::Impossible,
         End::Ray(_) | End::Lost => Proposal::None,
     }
+}
+
+/// The covering vector of a path: ones for the first, and numbers between 1 and 2 that are spread evenly for the others.
+fn cover(path: usize, n: usize) -> Vec<f64> {
+    (0..n).map(|i| 1.0 + (GOLDEN * (path * (i + 1)) as f64).fract()).collect()
 }
 
 fn variables(task: &Task) -> Vec<Variable> {

@@ -12,6 +12,8 @@ const HITS: usize = 10_000;
 const ROUND_OFF: f64 = 1e-14;
 /// Work above this, relative to the terms that make it up, is a gain.
 const GAIN: f64 = 1e-12;
+/// Work above this, relative to the energy of the velocities before, is a gain whatever the terms.
+const GROSS: f64 = 1e-10;
 
 /// k touches that are closed and may be approaching.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +123,10 @@ impl Strike<'_> {
         let terms = || (0..2 * k).map(|i| (self.before[i], after[i], p[i]));
         let work = terms().map(|(b, a, p)| 0.5 * (b + a) * p).sum();
         let scale: f64 = terms().map(|(b, a, p)| 0.5 * (b.abs() + a.abs()) * p.abs()).sum();
-        Impulses { normal: p[..k].to_vec(), tangent: p[k..].to_vec(), after, work, gains: work > GAIN * scale }
+        // Large impulses that all but cancel must not hide a gain.
+        let energy = |i: usize| if self.g[(i, i)] > 0.0 { self.before[i].powi(2) / self.g[(i, i)] } else { 0.0 };
+        let gains = work > GAIN * scale || work > GROSS * (0..2 * k).map(energy).sum::<f64>();
+        Impulses { normal: p[..k].to_vec(), tangent: p[k..].to_vec(), after, work, gains }
     }
 
     /// Impulses of which those of the touches at `velocity`, or their reversal, are complementary.

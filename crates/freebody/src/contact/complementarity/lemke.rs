@@ -35,15 +35,16 @@ struct Tableau {
 }
 
 /// Follows Lemke's path with the lexicographic ratio test, on which no basis comes twice
-/// (Cottle, Pang & Stone, *The Linear Complementarity Problem*, 1992, §4.4 and §4.9).
-pub(super) fn lemke(m: &Matrix, q: &[f64]) -> End {
+/// (Cottle, Pang & Stone, *The Linear Complementarity Problem*, 1992, §4.4 and §4.9). Each covering vector d > 0 has a path
+/// of its own.
+pub(super) fn lemke(m: &Matrix, q: &[f64], d: &[f64]) -> End {
     let n = q.len();
-    let mut t = Tableau::new(m, q);
+    let mut t = Tableau::new(m, q, d);
     if q.iter().all(|q| *q >= 0.0) {
         return t.solution();
     }
     let mut enter = 2 * n;
-    let mut row = t.worst();
+    let mut row = t.worst(d);
     for _ in 0..100 + 50 * n {
         let leave = t.pivot(row, enter);
         if leave == 2 * n {
@@ -60,20 +61,21 @@ pub(super) fn lemke(m: &Matrix, q: &[f64]) -> End {
 }
 
 impl Tableau {
-    fn new(m: &Matrix, q: &[f64]) -> Tableau {
+    fn new(m: &Matrix, q: &[f64], d: &[f64]) -> Tableau {
         let n = q.len();
         let entry = |i: usize, j: usize| match j {
             _ if j < n => f64::from(i == j),
             _ if j < 2 * n => -m[(i, j - n)],
-            _ if j == 2 * n => -1.0,
+            _ if j == 2 * n => -d[i],
             _ => q[i],
         };
         Tableau { n, rows: Matrix::from_fn(n, 2 * n + 2, entry), basis: (0..n).collect() }
     }
 
     /// The row that the artificial z₀ must lift most, the last of several.
-    fn worst(&self) -> usize {
-        (1..self.n).fold(0, |best, i| if self.right(i) <= self.right(best) { i } else { best })
+    fn worst(&self, d: &[f64]) -> usize {
+        let lift = |i: usize| self.right(i) / d[i];
+        (1..self.n).fold(0, |best, i| if lift(i) <= lift(best) { i } else { best })
     }
 
     fn right(&self, i: usize) -> f64 {

@@ -9,7 +9,8 @@
 //!
 //! In the plane this is a linear complementarity problem, so it can be decided: one motion, several
 //! ([`Verdict::Indeterminate`]), or none ([`Verdict::Inconsistent`]); the last two are Painlevé's.
-//! [`strike`] poses the same problem for velocities and impulses.
+//! [`strike`] poses the same problem for velocities and impulses, and [`jam`] tells how a motion goes on that friction lets
+//! not.
 //!
 //! Pivoting (`lemke.rs`, on the form in `form.rs`) proposes who carries; `modes.rs` solves the linear
 //! equations of that proposal, holds them against the conditions above, and enumerates all proposals
@@ -17,6 +18,7 @@
 
 mod form;
 mod impact;
+mod jam;
 mod laws;
 mod lemke;
 mod modes;
@@ -27,6 +29,7 @@ mod task;
 mod tests;
 
 pub use impact::{strike, Impulses, Law, NoImpact, Strike};
+pub use jam::{jam, least};
 pub use laws::{settle, undecided, Settled};
 pub use painleve::{painleve, Painleve};
 

@@ -18,6 +18,9 @@ const SAME: f64 = 1e-9;
 /// tried again with touches moved apart by this, and what it proposes is judged without.
 const APART: [f64; 4] = [0.0, 1e-9, 1e-7, 1e-5];
 
+/// Paths of pivoting tried: where many touches are redundant, round-off leads some of them astray.
+const PATHS: usize = 6;
+
 /// Vertices tried of forces that their equations do not determine: all, for six touches.
 const TRIES: usize = 4_096;
 
@@ -113,8 +116,8 @@ fn bounded(task: &Task) -> Outcome {
 
 /// What pivoting alone finds.
 pub(super) fn pivot(task: &Task, tolerance: f64) -> Outcome {
-    for apart in APART {
-        match propose(task, apart) {
+    for (path, apart) in (0..PATHS).flat_map(|path| APART.map(|apart| (path, apart))) {
+        match propose(task, apart, path) {
             Proposal::Modes(modes) => {
                 if let Some(found) = vertex(task, &modes, tolerance) {
                     return Outcome::Found(vec![found]);

@@ -9,6 +9,9 @@ const IMMOVABLE: f64 = 1e-14;
 /// A direction of G' that counts as dependent, but is larger than this, may be real.
 const DOUBTFUL: f64 = 1e-13;
 
+/// Free accelerations below this have lost their digits: they are none.
+const VANISHING: f64 = 1e-280;
+
 /// How a touch of a task resists sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Hold {
@@ -42,7 +45,7 @@ impl Task {
         let sizes = rows.iter().zip(&scales).map(|(&i, d)| (free[i] * d).abs());
         let presses = touches.iter().zip(&scales).map(|(&i, d)| pressed[i] / d);
         let unit = sizes.chain(presses).fold(0.0, f64::max);
-        let unit = if unit > 0.0 { unit } else { 1.0 };
+        let unit = if unit > VANISHING { unit } else { 1.0 };
         let hold = |i: usize| scaled(grips[touches[i]], scales[i] / scales[n + i]);
         Task {
             g: Matrix::from_fn(2 * n, 2 * n, |i, j| scales[i] * g[(rows[i], rows[j])] * scales[j]),

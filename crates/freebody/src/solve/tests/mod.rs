@@ -3,6 +3,7 @@
 use super::Matrix;
 
 mod dense;
+mod islands;
 mod saddle;
 mod sparse;
 

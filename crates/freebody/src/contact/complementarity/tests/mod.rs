@@ -5,6 +5,7 @@ use crate::solve::Matrix;
 
 mod closed;
 mod impacts;
+mod jams;
 mod random;
 
 /// Random numbers by SplitMix64 (Steele, Lea & Flood 2014).

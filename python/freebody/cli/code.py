@@ -1,0 +1,27 @@
+"""``freebody code``: the equations of a model as functions in Python or C."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def code(
+    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
+    c: Annotated[bool, typer.Option("--c", help="C instead of Python; so does an output that ends in .c.")] = False,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes, instead of the screen.")] = None,
+    changes: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")
+    ] = None,
+) -> None:
+    """Print functions that compute accelerations and all reactions: Python that needs NumPy only, or C99."""
+    from freebody.cli import opened, show
+
+    text = opened(model, changes).code("c" if c or (output and output.suffix == ".c") else "python")
+    if output is None:
+        typer.echo(text.rstrip("\n"))
+    else:
+        output.write_text(text, encoding="utf-8")
+        show.written([output])

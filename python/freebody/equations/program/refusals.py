@@ -1,0 +1,92 @@
+"""What generated functions cannot hold: their formulas are those of one state, so nothing may switch between formulas."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from freebody import _core
+from freebody.free_body import FreeBodies
+from freebody.source import Source
+
+_SWITCHES = frozenset(["abs", "sign", "step", "min", "max", "clamp", "if"])
+_COMPARED = frozenset(["<", "<=", ">", ">=", "==", "!=", "and", "or", "not"])
+_LIMITS = {"contacts": "opens and closes", "strings": "goes slack", "stops": "opens and closes"}
+_LAWS = ("forces", "motions", "joints", "gauges")
+
+
+class CannotGenerate(ValueError):
+    """A mechanism of which no functions can be generated; says why, and what to try."""
+
+
+def check(source: Source, free: FreeBodies) -> None:
+    """Raises ``CannotGenerate`` for what switches or has no letters, and where reactions are not determined."""
+    spec = json.loads(source.spec)
+    if not source.about["coordinates"]:
+        raise CannotGenerate("the mechanism has no coordinates, so there is nothing to generate; solve() gives its reactions")
+    for section, what in _LIMITS.items():
+        for item in spec[section]:
+            raise CannotGenerate(
+                f"{section}.{item['name']} {what}, and one formula holds in one of its states only; "
+                "leave it out, or put a joint that holds it closed (a hinge, a slot, a link) in its place"
+            )
+    for joint in spec["joints"]:
+        _check_joint(joint)
+    _check_laws(spec)
+    lost = [load.symbol for load in free.loads if load.unknown and not load.determinate]
+    if lost:
+        raise CannotGenerate(
+            f"the balances do not determine {', '.join(lost)} at this state: the joints hold more than they need to; "
+            "release one of them, or start elsewhere"
+        )
+
+
+def _check_joint(joint: Mapping[str, Any]) -> None:
+    if "friction" in joint and joint["friction"] not in (None, 0, 0.0):
+        raise CannotGenerate(f"joints.{joint['name']} has friction, which sticks or slides; leave `friction` out")
+    if joint["type"] == "gear":
+        raise CannotGenerate(f"joints.{joint['name']} pushes with one flank or the other; a coupling has one formula")
+
+
+def _check_laws(spec: Mapping[str, Any]) -> None:
+    tables = {table["name"] for table in spec["tables"]}
+    for section in _LAWS:
+        for item in spec[section]:
+            for text in _texts(item):
+                used = set(_words(text))
+                if found := sorted(used & tables):
+                    what, hint = f"is given by the table {found[0]!r}", "a formula in its place can be generated"
+                elif found := sorted(used & (_SWITCHES | _COMPARED)):
+                    what, hint = f"switches between formulas ({found[0]})", "a smooth law, like tanh in place of sign, does not"
+                else:
+                    continue
+                raise CannotGenerate(f"{section}.{item['name']}: {text!r} {what}; {hint}")
+
+
+def _texts(item: Any) -> Iterator[str]:
+    if isinstance(item, str):
+        yield item
+    elif isinstance(item, Mapping):
+        for key, value in item.items():
+            if key not in ("name", "type", "of", "on", "from", "between", "level", "by"):
+                yield from _texts(value)
+    elif isinstance(item, list):
+        for value in item:
+            yield from _texts(value)
+
+
+def _words(text: str) -> Iterator[str]:
+    """Names of functions, and operators, in an expression; nothing where the text is none (the name of a point)."""
+    try:
+        waiting = [json.loads(_core.parse(text))]
+    except _core.ExpressionError:
+        return
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, str):
+            yield node
+        elif isinstance(node, Mapping):
+            waiting += [value for key, value in node.items() if key not in ("name", "span")]
+        elif isinstance(node, list):
+            waiting += node
