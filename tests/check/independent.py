@@ -74,13 +74,13 @@ def holds(equation: Equation, at: Values) -> bool:
 
 def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
     """Whether ``other`` holds just where ``one`` does, at places that are no true states: ``one`` is made to hold there by one
-    letter in which it is linear."""
-    for letter in sorted(letters(one), key=lambda n: -n.dots):
-        made = _solved(one, letter, at)
-        if made is not None:
-            off, size = sides(other, made)[0], sides(other, at)[1]
-            return bool(np.all(np.abs(off) <= _ROUND_OFF * size)) and not holds(other, at)
-    return False
+    letter in which it is linear, one that does not make all its terms 0 where there is such."""
+    made = [values for letter in letters(one) if (values := _solved(one, letter, at)) is not None]
+    if not made:
+        return False
+    best = max(made, key=lambda values: float(np.min(sides(one, values)[1])))
+    off, size = sides(other, best)[0], sides(other, at)[1]
+    return bool(np.all(np.abs(off) <= _ROUND_OFF * size)) and not holds(other, at)
 
 
 def _solved(equation: Equation, letter: Letter, at: Values) -> Values | None:

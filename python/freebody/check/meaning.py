@@ -145,6 +145,7 @@ class StatementLetters:
     def _mechanics(self) -> str:
         spec = self.truth.spec
         used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
+        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used])
         for parameter in reversed(spec["parameters"]):
             if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
                 used += " " + parameter["value"]
@@ -153,7 +154,7 @@ class StatementLetters:
     def _is_fixed(self, letter: Letter) -> bool:
         """Whether it is made of parameters alone."""
         words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
-        return bool(words) and words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+        return words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
     def _coordinates(self) -> list[Letter]:
@@ -161,6 +162,8 @@ class StatementLetters:
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        declared = [Letter(name) for name in self.letters.of_kind("declared")]
+        own += [n for n in declared if n not in movable and self._moves(n)]
         missing = max(len(self.truth.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
