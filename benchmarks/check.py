@@ -1,149 +1,98 @@
 """How far ``freebody check`` can be trusted: correct equations rearranged, and correct equations with one slip.
 
-    python benchmarks/check.py [--count 2000] [--seed 1]
+    python benchmarks/check.py [--count 2000] [--sample N] [--seed 1] [--show]
 
-A false alarm is a correct equation not called true. A mutant is discarded where it says the same as the equation it was
-made from, by its values at states that are not true ones. A mend is found where the equation before the slip is among
-the smallest mends, judged in the same way.
+A false alarm is a correct equation not called true. A mutant is left out where it is true as well, by its values at true
+states of another draw. A slip is found where the equation before it is among the smallest mends, judged by values at
+places that are no true states. The models and their correct equations are in tests/check/corpus.py.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
-import time
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
+
+for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_threads, "1")  # two processes share the machine
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "check"))
 
-from mutants import Mutant, mutant, rearranged
-from textbook import BOOKS, Book
+from corpus import BENCHES, Outcome
 
-from freebody.check import Checker, Kind
-from freebody.check.case import Case
-from freebody.check.language.nodes import Equation
-from freebody.check.language.spelling import spell
-from freebody.check.mend import _Search, mends
-from freebody.check.verdict import judged
-from freebody.model import Mechanism
+from freebody.check import Kind
+
+_TRIES = 20  # for a mutant that is not true as well
 
 
-@dataclass
-class Bench:
-    """One model with its correct equations, read."""
-
-    book: Book
-    checker: Checker = field(init=False)
-    equations: list[Equation] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.checker = Checker(Mechanism.loads(f"freebody: 1\n{self.book.model}"), dict(self.book.letters))
-        cases = [self.checker.case(text) for text in self.book.equations]
-        self.equations = [case.equations[0] for case in cases]
-        self.cases = cases
-        self.vocabulary = self.checker.case("\n".join(self.book.equations)).meaning.vocabulary
-
-    def case(self, equation: Equation) -> Case:
-        """An equation as if it had been typed."""
-        return self.checker.case(spell(equation))
+def outcomes(model: str, correct: int, slips: int, seed: int) -> list[Outcome]:
+    """What becomes of so many statements about one model."""
+    bench, rng = BENCHES[model](), np.random.default_rng([seed, list(BENCHES).index(model)])
+    made = [bench.correct(rng) for _ in range(correct)]
+    return made + [outcome for _ in range(slips) if (outcome := _mutated(bench, rng)) is not None]
 
 
-def correct(bench: Bench, rng: np.random.Generator) -> tuple[str, Kind, float]:
-    """A rearranged equation with its verdict and the time that it took, s."""
-    equation = rearranged(rng, bench.equations, bench.vocabulary)
-    began = time.perf_counter()
-    verdict = judged(bench.case(equation))
-    return verdict.text, verdict.kind, time.perf_counter() - began
+def _mutated(bench: object, rng: np.random.Generator) -> Outcome | None:
+    return next((o for o in (bench.mutated(rng) for _ in range(_TRIES)) if o is not None), None)  # type: ignore[attr-defined]
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What became of a mutant: ``accepted``: it was called true; ``found``: the slip is among the smallest mends."""
-
-    kind: str
-    before: str
-    after: str
-    accepted: bool
-    found: bool
-    mends: tuple[str, ...]
-    seconds: float
+def _of_model(job: tuple[str, int], seed: int) -> list[Outcome]:
+    model, count = job
+    return outcomes(model, count, count, seed)
 
 
-def mutated(bench: Bench, rng: np.random.Generator) -> Outcome | None:
-    """A mutant with its verdict; None where it says the same as before, or nothing."""
-    i = int(rng.integers(len(bench.equations)))
-    before = bench.equations[i]
-    made = mutant(rng, before, bench.vocabulary)
-    if made is None:
-        return None
-    return judged_mutant(bench, bench.cases[i], before, made)
+def every(count: int, seed: int, models: Sequence[str]) -> Iterator[Outcome]:
+    """``count`` correct equations and as many mutants, of all models alike, made by two processes."""
+    jobs = [(model, count // len(models) + (i < count % len(models))) for i, model in enumerate(models)]
+    with get_context("spawn").Pool(2) as pool:
+        for i, found in enumerate(pool.imap_unordered(partial(_of_model, seed=seed), jobs), 1):
+            alarms = sum((o.kind is Kind.TRUE) == bool(o.slip) for o in found)
+            lost = sum(not o.found for o in found)
+            print(f"{i} of {len(jobs)} {found[0].model}: {alarms} wrong, {lost} not found", file=sys.stderr)
+            yield from found
 
 
-def judged_mutant(bench: Bench, case: Case, before: Equation, made: Mutant) -> Outcome | None:
-    """What becomes of a mutant of the equation ``before``."""
-    search = _Search(case, before, case.hypothesis)
-    mark = search._mark(before)
-    text = spell(made.equation)
-    began = time.perf_counter()
-    again = bench.checker.case(text)
-    other = _Search(again, before, case.hypothesis)
-    said = other._mark(again.equations[0])
-    mark = other._mark(before) or mark
-    if said is None or said == mark:
-        return None
-    verdict = judged(again)
-    seconds = time.perf_counter() - began
-    found = list(mends(again, again.equations[0])) if not verdict.mends else list(verdict.mends)
-    marks = [other._mark(bench.checker.case(mend.equation).equations[0]) for mend in found]
-    return Outcome(made.kind, spell(before), text, verdict.ok, mark in marks, tuple(str(mend) for mend in found), seconds)
+def table(done: Sequence[Outcome], show: bool) -> Iterator[str]:
+    """The numbers, and every statement that the check gets wrong."""
+    correct, slips = [o for o in done if not o.slip], [o for o in done if o.slip]
+    alarms, accepted = [o for o in correct if o.kind is not Kind.TRUE], [o for o in slips if o.kind is Kind.TRUE]
+    models = len({o.model for o in done})
+    yield f"correct, rearranged: {len(correct)} from {models} models; false alarms {len(alarms)}; {_times(correct)}"
+    yield f"one slip: {len(slips)} from {models} models; accepted {len(accepted)}; {_times(slips)}"
+    shares = [100 * np.mean([flag(o) for o in slips]) for flag in (lambda o: o.found, lambda o: o.first)]
+    yield f"slip among the smallest mends {shares[0]:.1f} %, the first of them {shares[1]:.1f} %"
+    total, found = Counter(o.slip for o in slips), Counter(o.slip for o in slips if o.found)
+    yield from (f"  {slip:14} {found[slip]:5} of {total[slip]}" for slip in sorted(total))
+    yield from (f"ALARM {o.model}: {o.kind.value}: {o.after}" for o in alarms)
+    for outcome in (*accepted, *(o for o in slips if show and not o.found)):
+        word = "ACCEPTED" if outcome.kind is Kind.TRUE else "missed"
+        yield f"{word} {outcome.model} ({outcome.slip}): {outcome.after}\n    was {outcome.before}"
+        yield from (f"    mend {mend}" for mend in outcome.mends)
 
 
-def outcomes(count: int, seed: int) -> Iterator[Outcome]:
-    """``count`` mutants of all models in turn."""
-    rng, benches, done = np.random.default_rng(seed), [Bench(book) for book in BOOKS], 0
-    while done < count:
-        outcome = mutated(benches[done % len(benches)], rng)
-        if outcome is not None:
-            done += 1
-            yield outcome
+def _times(done: Iterable[Outcome]) -> str:
+    taken = [o.seconds for o in done] or [0.0]
+    return f"{1e3 * np.median(taken):.0f} ms in the median, {1e3 * max(taken):.0f} ms at most"
 
 
 def main() -> None:
     """Print the table."""
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    arguments.add_argument("--count", type=int, default=2000)
+    arguments.add_argument("--count", type=int, default=2000, help="correct equations, and as many mutants")
+    arguments.add_argument("--sample", type=int, help="so many instead: a quick look")
     arguments.add_argument("--seed", type=int, default=1)
-    arguments.add_argument("--show", action="store_true", help="print every miss")
+    arguments.add_argument("--models", nargs="*", default=[], help="words in the names of models; all without")
+    arguments.add_argument("--show", action="store_true", help="print every slip that is not found")
     given = arguments.parse_args()
-    rng, benches = np.random.default_rng(given.seed), [Bench(book) for book in BOOKS]
-    rows = [correct(benches[i % len(benches)], rng) for i in range(given.count)]
-    alarms = [row for row in rows if row[1] is not Kind.TRUE]
-    print(
-        f"correct, rearranged: {len(rows)} from {len(benches)} models; false alarms {len(alarms)}; {mean_ms(r[2] for r in rows)}"
-    )
-    for text, kind, _ in alarms:
-        print(f"  {kind.value}: {text}")
-    done = list(outcomes(given.count, given.seed))
-    print(f"mutants: {len(done)}; accepted {sum(o.accepted for o in done)}; {mean_ms(o.seconds for o in done)}")
-    print(f"planted edit among the smallest mends: {100 * np.mean([o.found for o in done]):.1f} %")
-    total, found = Counter(o.kind for o in done), Counter(o.kind for o in done if o.found)
-    for kind in sorted(total):
-        print(f"  {kind:14} {found[kind]:5} of {total[kind]}")
-    for outcome in done:
-        if outcome.accepted or (given.show and not outcome.found):
-            print(f"  {'ACCEPTED' if outcome.accepted else 'missed'} ({outcome.kind}) {outcome.after}\n    was {outcome.before}")
-            print("".join(f"    mend {mend}\n" for mend in outcome.mends), end="")
-
-
-def mean_ms(seconds: Iterator[float]) -> str:
-    """A mean and a largest time in words."""
-    taken = list(seconds)
-    return f"{1e3 * np.mean(taken):.0f} ms each, {1e3 * max(taken):.0f} ms at most"
+    models = [name for name in BENCHES if not given.models or any(word in name for word in given.models)]
+    print("\n".join(table(list(every(given.sample or given.count, given.seed, models)), given.show)))
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
-"""Correct equations rearranged, and correct equations with one slip: what a check must accept, and what it must not."""
+"""Correct equations with one slip: what a check must not accept, and should mend."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from dataclasses import replace as with_
 
 import numpy as np
+from rearranged import number
 
 from freebody.check.language.nodes import (
     Call,
@@ -27,96 +27,11 @@ from freebody.check.language.nodes import (
 from freebody.check.vocabulary import Vocabulary
 
 Random = np.random.Generator
-
-
-def number(value: float) -> Number:
-    """A whole number as it is written."""
-    return Number(float(value), f"{value:g}")
+Slip = Callable[[Random, Equation, Vocabulary], Equation | None]
 
 
 def _pick(rng: Random, items: list) -> object:
     return items[int(rng.integers(len(items)))]
-
-
-# --- rearranged ------------------------------------------------------------------------------------
-
-
-def rearranged(rng: Random, equations: list[Equation], vocabulary: Vocabulary) -> Equation:
-    """A consequence of equations: scaled, combined, moved about, and with some of its letters written otherwise."""
-    equation = equations[int(rng.integers(len(equations)))]
-    if len(equations) > 1 and rng.random() < 0.4:
-        equation = _combined(rng, equation, equations[int(rng.integers(len(equations)))], vocabulary)
-    steps: list[Callable[[Random, Equation, Vocabulary], Equation]] = [_scaled, _moved, _written_otherwise, _turned, _shuffled]
-    for _ in range(int(rng.integers(1, 4))):
-        equation = _pick(rng, steps)(rng, equation, vocabulary)  # type: ignore[operator]
-    return equation
-
-
-def _factor(rng: Random, vocabulary: Vocabulary) -> Node:
-    sizes = [n for n in vocabulary.parameters if n not in vocabulary.angular]
-    made: list[Node] = [number(int(rng.integers(2, 6))), _pick(rng, sizes)]  # type: ignore[list-item]
-    if vocabulary.angles:
-        made.append(Call("cos", (vocabulary.angles[0],)))
-    return made[int(rng.integers(len(made)))]
-
-
-def _combined(rng: Random, a: Equation, b: Equation, vocabulary: Vocabulary) -> Equation:
-    factor = _factor(rng, vocabulary)
-    return Equation(Sum((a.left, Product((factor, b.left)))), Sum((a.right, Product((factor, b.right)))))
-
-
-def _scaled(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
-    factor = _factor(rng, vocabulary)
-    if rng.random() < 0.5:
-        return Equation(Product((factor, e.left)), Product((factor, e.right)))
-    return Equation(Quotient(e.left, factor), Quotient(e.right, factor))
-
-
-def _moved(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
-    """One term to the other side."""
-    terms = addends(e.left)
-    if len(terms) < 2:
-        return Equation(e.right, e.left)
-    i = int(rng.integers(len(terms)))
-    sign, moved = terms[i]
-    left = [node if s > 0 else Negative(node) for j, (s, node) in enumerate(terms) if j != i]
-    return Equation(left[0] if len(left) == 1 else Sum(tuple(left)), Sum((e.right, Negative(moved) if sign > 0 else moved)))
-
-
-def _written_otherwise(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
-    """A sine or cosine, or a letter, by an identity."""
-    calls = [n for n in walk(e) if isinstance(n, Call) and n.function in ("sin", "cos")]
-    if not calls:
-        return e
-    call = calls[int(rng.integers(len(calls)))]
-    x, half = call.arguments[0], Quotient(Number(np.pi, "pi"), number(2))
-    if call.function == "sin":
-        forms = [Call("cos", (Sum((x, Negative(half))),)), Negative(Call("sin", (Negative(x),))), _doubled(x)]
-    else:
-        forms = [Call("sin", (Sum((x, half)),)), Call("cos", (Negative(x),)), _one_less(x)]
-    return replace(e, call, forms[int(rng.integers(len(forms)))])
-
-
-def _doubled(x: Node) -> Node:
-    half = Quotient(x, number(2))
-    return Product((number(2), Call("sin", (half,)), Call("cos", (half,))))
-
-
-def _one_less(x: Node) -> Node:
-    return Sum((number(1), Negative(Product((number(2), Power(Call("sin", (Quotient(x, number(2)),)), number(2)))))))
-
-
-def _turned(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
-    return Equation(Negative(e.right), Negative(e.left))
-
-
-def _shuffled(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
-    if not isinstance(e.left, Sum):
-        return e
-    return with_(e, left=Sum(tuple(e.left.terms[int(i)] for i in rng.permutation(len(e.left.terms)))))
-
-
-# --- slips -----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -128,10 +43,13 @@ class Mutant:
 
 
 def mutant(rng: Random, equation: Equation, vocabulary: Vocabulary) -> Mutant | None:
-    """The equation with one slip at random; None where the kind drawn finds no place."""
-    kind = list(SLIPS)[int(rng.integers(len(SLIPS)))]
-    made = SLIPS[kind](rng, equation, vocabulary)
-    return None if made is None or made == equation else Mutant(kind, made)
+    """The equation with one slip, each kind that finds a place being as likely."""
+    for i in rng.permutation(len(SLIPS)):
+        kind = list(SLIPS)[int(i)]
+        made = SLIPS[kind](rng, equation, vocabulary)
+        if made is not None and made != equation:
+            return Mutant(kind, made)
+    return None
 
 
 def _places(equation: Equation) -> list[Node]:
@@ -178,8 +96,20 @@ def _derivative(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | 
 
 
 def _lost_term(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    found = [n for n in _places(e) if n not in (e.left, e.right)]
+    found = [n for n in _places(e) if n not in (e.left, e.right) and _is_single(n)]
     return _at(rng, e, found, lambda n: Number(0.0, "0"))
+
+
+def _is_single(node: Node) -> bool:
+    """Whether it is one term, multiplied out."""
+    return len(addends(node, expand=True)) == 1
+
+
+def _twice(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
+    """A term again, on the other side or on its own."""
+    found = [n for n in _places(e) if n not in (e.left, e.right)] or _places(e)
+    term = _pick(rng, found)
+    return Equation(Sum((*(e.left.terms if isinstance(e.left, Sum) else (e.left,)), term)), e.right)  # type: ignore[arg-type]
 
 
 def _extra_term(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
@@ -196,6 +126,9 @@ def _lost_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation |
     def change(n: Node) -> Node:
         assert isinstance(n, Product)
         i = int(rng.integers(len(n.factors)))
+        inside = addends(n.factors[i])
+        if len(inside) > 1 and not all(isinstance(term, Letter) for _, term in inside):
+            return None  # a bracket of terms is more than a slip
         rest = n.factors[:i] + n.factors[i + 1 :]
         return rest[0] if len(rest) == 1 else Product(rest)
 
@@ -212,20 +145,56 @@ def _arm(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     return _at(rng, e, lengths, lambda n: Quotient(n, number(2)))
 
 
+def _angle(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
+    """θ ± φ for θ in a sine or cosine."""
+    calls = [n for n in walk(e) if isinstance(n, Call) and n.function in ("sin", "cos") and isinstance(n.arguments[0], Letter)]
+
+    def change(n: Node) -> Node | None:
+        assert isinstance(n, Call)
+        rest = [a for a in vocabulary.angles if a != n.arguments[0]]
+        if not rest:
+            return None
+        other: Node = _pick(rng, rest)  # type: ignore[assignment]
+        return Call(n.function, (Sum((n.arguments[0], other if rng.random() < 0.5 else Negative(other))),))
+
+    return _at(rng, e, calls, change)
+
+
+def _mass(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
+    """m1 + m2 for m1."""
+    masses = [n for n in walk(e) if isinstance(n, Letter) and vocabulary.powers(n) == (0, 1, 0) and n in vocabulary.parameters]
+    found = [n for n in masses if vocabulary.alike(n)]
+    return _at(rng, e, found, lambda n: Sum((n, _pick(rng, vocabulary.alike(n)))))  # type: ignore[arg-type]
+
+
+def _rates(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
+    """u1 u2 for u1²."""
+
+    def fits(n: Node) -> bool:
+        return isinstance(n, Power) and isinstance(n.base, Letter) and n.base.dots == 1 and bool(vocabulary.alike(n.base))
+
+    found = [n for n in walk(e) if fits(n)]
+    return _at(rng, e, found, lambda n: Product((n.base, _pick(rng, vocabulary.alike(n.base)))))  # type: ignore[union-attr, arg-type]
+
+
 def _power(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     return _at(rng, e, [n for n in walk(e) if isinstance(n, Power)], lambda n: n.base)  # type: ignore[union-attr]
 
 
-SLIPS: dict[str, Callable[[Random, Equation, Vocabulary], Equation | None]] = {
+SLIPS: dict[str, Slip] = {
     "sign": _sign,
     "factor": _number,
     "function": _function,
     "letter": _letter,
     "derivative": _derivative,
     "lost term": _lost_term,
+    "term twice": _twice,
     "extra term": _extra_term,
     "lost factor": _lost_factor,
     "extra factor": _extra_factor,
     "arm": _arm,
     "power": _power,
+    "angle": _angle,
+    "mass": _mass,
+    "rates": _rates,
 }

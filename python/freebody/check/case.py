@@ -26,6 +26,12 @@ class Meaning(Protocol):
     def texts(self, letter: Letter) -> tuple[str, ...]:
         """The expressions of the model language that a letter stands for."""
 
+    def fits(self, equation: Equation) -> bool:
+        """Whether its terms have one dimension."""
+
+    def names(self) -> Mapping[str, tuple[str, ...]]:
+        """What each letter with a value stands for, by ``Letter.key``: letters that name one quantity twice agree in it."""
+
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every letter on true states, by ``Letter.key``."""
 
@@ -66,6 +72,15 @@ class Case:
         before = self.residual(equation).sides.residual
         same = np.allclose(after, before, rtol=1e-9, atol=1e-9 * float(np.abs(before).max()))
         return [] if same else sorted(samples.loose)
+
+    def elsewhere(self, values: Mapping[str, Array]) -> dict[str, Array]:
+        """Values that are no true state, where only what is the same by itself is the same."""
+        names = self.meaning.names()
+        sizes = {key: np.where(np.any(value), value, 1.0) for key, value in values.items()}
+        rng, draws = np.random.default_rng(5), {}  # always the same places
+        for key, value in sizes.items():
+            draws.setdefault(names.get(key, key), value * rng.uniform(0.7, 1.4, value.shape))
+        return {key: draws[names.get(key, key)] for key in sizes}
 
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""

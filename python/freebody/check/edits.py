@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import chain
 
 from .language.evaluate import is_zero
 from .language.nodes import (
@@ -126,8 +126,20 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
             yield "function", Dot(left, right, **at)
         case Dot(left=left, right=right):
             yield "function", Cross(left, right, **at)
-    if isinstance(node, Letter) and Letter(node.name) in vocabulary.coordinates and node.dots == 1:
+    if _is_rate(node, vocabulary):
         yield "power", Power(node, Number(2.0, "2"), **at)
+
+
+def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
+    """Whether it is the rate of a coordinate, or some of them added."""
+    match node:
+        case Letter(name=name, dots=1):
+            return Letter(name) in vocabulary.coordinates
+        case Sum(terms=terms):
+            return all(_is_rate(term, vocabulary) for term in terms)
+        case Negative(of=of):
+            return _is_rate(of, vocabulary)
+    return False
 
 
 def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
@@ -146,6 +158,8 @@ def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
             yield from (Sum((a, b)), Sum((a, Negative(b))))
             if not isinstance(argument, Letter):
                 yield Sum((b, Negative(a)))
+    if isinstance(argument, Sum):
+        yield from (Sum((*argument.terms, a)) for b in known for a in (b, Negative(b)))
     yield Product((Number(2.0, "2"), argument))
     yield Quotient(argument, Number(2.0, "2"))
 
@@ -156,15 +170,10 @@ def _fewer(equation: Equation, node: Node) -> Iterator[Edit]:
 
 
 def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """A term with a sine, a cosine or a letter more."""
-    differences = [Sum((a, Negative(b))) for a, b in combinations(vocabulary.angles, 2)]
-    arguments: list[Node] = [*vocabulary.angles, *differences]
-    extras: list[Node] = [Call(name, (argument,)) for argument in arguments for name in ("sin", "cos")]
-    extras += [n for n in vocabulary.parameters if n not in vocabulary.angular]
-    extras += [Letter(n.name, dots) for n in vocabulary.coordinates for dots in (1, 2)]
-    for extra in extras:
+    """A term with a factor more."""
+    for extra, more in chain(((n, 0.0) for n in vocabulary.single_factors), ((n, 0.2) for n in vocabulary.double_factors)):
         new = Product((node, extra), span=node.span)
-        yield Edit("missing factor", node, new, replace(equation, node, new))
+        yield Edit("missing factor", node, new, replace(equation, node, new), more)
 
 
 def with_unit_vectors(equation: Equation, units: tuple[Letter, ...]) -> Iterator[Edit]:

@@ -72,6 +72,8 @@ class Letters:
         lowered = mechanism.lowered()
         self.spec = lowered.spec
         self.named = meanings.meanings(lowered.root)
+        if gravity is not None:
+            self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
         self.writer = Writer(lowered.root, self.named, {})
         self.about = mechanism.source().about
         self.meanings: dict[str, Meaning] = self._own(gravity)

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
+
+import numpy as np
 
 from freebody.model.errors import Complaint
 from freebody.model.units import Dimension
 
 from .declared import Meaning as One
 from .families import Samples
+from .language.dimensions import DimensionError, check_dimensions
+from .language.errors import StatementError
 from .language.evaluate import Array
-from .language.nodes import Letter, Program, walk
+from .language.nodes import Equation, Letter, Program, walk
 from .letters import Letters
 from .truth import Truth
 from .vocabulary import Powers, Vocabulary
@@ -24,6 +28,10 @@ _BEYOND = re.compile(
     r"|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|friction|force|value|power|work|N|T)\b"
 )
 """What reads more than the configuration."""
+_TENSION = re.compile(r"\btension\(([^()]*)\)")
+_BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
+_ROUND_OFF = 1e-11  # of what is typical of a dimension
+_MANY = 12  # reactions, beyond which only those of the statement are thought of
 
 
 class StatementLetters:
@@ -41,14 +49,37 @@ class StatementLetters:
         return self._one(letter).texts if letter.name in self.letters.meanings else ()
 
     def values(self, samples: Samples) -> Mapping[str, Array]:
-        """The value of every letter on true states, by ``Letter.key``."""
-        return self.letters.values(dict.fromkeys([*self.required, *self._more]), samples)
+        """The value of every letter on true states, by ``Letter.key``; what is 0 on all of them but for round-off is 0."""
+        found = self.letters.values(self._valued, samples)
+        return {n.key: self._without_round_off(n, found[n.key]) for n in self._valued}
+
+    def _without_round_off(self, letter: Letter, value: Array) -> Array:
+        one = self._one(letter)
+        if one.kind in ("parameter", "gravity") or one.dimension is None:
+            return value
+        size = self.truth.unit(one.dimension) * self.truth.rate**letter.dots
+        return np.zeros_like(value) if np.max(np.abs(value), initial=0.0) < _ROUND_OFF * size else value
+
+    def fits(self, equation: Equation) -> bool:
+        """Whether its terms have one dimension, as far as that is known."""
+        try:
+            check_dimensions(Program((equation,)), self.letters.dimensions)
+        except DimensionError:
+            return False
+        except StatementError:
+            pass
+        return True
+
+    def names(self) -> Mapping[str, tuple[str, ...]]:
+        """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
+        return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
     @cached_property
-    def _more(self) -> list[Letter]:
+    def _valued(self) -> list[Letter]:
+        """The letters of the statement and of the vocabulary, with their rates."""
         known = self.vocabulary
         dotted = [Letter(n.name, dots) for n in known.coordinates for dots in range(3)]
-        return [*known.parameters, *dotted, *known.others, *known.vectors]
+        return list(dict.fromkeys([*self.required, *known.parameters, *dotted, *known.others, *known.vectors]))
 
     @cached_property
     def vocabulary(self) -> Vocabulary:
@@ -59,6 +90,7 @@ class StatementLetters:
         vectors = [n for n in self.used if self._one(n).is_vector]
         known = dict.fromkeys([*self.used, *(Letter(name) for name in self.letters.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
+        others += self._reactions({_meant(self._one(n).texts) for n in others})
         plain = {n: self._powers(n) for n in (*parameters, *coordinates, *others)}
         return Vocabulary(
             {n: plain[n] for n in parameters},
@@ -67,6 +99,14 @@ class StatementLetters:
             {n: _powers(self._one(n).dimension) for n in (*vectors, *self._units)},
             frozenset(n for n in plain if (n in coordinates and plain[n] == (0, 0, 0)) or self._is_angle(n)),
         )
+
+    def _reactions(self, said: set[tuple[str, ...]]) -> list[Letter]:
+        """The determined reactions of the model that are not said, in the components of their joints."""
+        state = self.truth.first
+        told = json.loads(self.truth.core.free_bodies(state.p, state.t, state.q, state.u))["loads"]
+        named = [Letter(load["symbol"]) for load in told if load["unknown"] and load["determinate"]]
+        known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
+        return known if len(known) <= _MANY else []
 
     @cached_property
     def _units(self) -> list[Letter]:
@@ -106,6 +146,7 @@ class StatementLetters:
     def _mechanics(self) -> str:
         spec = self.truth.spec
         used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
+        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used])
         for parameter in reversed(spec["parameters"]):
             if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
                 used += " " + parameter["value"]
@@ -114,7 +155,7 @@ class StatementLetters:
     def _is_fixed(self, letter: Letter) -> bool:
         """Whether it is made of parameters alone."""
         words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
-        return bool(words) and words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+        return words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
     def _coordinates(self) -> list[Letter]:
@@ -122,6 +163,8 @@ class StatementLetters:
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        declared = [Letter(name) for name in self.letters.of_kind("declared")]
+        own += [n for n in declared if n not in movable and self._moves(n)]
         missing = max(len(self.truth.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
@@ -136,6 +179,11 @@ class StatementLetters:
             return all(one.needed(dots) for dots in (1, 2))
         except Complaint:
             return False
+
+
+def _meant(texts: Iterable[str]) -> tuple[str, ...]:
+    """Expressions of the model language, one name in one spelling: without brackets, tensions by what they are in."""
+    return tuple(_TENSION.sub(r"\1.tension", _BRACKETS.sub(r"\1", text)) for text in texts)
 
 
 def _powers(dimension: Dimension | None) -> Powers | None:

@@ -15,8 +15,8 @@ from .conventions import conventions
 from .edits import Edit, depth, edits, with_unit_vectors
 from .fits import Fits
 from .language.errors import StatementError
-from .language.evaluate import Array
-from .language.nodes import Equation, Letter, Number, letters
+from .language.evaluate import Array, evaluate
+from .language.nodes import Equation, Letter, Node, Number, letters
 from .language.nodes import replace as replaced
 from .language.spelling import spell
 from .residual import HOLDS, Residual, residual, unreached
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 EQUAL = 0.35
 """Edits whose sizes differ by less are equally small."""
+_VAIN = 0.3  # more, for a mend by what is always 0
 _FEW = 5  # states on which an edit is tried first
 _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
@@ -92,11 +93,11 @@ def mends(case: Case, equation: Equation) -> Iterator[Mend]:
             both = (*given.held, *((name, 0.0) for name in zeros))
             families.append((replace(given, held=both), ", ".join(f"{name} = 0" for name in zeros)))
     parts = rows(equation)
-    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, (_Search.singles,)))):
+    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE))):
         yield from whole
         return
     for row in parts:
-        yield from _of_row(case, row, families, (_Search.singles, _Search.pairs))
+        yield from _of_row(case, row, families, (*_SINGLE, _Search.pairs))
 
 
 def _unmentioned_zeros(case: Case, equation: Equation) -> list[str]:
@@ -133,13 +134,19 @@ class _Search:
         self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
-        self.other = elsewhere(self.few)
+        self.fit = case.meaning.fits
+        self.other = case.elsewhere(self.few)
         self.fits = Fits(self.values, self.vocabulary)
         self.right = self._worst(equation, self.values) < HOLDS
 
     def singles(self) -> Iterator[_Found]:
         """Every single edit that may mend it."""
         return ((_Found((edit,))) for edit in self._promising(self._all(self.equation)))
+
+    def other_terms(self) -> Iterator[_Found]:
+        """Every term that should be quite another."""
+        if self._readable(self.equation):
+            yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def pairs(self) -> Iterator[_Found]:
         """Pairs of the edits that bring it nearest, and of one of them and what is then found to be lacking."""
@@ -149,7 +156,7 @@ class _Search:
             if (both := _both(first, second)) is not None and self._passes(both.after):
                 yield _Found((first, both))
         for first in near:
-            second = self._fitted(first.after, others=False)
+            second = self._fitted(first.after)
             yield from (_Found((first, edit)) for edit in self._promising(second))
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
@@ -163,25 +170,44 @@ class _Search:
             () if broken else self._fitted(equation),
         )
 
-    def _fitted(self, equation: Equation, others: bool = True) -> Iterator[Edit]:
+    def _fitted(self, equation: Equation) -> Iterator[Edit]:
         try:
-            yield from self.fits.edits(equation, others)
+            yield from self.fits.edits(equation)
         except StatementError:
             return
 
     def best(self, found: Iterable[_Found]) -> list[_Found]:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
-        ranked = sorted(found, key=lambda each: (each.size, depth(each.after)))
+        ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
         kept: dict[tuple[float, ...], _Found] = {}
-        for each in ranked:
-            if kept and each.size > next(iter(kept.values())).size + EQUAL:
+        least = 0.0
+        for size, _, each in ranked:
+            if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is not None and mark not in kept and self._confirmed(each.after):
+            if mark is not None and mark not in kept and not self._is_idle(each) and self._confirmed(each.after):
+                least = size if not kept else least
                 kept[mark] = each
         return list(kept.values())[:_SHOWN]
 
+    def _size(self, found: _Found) -> float:
+        """How large a mend is; larger where it adds what is always 0 here."""
+        return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
+
+    def _is_idle(self, found: _Found) -> bool:
+        """Whether it takes a term away by a factor that is always 0."""
+        return any(e.kind == "missing factor" and e.new is not None and not self._moves(e.new) for e in found.edits)
+
+    def _moves(self, node: Node) -> bool:
+        """Whether a part has a value other than 0."""
+        try:
+            return bool(np.any(evaluate(node, self.few)))
+        except (StatementError, KeyError, ValueError):
+            return True
+
     def _confirmed(self, equation: Equation) -> bool:
+        if not self.fit(equation):
+            return False
         if self.family.held and unreached(equation, self.values):
             return False  # what is held at 0 may hide what is wrong
         return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
@@ -245,15 +271,6 @@ class _Search:
         return self.other[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
 
 
-def elsewhere(values: Mapping[str, Array]) -> dict[str, Array]:
-    """Values that are no true state, where only what is the same by itself is the same; two names of one quantity stay equal."""
-    rng = np.random.default_rng(5)
-    factors: dict[bytes, Array] = {}
-    for value in values.values():
-        factors.setdefault(value.tobytes(), rng.uniform(0.7, 1.4, value.shape))
-    return {key: value * factors[value.tobytes()] for key, value in values.items()}
-
-
 def _both(first: Edit, second: Edit) -> Edit | None:
     """The second edit after the first, where both can be made."""
     if second.old is None or (second.new is None and second.kind != "extra term"):
@@ -261,3 +278,6 @@ def _both(first: Edit, second: Edit) -> Edit | None:
     new = second.new if second.new is not None else Number(0.0, "0")
     after = replaced(first.after, second.old, new)
     return None if after is first.after else replace(second, after=after)
+
+
+_SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)

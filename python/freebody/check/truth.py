@@ -101,7 +101,7 @@ class Truth(OnRuns):
             return value
         low, high = self._factor(dimension)
         factor = low * (high / low) ** size
-        return value * factor if value else sign * factor * self._unit(dimension)
+        return value * factor if value else sign * factor * self.unit(dimension)
 
     def _factor(self, dimension: Dimension | None) -> tuple[float, float]:
         """By what a parameter may differ from the model's."""
@@ -109,7 +109,8 @@ class Truth(OnRuns):
             return _ANGLE_FACTOR
         return _LOOP_FACTOR if self.shapes_loop(dimension) else _FACTOR
 
-    def _unit(self, dimension: Dimension | None) -> float:
+    def unit(self, dimension: Dimension | None) -> float:
+        """What is typical of a dimension, SI."""
         if dimension is None:
             return 1.0
         return self.mass**dimension.mass * self.length**dimension.length * self.rate ** (-dimension.time)

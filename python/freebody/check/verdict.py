@@ -14,7 +14,7 @@ from .case import Case
 from .families import Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation, letters
-from .mend import Mend, elsewhere, mends
+from .mend import Mend, mends
 from .residual import FAILS, HOLDS, Residual, residual, unreached
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
     blind = [_spelled(case, term) for term in unreached(equation, values)]
     if blind and len(blind) == _count(equation):
         return Verdict(Kind.TRUE, text, "every term is 0 in every motion of this model", untested=tuple(blind))
-    if residual(equation, elsewhere(values)).worst < HOLDS:
+    if residual(equation, case.elsewhere(values)).worst < HOLDS:
         return Verdict(Kind.TRUE, text, "the two sides are the same by themselves: it says nothing of the motion")
     states = len(found.ratio)
     reason = f"holds on {states} random motions with random parameters, to {max(found.worst, 1e-16):.0e} of its terms"

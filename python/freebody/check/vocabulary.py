@@ -54,12 +54,33 @@ class Vocabulary:
                 return [Letter(n.name, letter.dots) for n in kin]
         return []
 
+    # -- factors
+
+    @cached_property
+    def single_factors(self) -> list[Node]:
+        """What a term can have as a factor: a sine or cosine, or a letter."""
+        differences = [Sum((a, Negative(b))) for a, b in combinations(self.angles, 2)]
+        sines: list[Node] = [Call(name, (angle,)) for angle in (*self.angles, *differences) for name in ("sin", "cos")]
+        sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
+        return [*sines, *sizes, *(Letter(n.name, dots) for n in self.coordinates for dots in (1, 2)), *self.others]
+
+    @cached_property
+    def double_factors(self) -> list[Node]:
+        """Differences of two coordinates or of their rates, and squares of rates and of those."""
+        pairs = [(a, b) for a, b in combinations(self.coordinates, 2) if self.coordinates[a] == self.coordinates[b]]
+        rates = [(Letter(a.name, 1), Letter(b.name, 1)) for a, b in pairs]
+        lengths = [pair for pair in pairs if pair[0] not in self.angular]
+        apart: list[Node] = [Sum((a, Negative(b))) for a, b in (*lengths, *rates)]
+        squares = [_square(Letter(n.name, 1)) for n in self.coordinates]
+        return [*apart, *squares, *(_square(Sum((a, Negative(b)))) for a, b in rates), *(Product(pair) for pair in rates)]
+
     # -- terms
 
-    def terms(self, wanted: Powers | None, moving: Sequence[Letter] = ()) -> Iterator[Node]:
-        """Terms of a dimension (of any where it is None) as equations of motion have them."""
+    def terms(self, wanted: Powers | None, moving: Sequence[Letter] = (), angles: Sequence[Node] = ()) -> Iterator[Node]:
+        """Terms of a dimension (of any where it is None) as equations of motion have them, also with sines of ``angles``."""
+        shapes = [*self._shapes, *((Call(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
         for monomial in islice(self._monomials(wanted, list(self._dynamic(moving))), _MOST):
-            for shape in self._shapes:
+            for shape in shapes:
                 factors = (*monomial, *shape)
                 yield Product(factors) if len(factors) > 1 else factors[0] if factors else Number(1.0, "1")
 

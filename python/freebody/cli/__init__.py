@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from freebody.cli.code import code
 from freebody.cli.check import check
+from freebody.cli.code import code
+from freebody.cli.equations import equations
 from freebody.cli.mistakes import Guarded, Mistake
 
 if TYPE_CHECKING:
@@ -169,6 +170,9 @@ def systems(
     diagrams: Annotated[bool, typer.Option("--diagrams", help="Draw free-body diagrams, of all systems or of this one.")] = False,
     output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
+    in_letters: Annotated[
+        bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
+    ] = False,
 ) -> None:
     """The worked catalogue: list it, run systems and print their answers, or draw their diagrams."""
     from freebody import catalogue
@@ -188,6 +192,10 @@ def systems(
         else:
             show.show_list(listed)
         return
+    if in_letters:
+        for system in chosen(identity):
+            derived(system)
+        return
     results = {system.id: answered(system, as_json) for system in chosen(identity)}
     if as_json:
         typer.echo(catalogue.to_json(results))
@@ -197,6 +205,7 @@ def systems(
         raise typer.Exit(BAD_END)
 
 
+app.command()(equations)
 app.command()(code)
 app.command()(check)
 
@@ -305,6 +314,19 @@ def chosen(identity: str | None) -> list[System]:
         return [catalogue.find(identity)]
     except KeyError as error:
         raise Mistake(error.args[0], "freebody systems lists them") from None
+
+
+def derived(system: System) -> None:
+    """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
+    from freebody import _core
+    from freebody.equations.derivation import FORMS
+
+    for model in system.models:
+        try:
+            for form in FORMS:
+                typer.echo(opened(model).equations(form).text())
+        except _core.MotionError as error:
+            typer.echo(f"{model.name}: {error.args[2]}\n")
 
 
 def pictured(systems: list[System], page: Path) -> None:

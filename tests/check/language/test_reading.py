@@ -128,6 +128,18 @@ def test_primes_belong_to_names_where_one_is_declared():
     assert letters(parse("ÿ' = i'", ["y'", "i'"])) == [Letter("y'", 2), Letter("i'")]
 
 
+@pytest.mark.parametrize("text", ["½ m l² a = 0", "(1/2) m l² a = 0", "½ m l^2 a = 0"])
+def test_a_known_letter_squared_behind_a_number_is_no_unit(text):
+    assert spell(parse(text, ["m", "l", "a"])) == "1/2*m*l^2*a = 0"
+
+
+@pytest.mark.parametrize("text", ["cart.x'' = 0", "cart.ẍ = 0"])
+def test_a_name_with_an_owner_takes_dots_and_primes(text):
+    (equation,) = parse(text, ("cart.x", "m")).equations
+    assert equation.left == Letter("cart.x", 2)
+    assert spell(equation) == "cart.ẍ = 0"
+
+
 def test_names_with_blanks_stand_in_quotes_and_do_not_take_primes_away():
     program = parse("'crank drive'.Fx = m x''", ["'crank drive'.Fx", "m", "x"])
     assert letters(program) == [Letter("'crank drive'.Fx"), Letter("m"), Letter("x", 2)]

@@ -36,7 +36,7 @@ SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
 _BEGINS = ("number", "letter", "function", "(", "[", "{", "frac", "matrix[", "|")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
-_UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_]+|°)(?:\^-?\d|[²³])?")
+_UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
 
 
 class Line:

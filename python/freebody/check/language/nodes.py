@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from dataclasses import replace as _with
+from functools import cache
 from typing import TypeVar
 
 from .errors import Span
@@ -168,9 +169,15 @@ class Term:
 N = TypeVar("N", bound=Node)
 
 
+@cache
+def _names(kind: type[Node]) -> tuple[str, ...]:
+    """The fields in which nodes can stand."""
+    return tuple(f.name for f in fields(kind) if f.name not in ("span", "text"))
+
+
 def children(node: Node) -> tuple[Node, ...]:
     """The nodes directly inside, in the order of the text."""
-    return tuple(_nodes([getattr(node, f.name) for f in fields(node)]))
+    return tuple(_nodes([getattr(node, name) for name in _names(type(node))]))
 
 
 def _nodes(values: object) -> Iterator[Node]:
@@ -195,17 +202,24 @@ def letters(node: Node) -> list[Letter]:
 
 def replace(node: N, old: Node, new: Node) -> N:
     """The same with ``new`` in the place of ``old``: that very node, not others that read alike."""
-
-    def inside(value: object) -> object:
-        if isinstance(value, tuple):
-            return tuple(inside(v) for v in value)
-        return replace(value, old, new) if isinstance(value, Node) else value
-
     if node is old:
         return new  # type: ignore[return-value]
-    if not any(n is old for n in walk(node)):
-        return node
-    return _with(node, **{f.name: inside(getattr(node, f.name)) for f in fields(node)})
+    changed = {}
+    for name in _names(type(node)):
+        value = getattr(node, name)
+        after = _replaced(value, old, new)
+        if after is not value:
+            changed[name] = after
+    return _with(node, **changed) if changed else node
+
+
+def _replaced(value: object, old: Node, new: Node) -> object:
+    if isinstance(value, Node):
+        return replace(value, old, new)
+    if isinstance(value, tuple):
+        after = tuple(_replaced(v, old, new) for v in value)
+        return after if any(x is not y for x, y in zip(after, value, strict=True)) else value
+    return value
 
 
 def substitute(node: N, expressions: dict[Letter, Node]) -> N:

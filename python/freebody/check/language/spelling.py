@@ -138,10 +138,11 @@ def _times(factors: Sequence[Node]) -> str:
 
 
 def _letter(letter: Letter) -> str:
-    """``thetaddot``; a name with signs in it has its dots on top: Ḣ/E."""
+    """``thetaddot``; a name with signs in it has its dots on top: Ḣ/E, cart.ẋ."""
     if re.fullmatch(r"\w+'*", letter.name):
         return letter.key
-    return unicodedata.normalize("NFC", letter.name[0] + _MARKS[letter.dots] + letter.name[1:])
+    at = letter.name.rfind(".") + 2 if "." in letter.name[:-1] else 1
+    return unicodedata.normalize("NFC", letter.name[:at] + _MARKS[letter.dots] + letter.name[at:])
 
 
 # --- LaTeX ---------------------------------------------------------------------------------------

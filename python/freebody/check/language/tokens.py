@@ -222,7 +222,9 @@ class _Reader:
         """The known names and functions that begin at a glyph; one with a stroke in it can reach beyond ``end``."""
         for name in self.names.odd:
             if (after := self.matches(start, name)) is not None:
-                return [_Piece("letter", self.names.by_spelling[name], self.marks(start, after), after)]
+                end = self.primes_end(after)
+                dots = self.marks(start, after) + len(self.spelling(after, end))
+                return [_Piece("letter", self.names.by_spelling[name], dots, end)]
         out = []
         for stop in range(start + 1, end + 1):
             if (stop < end and self.row[stop].kind in (Kind.LOW, Kind.PRIME)) or self.row[stop - 1].text == "":
@@ -244,8 +246,16 @@ class _Reader:
                 return None
             at, left = at + 1, left.removeprefix(text)
         behind = self.row[at : at + 1]
+        if behind and behind[0].kind is Kind.PRIME and not self.names.primed:
+            return at
         if behind and (behind[0].kind in (Kind.LOW, Kind.PRIME) or (behind[0].kind in _IN_NAMES and name[-1].isalnum())):
             return None
+        return at
+
+    def primes_end(self, at: int) -> int:
+        """Behind the primes that stand here, each a time derivative."""
+        while at < len(self.row) and self.row[at].kind is Kind.PRIME:
+            at += 1
         return at
 
     def unknown(self, start: int, end: int) -> list[_Piece]:

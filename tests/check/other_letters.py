@@ -1,0 +1,67 @@
+"""Other coordinates for a model: letters declared by its own, and what its own are in them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import permutations
+
+from freebody.check.language.nodes import Letter, Negative, Node, Number, Product, Quotient, Sum
+from freebody.check.vocabulary import Vocabulary
+
+
+@dataclass(frozen=True)
+class Other:
+    """A letter ``name`` declared as ``said``; ``replaced``: the model's letters in terms of it; ``own``: it in terms of them."""
+
+    name: str
+    said: str
+    replaced: Mapping[Letter, Node]
+    own: Mapping[Letter, Node]
+
+
+def others(vocabulary: Vocabulary) -> list[Other]:
+    """Angles from another axis, in the other sense, relative to another; lengths the other way; parameters by their doubles."""
+    angles = [n for n in vocabulary.coordinates if n in vocabulary.angular and n.name.isidentifier()]
+    lengths = [n for n in vocabulary.coordinates if n not in vocabulary.angular and n.name.isidentifier()]
+    made = [_shifted(n, "psi", 1.0, (math.pi / 2, "pi/2")) for n in angles]
+    made += [_shifted(n, "chi", -1.0, (math.pi, "pi")) for n in angles]
+    made += [_shifted(n, "zeta", -1.0, (0.0, "")) for n in (*angles, *lengths)]
+    made += [_relative(a, b) for a, b in permutations(angles, 2)]
+    made += [_double(n) for n in vocabulary.parameters if n not in vocabulary.angular and n.name.isidentifier()]
+    return made
+
+
+def _shifted(letter: Letter, name: str, sign: float, offset: tuple[float, str]) -> Other:
+    """psi = ± q + offset."""
+    value, text = offset
+    name = f"{name}_{letter.name}"
+    plus = Number(value, text)
+    said = f"{'-' if sign < 0 else ''}{letter.name}" + (f" + {text}" if text else "")
+
+    def swapped(source: str, target: str, back: bool) -> dict[Letter, Node]:
+        out: dict[Letter, Node] = {}
+        for dots in range(3):
+            one: Node = Letter(source, dots)
+            one = one if sign > 0 else Negative(one)
+            if dots == 0 and text:
+                one = Sum((one, Negative(plus) if back and sign > 0 else plus))
+            out[Letter(target, dots)] = one
+        return out
+
+    return Other(name, said, swapped(name, letter.name, True), swapped(letter.name, name, False))
+
+
+def _relative(a: Letter, b: Letter) -> Other:
+    """eta = a − b, so that a = eta + b."""
+    name = f"eta_{a.name}_{b.name}"
+    there: dict[Letter, Node] = {Letter(a.name, n): Sum((Letter(name, n), Letter(b.name, n))) for n in range(3)}
+    back: dict[Letter, Node] = {Letter(name, n): Sum((Letter(a.name, n), Negative(Letter(b.name, n)))) for n in range(3)}
+    return Other(name, f"{a.name} - {b.name}", there, back)
+
+
+def _double(n: Letter) -> Other:
+    """A parameter by its double."""
+    name, two = f"{n.name}_d", Number(2.0, "2")
+    return Other(name, f"2*{n.name}", {n: Quotient(Letter(name), two)}, {Letter(name): Product((two, n))})
