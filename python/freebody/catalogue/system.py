@@ -29,7 +29,13 @@ class System:
     @property
     def models(self) -> list[Path]:
         """Its model files, the main one first."""
-        return sorted(self.folder.glob("*.yaml"), key=lambda path: (path.name != "model.yaml", path.name))
+        found = (path for path in self.folder.glob("*.yaml") if path != self.statements)
+        return sorted(found, key=lambda path: (path.name != "model.yaml", path.name))
+
+    @property
+    def statements(self) -> Path:
+        """The file of what is stated about it, which not every system has."""
+        return self.folder / "statements.yaml"
 
     def questions(self) -> list[Question]:
         """Its questions, in the order in which they stand in the file."""
