@@ -147,7 +147,7 @@ def _figures(sides: Sides) -> str:
 
 
 def _plain(value: Any) -> str:
-    return np.array2string(np.asarray(value), precision=6, separator=", ") if np.ndim(value) else f"{float(value):.7g}"
+    return np.array2string(np.asarray(value) + 0.0, precision=6, separator=", ") if np.ndim(value) else f"{float(value):.7g}"
 
 
 class _OnRun:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .language.evaluate import Array
 
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
+_UNITS = ("i", "j", "k")
 _FEW = 0.1  # share of such states
 
 
@@ -48,7 +49,8 @@ class Evidence:
     states: int
 
     def __str__(self) -> str:
-        at = ", ".join(f"{name} = {_plain(value)}" for name, value in self.letters.items())
+        told = {name: value for name, value in self.letters.items() if not (name in _UNITS and isinstance(value, Sequence))}
+        at = ", ".join(f"{name} = {_plain(value)}" for name, value in told.items())
         return f"at {at}: left {_plain(self.left)}, right {_plain(self.right)}"
 
 
@@ -197,7 +199,7 @@ def independent(case: Case) -> tuple[int, int, list[str]]:
     unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.dots == 2 and n.key in values))
     base = _stacked(case, values)
     if not unknown:
-        return 0, base.shape[1], []
+        return 0, len(case.equations), []
     columns = []
     for key in unknown:
         step = np.max(np.abs(values[key])) or 1.0
@@ -240,4 +242,4 @@ def _plain(value: Any) -> str:
         return value
     if isinstance(value, Sequence):
         return "(" + ", ".join(_plain(v) for v in value) + ")"
-    return f"{value:.6g}"
+    return f"{value + 0.0:.6g}"
