@@ -167,7 +167,8 @@ def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -
     for text in (statement, other):
         verdict = checker.check(text, declared)
         if not verdict.ok:
-            return replace(verdict, reason=f"`{text}`: {verdict.reason}")
+            kind = verdict.kind if verdict.kind is Kind.UNDECIDABLE else Kind.WRONG
+            return Verdict(kind, statement, f"`{text}`: {verdict.kind.value}", evidence=verdict.evidence)
         counts.append(sum(len(terms(equation, expand=True)) for equation in checker.case(text, declared).equations))
     told = f"{counts[0]} terms against {counts[1]}, brackets multiplied out; all these equations are true"
     return Verdict(Kind.TRUE if counts[0] < counts[1] else Kind.WRONG, statement, told)

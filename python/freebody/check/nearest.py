@@ -22,7 +22,7 @@ from .language.nodes import Equation, Letter, letters
 if TYPE_CHECKING:
     from .case import Case
 
-_MOST = 300  # balances that are looked at, those of few bodies first
+_MOST = 150  # balances that are looked at, those of few bodies first
 _LONG = 1500  # signs, beyond which nobody reads an equation
 _WORD = re.compile(r"'[^']+'\.\w+|[A-Za-z_][\w.\[\]]*")
 _LEVELS = ("value", "rate", "acceleration")
