@@ -146,5 +146,11 @@ def test_a_condition_that_cannot_be_arranged_is_not_decidable(model: str, text: 
     assert why in verdict.reason
 
 
+def test_a_model_that_does_not_start_is_not_decidable() -> None:
+    verdict = Checker(Mechanism.loads(LOOP.replace("guess: {x: 0.9}", "x: 0.9"))).check("x'' = 0")
+    assert verdict.kind is Kind.UNDECIDABLE
+    assert "do not fit together" in verdict.reason
+
+
 def test_a_condition_that_holds_anyway_may_be_said() -> None:
     assert Checker(Mechanism.loads(GROUND)).check("if box.y = 0: floor.N = m*g").ok

@@ -50,10 +50,16 @@ class Truth(OnRuns):
         if key not in self._families:
             self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh), self.parameter_names)
         if not self._families[key].samples:
-            there = "".join(f", has `{_told(text)}`" for text in family.vanishing)
-            what = f"no motion of this model was found that{there and there[1:] + ' and'} is not singular, on a limit or of another mode"
-            raise NoMotion(f"{what} than its start")
+            raise NoMotion(self._why_none(family))
         return self._families[key]
+
+    def _why_none(self, family: Family) -> str:
+        try:
+            _ = self.first
+        except _core.MotionError as error:
+            return f"the model does not start: {error.args[2]}"
+        there = "".join(f"has `{_told(text)}` and " for text in family.vanishing)
+        return f"no motion of this model was found that {there}is not singular, on a limit or of another mode than its start"
 
     def has(self, family: Family) -> bool:
         """Whether there are motions of a family."""
