@@ -17,6 +17,7 @@ from freebody.model.start import evaluate, initial_state
 from freebody.model.units import Dimension
 from freebody.results import Array
 
+from .arranged import Loop
 from .families import ALL, Family, NoMotion, Sample, Samples
 from .runs import BALANCED, OnRuns
 
@@ -150,7 +151,7 @@ class Truth(OnRuns):
         rates = self.rates(rng, family)
         q, u, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
         for text in family.vanishing:
-            q, u = self._vanished(text, State(p, t, q, u))
+            q, u = self._vanished(text, State(p, t, q, u), list(rates), words["branch"])
         solved = self.core.instant(p, t, q, u)
         if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
             return None
@@ -158,13 +159,14 @@ class Truth(OnRuns):
         good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(u) < _FAST * sizes)
         return Sample(State(p, t, q, u)) if good else None
 
-    def _vanished(self, text: str, state: State) -> tuple[Array, Array]:
-        """The nearest place, or else the nearest rates there, where an expression is 0; for mechanisms without loops."""
+    def _vanished(self, text: str, state: State, free: list[str], branch: Mapping[str, int]) -> tuple[Array, Array]:
+        """The nearest place, or else the nearest rates there, where an expression is 0."""
         q, u = state.q, state.u
-        if self.loops and abs(self._slope(text, state, q, u, 0)[0]) > _NOTHING:
-            raise NoMotion(f"`{_told(text)}` cannot be arranged in a mechanism with closed loops")
         if self.loops:
-            return q, u
+            if abs(self._slope(text, state, q, u, 0)[0]) > _NOTHING and not free:
+                raise NoMotion(f"`{_told(text)}` cannot be arranged: the loops of this mechanism leave it no freedom")
+            found = Loop(self.core, [c["name"] for c in self.coordinates], free, branch).vanished(text, state) if free else state
+            return found.q, found.u
         for _ in range(30):
             value, slope = self._slope(text, state, q, u, 0)
             if not slope.any() or abs(value) < 1e-14:
