@@ -11,21 +11,23 @@ from functools import cached_property
 import derived
 import numpy as np
 from generated import GENERATED
-from independent import Array, holds, says_the_same
+from independent import holds, says_the_same
 from mutants import mutant
 from other_letters import Other, others
-from rearranged import rearranged
+from rearranged import arranged, in_other_letters, rearranged
 from textbook import BOOKS, Book
 
 from freebody.check import Checker, Kind
 from freebody.check.case import Case
-from freebody.check.language.nodes import Equation, Letter, letters
+from freebody.check.language.nodes import Equation, Letter, Node, letters, substitute
 from freebody.check.language.spelling import spell
 from freebody.check.mend import Mend, mends
 from freebody.check.verdict import judged
+from freebody.check.vocabulary import Vocabulary
 from freebody.model import Mechanism
 
 _OTHER_SEED = 20  # of the states at which truth is found beside the check
+_ARRANGED = 0.3  # share of slips that are made in another arrangement
 _PLACES = 12  # at which two equations are compared
 
 
@@ -67,7 +69,7 @@ class Bench:
         return [case.equations[0] for case in self.cases]
 
     @cached_property
-    def vocabulary(self):
+    def vocabulary(self) -> Vocabulary:
         return self.checker.case("\n".join(self.texts)).meaning.vocabulary
 
     @cached_property
@@ -82,14 +84,19 @@ class Bench:
 
     def is_true(self, equation: Equation) -> bool:
         """Whether it holds at true states of another draw, evaluated by other code."""
-        case = self._judge.case(spell(equation))
+        case = self._judge.case(spell(equation), self._said(equation))
         known = case.values()
         return holds(equation, {n: known[n.key] for n in letters(equation)})
 
-    def anywhere(self, equations: list[Equation], rng: np.random.Generator) -> dict[Letter, Array]:
-        """Values of the letters at places that are no true states."""
-        found = dict.fromkeys(n for equation in equations for n in letters(equation))
-        return {n: rng.uniform(0.4, 1.6, _PLACES) for n in found}
+    def same(self, one: Equation, other: Equation, rng: np.random.Generator) -> bool:
+        """Whether two say the same, by values of the model's own letters at places that are no true states."""
+        plain = [substitute(equation, self._own) for equation in (one, other)]
+        found = dict.fromkeys(n for equation in plain for n in letters(equation))
+        return says_the_same(*plain, {n: rng.uniform(0.4, 1.6, _PLACES) for n in found})
+
+    @cached_property
+    def _own(self) -> dict[Letter, Node]:
+        return {letter: node for other in self.others for letter, node in other.own.items()}
 
     # -- what the check says
 
@@ -107,28 +114,28 @@ class Bench:
         return {other.name: other.said for other in self.others if other.name in names}
 
     def mutated(self, rng: np.random.Generator) -> Outcome | None:
-        """A correct equation with a slip, at times in other coordinates; None where that is true as well."""
+        """A correct equation with a slip, at times in another form and other letters; None where that is true as well."""
         before = self.equations[int(rng.integers(len(self.equations)))]
-        made = mutant(rng, before, self.vocabulary)
+        if rng.random() < _ARRANGED:
+            before = in_other_letters(rng, arranged(rng, before, self.vocabulary), self.others)
+        case = self.checker.case(spell(before), self._said(before))
+        (before,) = case.equations  # every part its own: a slip is made in one place
+        made = mutant(rng, before, case.meaning.vocabulary)
         if made is None or self.is_true(made.equation):
             return None
         return self.outcome(made.kind, before, made.equation, rng)
 
     def outcome(self, slip: str, before: Equation, after: Equation, rng: np.random.Generator) -> Outcome:
         """What the check says of ``after`` that should be ``before``."""
-        text = spell(after)
-        case = self.checker.case(text)
+        text, said = spell(after), self._said(before) | self._said(after)
+        case = self.checker.case(text, said)
         began = time.perf_counter()
         verdict = judged(case)
         found = verdict.mends or tuple(mends(case, case.equations[0]))
         seconds = time.perf_counter() - began
-        right = [self._is(before, mend, rng) for mend in found]
+        right = [self.same(before, self.checker.case(mend.equation, said).equations[0], rng) for mend in found]
         first = bool(right) and right[0]
         return Outcome(self.name, slip, spell(before), text, verdict.kind, any(right), first, _told(found), seconds)
-
-    def _is(self, before: Equation, mend: Mend, rng: np.random.Generator) -> bool:
-        after = self.checker.case(mend.equation).equations[0]
-        return says_the_same(before, after, self.anywhere([before, after], rng))
 
 
 def _told(found: tuple[Mend, ...]) -> tuple[str, ...]:

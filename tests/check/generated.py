@@ -62,8 +62,8 @@ def row(blocks: int) -> str:
     )
     start = ", ".join(f"x{i}: 0.{i}" for i in numbers)
     return f"""freebody: 1
-parameters: {{{sizes}, F: 3 N}}
-gravity: none
+parameters: {{{sizes}, F: 3 N, g: 9.81 m/s^2}}
+gravity: g
 bodies: {{{bodies}}}
 joints:
 {joints}

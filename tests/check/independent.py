@@ -59,26 +59,28 @@ def valued(node: Node, at: Values) -> tuple[Array, Array]:
     raise KeyError(type(node).__name__)
 
 
-def off(equation: Equation, at: Values) -> Array:
-    """left − right at each place, relative to the sizes of all terms."""
+def sides(equation: Equation, at: Values) -> tuple[Array, Array]:
+    """left − right at each place, and the sizes of all terms together."""
     with np.errstate(all="ignore"):
         (left, a), (right, b) = valued(equation.left, at), valued(equation.right, at)
-        return np.nan_to_num((left - right) / (a + b), nan=0.0, posinf=1.0, neginf=1.0)
+        return left - right, a + b
 
 
 def holds(equation: Equation, at: Values) -> bool:
     """Whether it holds at every place but for round-off."""
-    return bool(np.max(np.abs(off(equation, at))) < _ROUND_OFF)
+    off, size = sides(equation, at)
+    return bool(np.all(np.abs(off) <= _ROUND_OFF * size))
 
 
 def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
     """Whether ``other`` holds just where ``one`` does, at places that are no true states: ``one`` is made to hold there by one
-    letter in which it is linear."""
-    for letter in sorted(letters(one), key=lambda n: -n.dots):
-        made = _solved(one, letter, at)
-        if made is not None:
-            return holds(other, made) and not holds(other, at)
-    return False
+    letter in which it is linear, one that does not make all its terms 0 where there is such."""
+    made = [values for letter in letters(one) if (values := _solved(one, letter, at)) is not None]
+    if not made:
+        return False
+    best = max(made, key=lambda values: float(np.min(sides(one, values)[1])))
+    off, size = sides(other, best)[0], sides(other, at)[1]
+    return bool(np.all(np.abs(off) <= _ROUND_OFF * size)) and not holds(other, at)
 
 
 def _solved(equation: Equation, letter: Letter, at: Values) -> Values | None:

@@ -126,8 +126,9 @@ def _lost_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation |
     def change(n: Node) -> Node:
         assert isinstance(n, Product)
         i = int(rng.integers(len(n.factors)))
-        if len(addends(n.factors[i], expand=True)) > 2:
-            return None  # a bracket of many terms is more than a slip
+        inside = addends(n.factors[i])
+        if len(inside) > 1 and not all(isinstance(term, Letter) for _, term in inside):
+            return None  # a bracket of terms is more than a slip
         rest = n.factors[:i] + n.factors[i + 1 :]
         return rest[0] if len(rest) == 1 else Product(rest)
 

@@ -42,15 +42,21 @@ def rearranged(rng: Random, equations: list[Equation], vocabulary: Vocabulary, o
         equation = _combined(rng, equation, equations[int(rng.integers(len(equations)))], vocabulary)
     for _ in range(int(rng.integers(1, 5))):
         equation = STEPS[int(rng.integers(len(STEPS)))](rng, equation, vocabulary)
-    fitting = [other for other in others if any(n in equation_letters(equation) for n in other.replaced)]
-    if fitting and rng.random() < 0.5:
-        equation = substitute(equation, fitting[int(rng.integers(len(fitting)))].replaced)
+    return in_other_letters(rng, equation, others) if rng.random() < 0.5 else equation
+
+
+def in_other_letters(rng: Random, equation: Equation, others: list[Other]) -> Equation:
+    """With one of its letters in terms of another."""
+    found = set(letters(equation))
+    fitting = [other for other in others if not found.isdisjoint(other.replaced)]
+    return substitute(equation, fitting[int(rng.integers(len(fitting)))].replaced) if fitting else equation
+
+
+def arranged(rng: Random, equation: Equation, vocabulary: Vocabulary) -> Equation:
+    """The same terms in other places, with brackets or without."""
+    for step in (_moved, _expanded, _shuffled, _turned):
+        equation = step(rng, equation, vocabulary) if rng.random() < 0.5 else equation
     return equation
-
-
-def equation_letters(equation: Equation) -> set[Node]:
-    """The letters of an equation."""
-    return set(letters(equation))
 
 
 def _factor(rng: Random, vocabulary: Vocabulary) -> Node:

@@ -132,8 +132,22 @@ joints:
   guide: {type: slot, along: {through: ground.O, angle: 0}, point: block.centre, coordinate: x}
 initial: {theta: 1, guess: {x: 0.9}}
 """
+ARRANGED = [
+    ("if theta = pi/4: x - sqrt(b^2 - a^2/2) = a/sqrt(2)", Kind.TRUE),  # the law of cosines
+    ("if theta = pi/4: x - sqrt(b^2 - a^2/2) = a/sqrt(3)", Kind.WRONG),
+    ("if thetadot = 0: xdot = 0", Kind.TRUE),
+    ("if y(rod.G) = 0: cos(theta)^2 = 1", Kind.TRUE),
+]
+
+
+@pytest.mark.parametrize(("text", "kind"), ARRANGED)
+def test_conditions_are_arranged_in_closed_loops(text: str, kind: Kind) -> None:
+    verdict = Checker(Mechanism.loads(LOOP)).check(text)
+    assert verdict.kind is kind, verdict
+
+
 IMPOSSIBLE = [
-    (LOOP, "if theta = pi/4: x'' = 0", "closed loops"),
+    (LOOP + "motions: {drive: {of: theta, is: 1 + 2*t}}", "if theta = pi/4: x'' = 0", "no freedom"),
     (GROUND, "if box.x = 1: floor.N = m*g", "contacts"),
     (FALL, "if y = 7, at the start: m*yddot = -3*path.M/y", "at the start"),
 ]

@@ -26,12 +26,12 @@ class Loop:
     branch: Mapping[str, int]
 
     def vanished(self, text: str, state: State) -> State:
-        """One coordinate is moved until the expression is 0; else its rate. Raises ``NoMotion`` and ``MotionError``."""
-        for name in self.free:
-            if (found := self._moved(text, state, name)) is not None:
-                return found
+        """One rate is chosen so that the expression is 0; where rates are not in it, a coordinate. Raises ``NoMotion`` and ``MotionError``."""
         for name in self.free:
             if (found := self._hurried(text, state, name)) is not None:
+                return found
+        for name in self.free:
+            if (found := self._moved(text, state, name)) is not None:
                 return found
         raise NoMotion(f"`{text}` depends on nothing that is free in this mechanism")
 

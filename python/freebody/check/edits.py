@@ -126,8 +126,20 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
             yield "function", Dot(left, right, **at)
         case Dot(left=left, right=right):
             yield "function", Cross(left, right, **at)
-    if isinstance(node, Letter) and Letter(node.name) in vocabulary.coordinates and node.dots == 1:
+    if _is_rate(node, vocabulary):
         yield "power", Power(node, Number(2.0, "2"), **at)
+
+
+def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
+    """Whether it is the rate of a coordinate, or some of them added."""
+    match node:
+        case Letter(name=name, dots=1):
+            return Letter(name) in vocabulary.coordinates
+        case Sum(terms=terms):
+            return all(_is_rate(term, vocabulary) for term in terms)
+        case Negative(of=of):
+            return _is_rate(of, vocabulary)
+    return False
 
 
 def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
@@ -146,6 +158,8 @@ def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
             yield from (Sum((a, b)), Sum((a, Negative(b))))
             if not isinstance(argument, Letter):
                 yield Sum((b, Negative(a)))
+    if isinstance(argument, Sum):
+        yield from (Sum((*argument.terms, a)) for b in known for a in (b, Negative(b)))
     yield Product((Number(2.0, "2"), argument))
     yield Quotient(argument, Number(2.0, "2"))
 

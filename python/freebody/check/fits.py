@@ -175,9 +175,10 @@ class Fits:
         whole = self._dimension(equation)
         wanted = None if whole is None else (whole[0] - less[0], whole[1] - less[1], whole[2] - less[2])
         moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
-        key = (wanted, moving)
+        long = tuple(dict.fromkeys(n for n in _arguments(equation) if isinstance(n, Sum) and len(n.terms) > 2))
+        key = (wanted, moving, long)
         if key not in self._made:
-            nodes = [*self.vocabulary.terms(wanted, moving), *self.vocabulary.moments(wanted)]
+            nodes = [*self.vocabulary.terms(wanted, moving, long), *self.vocabulary.moments(wanted)]
             rows = self._rows(nodes)
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
@@ -206,8 +207,13 @@ class Fits:
         return max(known, key=known.count) if known else None
 
     @cached_property
-    def _made(self) -> dict[tuple[Powers | None, tuple[Letter, ...]], tuple[list[Node], Array]]:
+    def _made(self) -> dict[tuple[Powers | None, tuple[Letter, ...], tuple[Node, ...]], tuple[list[Node], Array]]:
         return {}
+
+
+def _arguments(equation: Equation) -> Iterator[Node]:
+    """What sines and cosines are taken of."""
+    return (n.arguments[0] for n in walk(equation) if isinstance(n, Call) and n.function in ("sin", "cos"))
 
 
 def _constant(values: Array) -> float | None:

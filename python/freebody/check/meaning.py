@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 import numpy as np
@@ -29,6 +29,7 @@ _BEYOND = re.compile(
 )
 """What reads more than the configuration."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
+_BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
 _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
@@ -71,7 +72,7 @@ class StatementLetters:
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
-        return {n.key: tuple(_TENSION.sub(r"\1.tension", text) for text in self._one(n).needed(n.dots)) for n in self._valued}
+        return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
     @cached_property
     def _valued(self) -> list[Letter]:
@@ -89,7 +90,7 @@ class StatementLetters:
         vectors = [n for n in self.used if self._one(n).is_vector]
         known = dict.fromkeys([*self.used, *(Letter(name) for name in self.letters.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
-        others += self._reactions({_meant(self._one(n)) for n in others})
+        others += self._reactions({_meant(self._one(n).texts) for n in others})
         plain = {n: self._powers(n) for n in (*parameters, *coordinates, *others)}
         return Vocabulary(
             {n: plain[n] for n in parameters},
@@ -104,7 +105,7 @@ class StatementLetters:
         state = self.truth.first
         told = json.loads(self.truth.core.free_bodies(state.p, state.t, state.q, state.u))["loads"]
         named = [Letter(load["symbol"]) for load in told if load["unknown"] and load["determinate"]]
-        known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n)) not in said]
+        known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
 
     @cached_property
@@ -145,6 +146,7 @@ class StatementLetters:
     def _mechanics(self) -> str:
         spec = self.truth.spec
         used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
+        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used])
         for parameter in reversed(spec["parameters"]):
             if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
                 used += " " + parameter["value"]
@@ -153,7 +155,7 @@ class StatementLetters:
     def _is_fixed(self, letter: Letter) -> bool:
         """Whether it is made of parameters alone."""
         words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
-        return bool(words) and words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+        return words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
     def _coordinates(self) -> list[Letter]:
@@ -161,6 +163,8 @@ class StatementLetters:
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        declared = [Letter(name) for name in self.letters.of_kind("declared")]
+        own += [n for n in declared if n not in movable and self._moves(n)]
         missing = max(len(self.truth.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
@@ -177,9 +181,9 @@ class StatementLetters:
             return False
 
 
-def _meant(one: One) -> tuple[str, ...]:
-    """What a letter stands for, tensions in one spelling."""
-    return tuple(_TENSION.sub(r"\1.tension", text) for text in one.texts)
+def _meant(texts: Iterable[str]) -> tuple[str, ...]:
+    """Expressions of the model language, one name in one spelling: without brackets, tensions by what they are in."""
+    return tuple(_TENSION.sub(r"\1.tension", _BRACKETS.sub(r"\1", text)) for text in texts)
 
 
 def _powers(dimension: Dimension | None) -> Powers | None:

@@ -185,7 +185,7 @@ class _Search:
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is not None and mark not in kept and self._confirmed(each.after):
+            if mark is not None and mark not in kept and not self._is_idle(each) and self._confirmed(each.after):
                 least = size if not kept else least
                 kept[mark] = each
         return list(kept.values())[:_SHOWN]
@@ -193,6 +193,10 @@ class _Search:
     def _size(self, found: _Found) -> float:
         """How large a mend is; larger where it adds what is always 0 here."""
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
+
+    def _is_idle(self, found: _Found) -> bool:
+        """Whether it takes a term away by a factor that is always 0."""
+        return any(e.kind == "missing factor" and e.new is not None and not self._moves(e.new) for e in found.edits)
 
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""

@@ -76,10 +76,11 @@ class Vocabulary:
 
     # -- terms
 
-    def terms(self, wanted: Powers | None, moving: Sequence[Letter] = ()) -> Iterator[Node]:
-        """Terms of a dimension (of any where it is None) as equations of motion have them."""
+    def terms(self, wanted: Powers | None, moving: Sequence[Letter] = (), angles: Sequence[Node] = ()) -> Iterator[Node]:
+        """Terms of a dimension (of any where it is None) as equations of motion have them, also with sines of ``angles``."""
+        shapes = [*self._shapes, *((Call(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
         for monomial in islice(self._monomials(wanted, list(self._dynamic(moving))), _MOST):
-            for shape in self._shapes:
+            for shape in shapes:
                 factors = (*monomial, *shape)
                 yield Product(factors) if len(factors) > 1 else factors[0] if factors else Number(1.0, "1")
 
