@@ -70,11 +70,11 @@ MENDS = {
     ("S19.20", "WHEEL-4b"): "-(8.66*i + 4.00*j)",
     ("S19.21", "BAR-4"): "l2*betaddot/2*n2",
     ("S19.21", "BAR-5"): "l3*phiddot/2*n3",
-    ("S19.21", "BAR-7"): "r_D/A × R_D",
+    ("S19.21", "BAR-7"): "R_D",  # its moment about A, r_D/A × R_D or d R_Dy
     ("S19.22", "BAR-8a"): "(n1 · λ3)/(n2 · λ3)",
     ("S19.22", "BAR-8b"): "(n1 · λ2)/(n3 · λ2)",
     ("S19.22", "BAR-9"): "- [-cos(beta), cos(phi); sin(beta), -sin(phi)]",
-    ("S19.22", "BAR-10c"): "r_D × R_D",
+    ("S19.22", "BAR-10c"): "R_D",
 }
 """What each mended equation must hold; each was found by hand from the mechanics of the system."""
 
