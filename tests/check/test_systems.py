@@ -2,40 +2,96 @@
 
 from __future__ import annotations
 
+import json
+import re
+from functools import cache
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 import freebody
-from freebody.check.file import judge, read
+from freebody.check import Verdict
+from freebody.check.file import Judged, judge, read
+from freebody.cli import app
 
-FILES = sorted((Path(freebody.__file__).parent / "systems").glob("*/statements.yaml"))
+FOLDER = Path(freebody.__file__).parent / "systems"
+FILES = sorted(FOLDER.glob("*/statements.yaml"))
+STATED = {
+    "BLOCK": 8, "ARM": 5, "WEDGE": 11, "GUN": 9, "SLOPE": 6, "MOTOR": 4, "WHEEL": 4, "BAR": 14, "CART": 1, "LEGS": 1, "GEN": 2,
+}  # fmt: skip
+"""How many statements there are of each kind; one that says several things has several entries, `BLOCK-8a`, `BLOCK-8b`."""
+
+
+@cache
+def judged(path: Path) -> list[Judged]:
+    return list(judge(path))
+
+
+def verdict(system: str, statement: str) -> Verdict:
+    return next(one.verdict for one in judged(FOLDER / system / "statements.yaml") if one.statement.id == statement)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.parent.name)
 def test_statements_have_their_verdicts(path: Path) -> None:
     assert all(statement.verdict for statement in read(path).statements)
-    wrong = [(one.statement.id, one.verdict.kind) for one in judge(path) if not one.as_expected]
+    wrong = [(one.statement.id, one.verdict.kind) for one in judged(path) if not one.as_expected]
     assert not wrong
 
 
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.parent.name)
+def test_what_is_wrong_is_mended_or_shown(path: Path) -> None:
+    for one in judged(path):
+        if one.verdict.kind.name in ("WRONG", "DIMENSIONS"):
+            assert one.verdict.mends or one.verdict.reason, one.statement.id
+
+
+def test_no_statement_is_left_out() -> None:
+    told = {re.sub("[a-z]$", "", statement.id) for path in FILES for statement in read(path).statements}
+    assert told == {f"{kind}-{number}" for kind, count in STATED.items() for number in range(1, count + 1)}
+
+
 MENDS = {
+    ("EX-BLOCK", "BLOCK-1"): "m2*(xddot*i + y'ddot*j') · i",
     ("EX-BLOCK", "BLOCK-6"): "- m2*g*j =",
     ("EX-ARM", "ARM-1"): "m1*g*(-j)",
     ("EX-ARM", "ARM-2"): "m2*g*(-j)",
     ("S19.15", "WEDGE-6"): "(mu*C - S) + mu)",
     ("S19.17", "GUN-4"): "= R*thetadot^2",
+    ("S19.17", "GUN-7"): "t = 1.147 s",
+    ("S19.17", "GUN-9b"): "theta = 2.87",
     ("S19.18", "SLOPE-3"): "- thetadot^2*sin(theta)",
+    ("S19.18", "SLOPE-4"): "- m/M*thetadot^2*sin(theta)*cos(theta)",
+    ("S19.18", "SLOPE-5"): "= -g*sin(theta - α)",
     ("S19.19", "MOTOR-1"): "sin(theta)*xddot",
+    ("S19.20", "WHEEL-1b"): "-(1.25*i + 2.17*j)",
+    ("S19.20", "WHEEL-1c"): "(-3.50*i + 4.33*j)",
+    ("S19.20", "WHEEL-4a"): "-(17.32*i + 8.00*j)",
+    ("S19.20", "WHEEL-4b"): "-(8.66*i + 4.00*j)",
+    ("S19.21", "BAR-4"): "l2*betaddot/2*n2",
     ("S19.21", "BAR-5"): "l3*phiddot/2*n3",
-    ("S19.21", "BAR-7"): "r_D/A × R_D",
+    ("S19.21", "BAR-7"): "R_D",  # its moment about A, r_D/A × R_D or d R_Dy
     ("S19.22", "BAR-8a"): "(n1 · λ3)/(n2 · λ3)",
+    ("S19.22", "BAR-8b"): "(n1 · λ2)/(n3 · λ2)",
+    ("S19.22", "BAR-9"): "- [-cos(beta), cos(phi); sin(beta), -sin(phi)]",
+    ("S19.22", "BAR-10c"): "R_D",
 }
 """What each mended equation must hold; each was found by hand from the mechanics of the system."""
 
 
 @pytest.mark.parametrize(("system", "statement"), MENDS, ids=lambda x: x)
 def test_the_wrong_term_is_mended(system: str, statement: str) -> None:
-    path = next(path for path in FILES if path.parent.name == system)
-    verdict = next(one.verdict for one in judge(path) if one.statement.id == statement)
-    assert MENDS[system, statement] in verdict.mends[0].equation
+    assert MENDS[system, statement] in verdict(system, statement).mends[0].equation
+
+
+def test_the_command_lists_statements_with_their_verdicts() -> None:
+    done = CliRunner().invoke(app, ["systems", "19.3.24", "--statements"])
+    assert done.exit_code == 0, done.output
+    assert "3 statements: 3 true" in done.output
+    as_json = CliRunner().invoke(app, ["systems", "19.3.17", "--statements", "--json"])
+    assert [(row["system"], row["id"], row["verdict"]) for row in json.loads(as_json.output)] == [("19.3.17", "CART-1", "true")]
+
+
+def test_a_system_tells_what_is_stated_about_it() -> None:
+    done = CliRunner().invoke(app, ["systems", "19.3.17"])
+    assert "true: CART-1" in done.output

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich import box
@@ -13,6 +14,9 @@ from rich.text import Text
 
 from freebody.catalogue.answers import Answer, Asked
 from freebody.catalogue.system import System
+
+if TYPE_CHECKING:
+    from freebody.check.file import Judged
 
 
 def show_list(systems: Iterable[System], console: Console | None = None) -> None:
@@ -41,6 +45,59 @@ def show_asked(asked: Asked, console: Console | None = None) -> None:
     console.print(table)
     if asked.failure:
         console.print(Text(f"  failed: {asked.failure}\n", "bold red"))
+
+
+_STYLES = {"TRUE": "green", "TRUE_IF": "yellow", "WRONG": "red", "DIMENSIONS": "red", "UNDECIDABLE": "yellow"}
+_SHORT = {"TRUE": "true", "TRUE_IF": "true if", "WRONG": "wrong", "DIMENSIONS": "dimensions", "UNDECIDABLE": "not decidable"}
+
+
+def show_statements(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:
+    """The statements about a system, each with its verdict and what is behind it."""
+    table = Table(box=box.SIMPLE_HEAD, title=Text(_headed(system), "bold"), title_justify="left")
+    table.add_column("statement", no_wrap=True)
+    table.add_column("verdict", no_wrap=True)
+    table.add_column("what is stated, and what is behind the verdict", overflow="fold")
+    for one in judged:
+        kind = one.verdict.kind.name
+        table.add_row(one.statement.id, Text(_SHORT[kind] + _unexpected(one), _STYLES[kind]), _behind(one))
+    (console or Console()).print(table)
+
+
+def show_verdicts(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:
+    """Which of the statements about a system are true, which are wrong."""
+    console, by_kind = console or Console(), dict[str, list[str]]()
+    for one in judged:
+        by_kind.setdefault(one.verdict.kind.name, []).append(one.statement.id + _unexpected(one))
+    console.print(Text("What is stated about it", "bold"))
+    for kind, names in by_kind.items():
+        console.print(Text.assemble("  ", (f"{_SHORT[kind]}: ", _STYLES[kind]), ", ".join(names)))
+    console.print(Text(f"  why: freebody systems {system.id} --statements\n"))
+
+
+def show_totals(judged: Iterable[Judged], console: Console | None = None) -> None:
+    """How many statements are true, how many are wrong, and whether all have the verdict that their file expects."""
+    every = list(judged)
+    counts = {word: sum(one.verdict.kind.name == kind for one in every) for kind, word in _SHORT.items()}
+    told = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    (console or Console()).print(Text(f"{len(every)} statements: {told}", "bold"))
+    if wrong := [one.statement.id for one in every if one.as_expected is False]:
+        (console or Console()).print(Text(f"not as expected: {', '.join(wrong)}", "bold red"))
+
+
+def _headed(system: System) -> str:
+    return system.title if system.title.startswith(system.id) else f"{system.id}: {system.title}"
+
+
+def _unexpected(one: Judged) -> str:
+    return " (not as expected)" if one.as_expected is False else ""
+
+
+def _behind(one: Judged) -> Text:
+    lines = [Text(one.statement.says.strip())]
+    lines += [Text(f"→ {line}", "dim" if one.verdict.ok else "") for line in one.verdict.details]
+    if one.statement.note:
+        lines.append(Text(f"note: {one.statement.note}", "italic"))
+    return Text("\n").join(lines)
 
 
 def show_summary(results: dict[str, list[Asked]], console: Console | None = None) -> None:

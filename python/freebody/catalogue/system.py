@@ -9,9 +9,6 @@ from types import ModuleType
 
 from freebody.catalogue.answers import Question
 
-STATEMENTS = "statements.yaml"
-"""What is printed about a system; no model."""
-
 
 @dataclass(frozen=True)
 class System:
@@ -32,8 +29,13 @@ class System:
     @property
     def models(self) -> list[Path]:
         """Its model files, the main one first."""
-        found = (path for path in self.folder.glob("*.yaml") if path.name != STATEMENTS)
+        found = (path for path in self.folder.glob("*.yaml") if path != self.statements)
         return sorted(found, key=lambda path: (path.name != "model.yaml", path.name))
+
+    @property
+    def statements(self) -> Path:
+        """The file of what is stated about it, which not every system has."""
+        return self.folder / "statements.yaml"
 
     def questions(self) -> list[Question]:
         """Its questions, in the order in which they stand in the file."""

@@ -15,9 +15,8 @@ from .language.errors import StatementError
 from .language.parser import parse
 from .letters import Letters
 from .meaning import StatementLetters
-from .mend import mends
 from .truth import Truth
-from .verdict import Kind, Verdict, judged
+from .verdict import Verdict, judged, misfit
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -65,8 +64,7 @@ class Checker:
         try:
             check_dimensions(case.program, case.meaning.letters.dimensions)
         except DimensionError as error:
-            found = tuple(mend for equation in case.equations for mend in mends(case, equation))
-            return Verdict(Kind.DIMENSIONS, text, error.what, mends=found)
+            return misfit(case, case.equations, text, error.what)
         except StatementError:
             pass  # kinds that do not go together are told with the verdict
         return judged(case)

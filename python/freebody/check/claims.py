@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -12,15 +12,15 @@ import numpy as np
 from freebody.model.errors import Complaint
 from freebody.results import Array
 
+from . import moments
 from .case import Case
 from .families import Sample, Samples
 from .hypothesis import FAR, family
 from .language.errors import StatementError
 from .language.evaluate import equation_sides, evaluate
-from .language.nodes import Equation, Letter, Number, Program, letters, walk
-from .language.nodes import replace as replaced
+from .language.nodes import Equation, Letter, Program, letters, terms
 from .language.parser import parse, parse_expression
-from .meaning import StatementLetters
+from .language.spelling import spell
 from .residual import HOLDS, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 _STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what the integrator leaves
 _MOMENTS = 6
 _RUNS = 12
-_ROUND = 1e-9  # of half a digit, so that a figure that lies on the edge is accepted
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
@@ -135,6 +134,46 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
     return Verdict(Kind.TRUE, expression, f"unchanged when {names} change alone, on {len(samples)} motions")
 
 
+def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: str, statement: str) -> Verdict:
+    """The factors of unknowns in equations, when some coordinates or rates are changed and all else stays."""
+    case, known, truth = checker.case(statement, declared), checker.letters(declared).names, checker.truth
+    wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Letter)]
+    samples = case.samples()
+    before = [_factors(equation, wanted, case.values()) for equation in case.equations]
+    for name in (n.strip() for n in names.split(",")):
+        letter = parse_expression(name, known)
+        moved = Samples(truth.core, [_moved(truth, sample, letter) for sample in samples.samples], truth.parameter_names)
+        values = case.meaning.values(moved)
+        for number, (equation, earlier) in enumerate(zip(case.equations, before, strict=True), 1):
+            change = np.abs(_factors(equation, wanted, values) - earlier).max(axis=(0, 1))
+            if change.max() > 1e-7 * np.abs(earlier).max():
+                place = f"the factor of {spell(wanted[int(np.argmax(change))])} in equation {number}"
+                return Verdict(Kind.WRONG, statement, f"{place} depends on {name}")
+    told = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(samples)} motions"
+    return Verdict(Kind.TRUE, statement, told)
+
+
+def _factors(equation: Equation, unknowns: Sequence[Letter], values: Mapping[str, Array]) -> Array:
+    """What stands before each unknown in the rows of an equation, (K, rows, unknowns)."""
+    still = {**values, **{n.key: np.zeros_like(values[n.key]) for n in unknowns if n.key in values}}
+    ones = [{**still, n.key: np.ones_like(still[n.key])} if n.key in still else still for n in unknowns]
+    left = equation_sides(equation, still).residual
+    return np.stack([equation_sides(equation, one).residual - left for one in ones], axis=-1)
+
+
+def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -> Verdict:
+    """True equations with fewer terms than others that are true, brackets multiplied out."""
+    counts = []
+    for text in (statement, other):
+        verdict = checker.check(text, declared)
+        if not verdict.ok:
+            kind = verdict.kind if verdict.kind is Kind.UNDECIDABLE else Kind.WRONG
+            return Verdict(kind, statement, f"`{text}`: {verdict.kind.value}", evidence=verdict.evidence)
+        counts.append(sum(len(terms(equation, expand=True)) for equation in checker.case(text, declared).equations))
+    told = f"{counts[0]} terms against {counts[1]}, brackets multiplied out; all these equations are true"
+    return Verdict(Kind.TRUE if counts[0] < counts[1] else Kind.WRONG, statement, told)
+
+
 def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
     names = [c["name"] for c in truth.coordinates]
     if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth.loops:
@@ -187,81 +226,6 @@ def _solve(given: Program, values: dict[str, Array]) -> None:
             values[letter.key] = values[letter.key] - steps[:, i]
 
 
-def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
-    """At a moment of the model's own run, with its own numbers; figures to their printed digits."""
-    known = checker.letters(declared)
-    program = parse(statement, known.names)
-    meaning = StatementLetters(known, program, checker.truth)
-    run, t = checker.moment(moment)
-    values = meaning.values(_OnRun(run, t, checker))
-    case = Case(program, meaning, checker.truth)
-    for equation in case.equations:
-        sides = equation_sides(equation, values)
-        off, allowed = np.abs(sides.residual), rounding(equation, values)
-        if np.any(off > allowed * (1 + _ROUND)):
-            shown = {n.key: values[n.key][0].tolist() for n in letters(equation) if n.key in values}
-            seen = Evidence(shown, sides.left[0].tolist(), sides.right[0].tolist(), float(off.max()), 1)
-            return Verdict(Kind.WRONG, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}", evidence=seen)
-    return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
-
-
-def _report(checker: Checker, declared: Declared, label: str, figure: str) -> Verdict:
-    """A quantity of the section ``report``, from the model's own run with its own numbers."""
-    run, _ = checker.moment("end")
-    if label not in run.report:
-        raise Complaint(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
-    printed = parse(f"0 = {figure}").equations[0]
-    value, said = float(run.report[label].value), float(evaluate(printed.right, {})[0])
-    allowed = float(rounding(printed, {}).max())
-    kind = Kind.TRUE if abs(value - said) <= allowed * (1 + _ROUND) else Kind.WRONG
-    return Verdict(kind, label, f"{label} is {value:.6g} against {said:g}" + (", as printed" if kind is Kind.TRUE else ""))
-
-
-def _figures(sides: Any) -> str:
-    return f"it is {np.array2string(sides.left[0], precision=6)} against {np.array2string(sides.right[0], precision=6)}"
-
-
-def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
-    """How far the sides may lie apart, by half the last printed digit of each figure with a decimal point; (K, n)."""
-    base = equation_sides(equation, values).residual
-    size = (magnitude(equation.left, values) + magnitude(equation.right, values)).reshape(len(base), -1)
-    allowed = HOLDS * size
-    for figure in [n for n in walk(equation) if isinstance(n, Number) and "." in n.text]:
-        half = 0.5 * 10.0 ** -len(figure.text.split("e")[0].split(".")[1]) * _power(figure.text)
-        moved = replaced(equation, figure, Number(figure.value + half, figure.text))
-        allowed = allowed + np.abs(equation_sides(moved, values).residual - base)
-    return allowed
-
-
-def _power(text: str) -> float:
-    return 10.0 ** int(text.split("e")[1]) if "e" in text else 1.0
-
-
-class _OnRun:
-    """A moment of a run as one sample."""
-
-    def __init__(self, run: Any, t: float, checker: Checker) -> None:
-        self.run, self.t, self.checker = run, t, checker
-
-    def __len__(self) -> int:
-        return 1
-
-    def values(self, texts: Any) -> dict[str, Array]:
-        """Each expression, (1,)."""
-        gravity = self.checker.truth.gravity
-        return {text: np.array([self._value(text, gravity)]) for text in texts}
-
-    def _value(self, text: str, gravity: str | None) -> float:
-        if text == gravity:
-            return float(self.checker.truth.free_parameters[text])
-        return float(np.asarray(self.run.evaluate(text, self.t)).ravel()[0])
-
-    def masses(self) -> dict[str, tuple[Array, Array]]:
-        """As of the model's own numbers."""
-        truth = self.checker.truth
-        return Samples(truth.core, [truth.own], truth.parameter_names).masses()
-
-
 _Judge = Callable[..., Verdict]
 _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
     (re.compile(r"only if (.+?):(.+)", re.S), _only_if),
@@ -269,8 +233,11 @@ _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
     (re.compile(r"constant:(.+)", re.S), _constant),
     (re.compile(r"limit:(.+)\bas\b(.+)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
+    (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),
+    (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),
+    (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), moments.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
-    (re.compile(r"at (.+?):(.+)", re.S), _at),
-    (re.compile(r"report:(.+)=(.+)", re.S), _report),
+    (re.compile(r"at (.+?):(.+)", re.S), moments.at),
+    (re.compile(r"report:(.+)=(.+)", re.S), moments.report),
 )
 """Forms of claims, each with what judges it."""

@@ -138,6 +138,7 @@ def as_json(verdict: Verdict) -> dict[str, Any]:
             }
             for m in verdict.mends
         ],
+        "nearest true equation": verdict.true,
         "untested": list(verdict.untested),
         "evidence": None
         if seen is None

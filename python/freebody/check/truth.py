@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from freebody.model.start import evaluate, initial_state
 from freebody.model.units import Dimension
 from freebody.results import Array
 
+from .arranged import Loop
 from .families import ALL, Family, NoMotion, Sample, Samples
 from .runs import BALANCED, OnRuns
 
@@ -31,6 +33,7 @@ _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
+_NOTHING = 1e-11  # SI: what vanishes by a hypothesis is below it
 _STEP = 1e-6  # of central differences by coordinates
 
 
@@ -48,8 +51,16 @@ class Truth(OnRuns):
         if key not in self._families:
             self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh), self.parameter_names)
         if not self._families[key].samples:
-            raise NoMotion("no motion of this model was found that is not singular, on a limit or of another mode than its start")
+            raise NoMotion(self._why_none(family))
         return self._families[key]
+
+    def _why_none(self, family: Family) -> str:
+        try:
+            _ = self.first
+        except _core.MotionError as error:
+            return f"the model does not start: {error.args[2]}"
+        there = "".join(f"has `{_told(text)}` and " for text in family.vanishing)
+        return f"no motion of this model was found that {there}is not singular, on a limit or of another mode than its start"
 
     def has(self, family: Family) -> bool:
         """Whether there are motions of a family."""
@@ -81,9 +92,22 @@ class Truth(OnRuns):
         return None
 
     def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        if not self.restricted and not family.at_start:
+            found = self._anywhere(rng, values, family)
+        else:
+            found = self.on_a_run(rng, values, family) if self.restricted else Sample(self.started(values))
+        return found if found and all(self._vanishes(text, found, family) for text in family.vanishing) else None
+
+    def _vanishes(self, text: str, sample: Sample, family: Family) -> bool:
+        """Whether an expression is 0 there. Raises ``NoMotion`` where nothing can be done for it."""
+        if abs(float(Samples(self.core, [sample], []).values([text])[text][0])) < _NOTHING:
+            return True
         if self.restricted:
-            return self.on_a_run(rng, values, family)
-        return Sample(self.started(values)) if family.at_start else self._anywhere(rng, values, family)
+            why = "contacts, strings, stops or friction decide how this model moves, so that it is tried on runs from its start"
+            raise NoMotion(f"`{_told(text)}` cannot be arranged: {why}")
+        if family.at_start:
+            raise NoMotion(f"`{_told(text)}` does not hold at the start of this model")
+        return False
 
     def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         held, scaled = dict(family.held), dict(family.scaled)
@@ -127,7 +151,7 @@ class Truth(OnRuns):
         rates = self.rates(rng, family)
         q, u, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
         for text in family.vanishing:
-            q, u = self._vanished(text, State(p, t, q, u))
+            q, u = self._vanished(text, State(p, t, q, u), list(rates), words["branch"])
         solved = self.core.instant(p, t, q, u)
         if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
             return None
@@ -135,11 +159,14 @@ class Truth(OnRuns):
         good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(u) < _FAST * sizes)
         return Sample(State(p, t, q, u)) if good else None
 
-    def _vanished(self, text: str, state: State) -> tuple[Array, Array]:
-        """The nearest place, or else the nearest rates there, where an expression is 0; for mechanisms without loops."""
-        if self.loops:
-            raise NoMotion(f"`{text} = 0` cannot be arranged in a mechanism with closed loops")
+    def _vanished(self, text: str, state: State, free: list[str], branch: Mapping[str, int]) -> tuple[Array, Array]:
+        """The nearest place, or else the nearest rates there, where an expression is 0."""
         q, u = state.q, state.u
+        if self.loops:
+            if abs(self._slope(text, state, q, u, 0)[0]) > _NOTHING and not free:
+                raise NoMotion(f"`{_told(text)}` cannot be arranged: the loops of this mechanism leave it no freedom")
+            found = Loop(self.core, [c["name"] for c in self.coordinates], free, branch).vanished(text, state) if free else state
+            return found.q, found.u
         for _ in range(30):
             value, slope = self._slope(text, state, q, u, 0)
             if not slope.any() or abs(value) < 1e-14:
@@ -162,6 +189,12 @@ class Truth(OnRuns):
 
     def _time(self, rng: np.random.Generator) -> float:
         return 3 * rng.random() / self.rate
+
+
+def _told(text: str) -> str:
+    """What vanishes, as the equation that it comes from."""
+    found = re.fullmatch(r"\((.+)\) - \((.+)\)", text)
+    return f"{found[1]} = {found[2]}" if found else f"{text} = 0"
 
 
 def _is_angle(dimension: Dimension) -> bool:

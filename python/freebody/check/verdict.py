@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -15,12 +15,14 @@ from .families import Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation, letters
 from .mend import Mend, mends
+from .nearest import nearest
 from .residual import FAILS, HOLDS, Residual, residual, unreached
 
 if TYPE_CHECKING:
     from .language.evaluate import Array
 
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
+_UNITS = ("i", "j", "k")
 _FEW = 0.1  # share of such states
 
 
@@ -48,14 +50,16 @@ class Evidence:
     states: int
 
     def __str__(self) -> str:
-        at = ", ".join(f"{name} = {_plain(value)}" for name, value in self.letters.items())
+        told = {name: value for name, value in self.letters.items() if not (name in _UNITS and isinstance(value, Sequence))}
+        at = ", ".join(f"{name} = {_plain(value)}" for name, value in told.items())
         return f"at {at}: left {_plain(self.left)}, right {_plain(self.right)}"
 
 
 @dataclass(frozen=True)
 class Verdict:
     """What is so about one statement. ``reason`` is a sentence; ``assumption`` names under what it holds; ``mends`` are the
-    smallest edits that make it true, equally small ones side by side; ``untested`` are terms about which nothing was learnt."""
+    smallest edits that make it true, equally small ones side by side; ``true`` is the nearest true equation, where nothing mends
+    it; ``untested`` are terms about which nothing was learnt."""
 
     kind: Kind
     text: str
@@ -64,6 +68,7 @@ class Verdict:
     mends: tuple[Mend, ...] = ()
     evidence: Evidence | None = None
     untested: tuple[str, ...] = ()
+    true: str = ""
     parts: tuple[Verdict, ...] = field(default=(), repr=False)
 
     @property
@@ -76,6 +81,8 @@ class Verdict:
         """What is behind it, a line each."""
         lines = [self.reason] if self.reason else []
         lines += [f"mend: {mend}" for mend in self.mends]
+        if self.true:
+            lines.append(self.true)
         if self.evidence and not self.ok:
             lines.append(str(self.evidence))
         if self.untested:
@@ -98,7 +105,8 @@ def judged(case: Case) -> Verdict:
     together = tuple(mend for part in parts for mend in part.mends)
     assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
     untested = tuple(term for part in parts for term in part.untested)
-    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, tuple(parts))
+    true = "\n  ".join(dict.fromkeys(part.true for part in parts if part.true))
+    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true, tuple(parts))
 
 
 def judged_one(case: Case, equation: Equation) -> Verdict:
@@ -111,7 +119,7 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
     except StatementError as error:
         if any(n.key not in case.values() for n in letters(equation)):
             raise error.within(case.program.text) from None
-        return Verdict(Kind.DIMENSIONS, text, error.what, mends=tuple(mends(case, equation)))
+        return misfit(case, [equation], text, error.what)
     if np.isnan(found.worst):
         return Verdict(Kind.UNDECIDABLE, text, _valueless(case, equation))
     if equation.relation != "=":
@@ -128,6 +136,16 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         what = f"{', '.join(loose)} is not determined by the balances of this model: its parts can be pre-stressed"
         return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, equation, found))
     return _not_true(case, equation, text, found)
+
+
+def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
+    """The verdict where dimensions do not fit: each equation with its mends, or with the nearest true one."""
+    try:
+        fixes = {equation: tuple(mends(case, equation)) for equation in equations}
+    except NoMotion:
+        return Verdict(Kind.DIMENSIONS, text, reason)
+    true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
+    return Verdict(Kind.DIMENSIONS, text, reason, mends=tuple(mend for found in fixes.values() for mend in found), true=true)
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
@@ -155,8 +173,9 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if not any(mend.is_slip for mend in fixes) and (assumed := assumption(case, equation)):
         words, _ = assumed
         return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", words, fixes, seen)
-    where = "" if fixes else "wrong, and no single or double edit mends it"
-    return Verdict(Kind.WRONG, text, where, mends=fixes, evidence=seen)
+    if fixes:
+        return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
+    return Verdict(Kind.WRONG, text, "wrong, and no single or double edit mends it", evidence=seen, true=nearest(case, equation))
 
 
 def _looked_at_again(case: Case, equation: Equation) -> float:
@@ -197,7 +216,7 @@ def independent(case: Case) -> tuple[int, int, list[str]]:
     unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.dots == 2 and n.key in values))
     base = _stacked(case, values)
     if not unknown:
-        return 0, base.shape[1], []
+        return 0, len(case.equations), []
     columns = []
     for key in unknown:
         step = np.max(np.abs(values[key])) or 1.0
@@ -240,4 +259,4 @@ def _plain(value: Any) -> str:
         return value
     if isinstance(value, Sequence):
         return "(" + ", ".join(_plain(v) for v in value) + ")"
-    return f"{value:.6g}"
+    return f"{value + 0.0:.6g}"

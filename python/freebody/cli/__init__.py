@@ -168,13 +168,14 @@ def systems(
     identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
     diagrams: Annotated[bool, typer.Option("--diagrams", help="Draw free-body diagrams, of all systems or of this one.")] = False,
+    stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
     output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
     in_letters: Annotated[
         bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
     ] = False,
 ) -> None:
-    """The worked catalogue: list it, run systems and print their answers, or draw their diagrams."""
+    """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
     from freebody import catalogue
     from freebody.catalogue import show
 
@@ -185,6 +186,9 @@ def systems(
         raise Mistake(what, "pip install 'freebody[catalogue]'") from None
     if diagrams:
         pictured(chosen(identity), output)
+        return
+    if stated:
+        judged(chosen(identity), as_json)
         return
     if identity is None and not everything:
         if as_json:
@@ -201,6 +205,8 @@ def systems(
         typer.echo(catalogue.to_json(results))
     elif everything:
         show.show_summary(results)
+    else:
+        verdicts(chosen(identity))
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(BAD_END)
 
@@ -336,6 +342,38 @@ def pictured(systems: list[System], page: Path) -> None:
 
     models = [(f"{system.id}, {path.stem}: {system.title}", path) for system in systems for path in system.models]
     show.written([write_gallery(models, page)])
+
+
+def judged(systems: list[System], as_json: bool) -> None:
+    """The verdicts about what is stated, in tables or as JSON. Ends with an error where one is not as expected."""
+    from freebody.catalogue import show
+    from freebody.catalogue.statements import statements, statements_json
+    from freebody.model.errors import Complaint
+
+    results = []
+    try:
+        for system, found in statements(systems):
+            results.append((system, found))
+            if not as_json:
+                show.show_statements(system, found)
+    except Complaint as complaint:
+        raise Mistake(complaint.what, complaint.hint) from None
+    every = [one for _, found in results for one in found]
+    if as_json:
+        typer.echo(json.dumps(statements_json(results), ensure_ascii=False, indent=1))
+    else:
+        show.show_totals(every)
+    if any(one.as_expected is False for one in every):
+        raise typer.Exit(BAD_END)
+
+
+def verdicts(systems: list[System]) -> None:
+    """In short, which of the statements about systems are true."""
+    from freebody.catalogue import show
+    from freebody.catalogue.statements import statements
+
+    for system, found in statements(systems):
+        show.show_verdicts(system, found)
 
 
 def answered(system: System, silent: bool) -> list[Asked]:

@@ -37,9 +37,7 @@ def patch(style: str, points: Any, tint: str, closed: bool = True) -> Any:
     """A stroke where its points (k, 2) are on the axes; ``tint`` is the colour of its body."""
     from matplotlib.patches import Polygon
 
-    return Polygon(
-        points, closed=closed, zorder=2 + 0.05 * ORDER.index(style), joinstyle="round", **_look(style, tint)
-    )
+    return Polygon(points, closed=closed, zorder=2 + 0.05 * ORDER.index(style), joinstyle="round", **_look(style, tint))
 
 
 def _look(style: str, tint: str) -> dict[str, Any]:

@@ -1,0 +1,38 @@
+"""What is stated about systems, judged."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from freebody.catalogue.system import System
+from freebody.check.file import Judged, judge
+
+
+def statements(systems: Iterable[System]) -> Iterator[tuple[System, list[Judged]]]:
+    """The systems of which something is stated, each with its statements and their verdicts; several processes share the work.
+
+    Raises ``Complaint``.
+    """
+    told = [system for system in systems if system.statements.exists()]
+    workers = min(os.cpu_count() or 1, len(told))
+    if workers < 2:
+        yield from ((system, _judged(system.statements)) for system in told)
+        return
+    with ProcessPoolExecutor(workers) as pool:
+        # Those of which most is stated first, so that no process is left alone with them at the end.
+        longest = sorted(told, key=lambda system: -system.statements.stat().st_size)
+        found = {system.id: pool.submit(_judged, system.statements) for system in longest}
+        yield from ((system, found[system.id].result()) for system in told)
+
+
+def statements_json(results: Iterable[tuple[System, list[Judged]]]) -> list[dict[str, Any]]:
+    """Every statement with its verdict and what is behind it, as plain data."""
+    return [{"system": system.id, **one.to_json()} for system, judged in results for one in judged]
+
+
+def _judged(path: Path) -> list[Judged]:
+    return list(judge(path))

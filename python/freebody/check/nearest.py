@@ -1,0 +1,114 @@
+"""The true equation that is nearest to a wrong one: the balance, or the closure of a loop, that holds the same letters."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+from freebody.balances.groups import groups
+from freebody.balances.system import Problem, problem
+from freebody.balances.twists import named_twists
+from freebody.equations import Letters as Printed
+from freebody.equations import Sym, Tree, equation_text, read, symbols
+from freebody.free_body import FreeBodies
+
+from .families import NoMotion
+from .language.nodes import Equation, Letter, letters
+
+if TYPE_CHECKING:
+    from .case import Case
+
+_MOST = 150  # balances that are looked at, those of few bodies first
+_LONG = 1500  # signs, beyond which nobody reads an equation
+_WORD = re.compile(r"'[^']+'\.\w+|[A-Za-z_][\w.\[\]]*")
+_LEVELS = ("value", "rate", "acceleration")
+_ZERO = {"num": "0"}
+_KINDS = {"number": "constant"}
+
+
+@dataclass(frozen=True)
+class _True:
+    """A true equation with its words and what is unknown in it."""
+
+    words: str
+    left: Tree
+    right: Tree
+    unknown: frozenset[Sym]
+
+    def distance(self, said: frozenset[Sym], unknown: frozenset[Sym]) -> tuple[int, int, int]:
+        """How far its letters are from those of a statement: unknown ones, then all, then how many there are."""
+        own = frozenset(symbols(self.left, self.right))
+        return len(unknown ^ self.unknown), len(said ^ own), len(own)
+
+
+def nearest(case: Case, equation: Equation) -> str:
+    """The nearest true equation in the model's letters, with what it is; "" where none holds an unknown of the statement."""
+    try:
+        state = case.samples().samples[0].state
+    except NoMotion:
+        return ""
+    core, where = case.truth.core, (state.p, state.t, state.q, state.u)
+    given = problem([FreeBodies.read(core.free_bodies(*where))])
+    points = json.loads(core.points(core.bind({})))
+    asked = list(islice(_questions(given, points), _MOST))
+    questions = [{**question, "terms": False, "momentum": False} for _, question in asked]
+    told = json.loads(core.letters(*where, "{}", json.dumps([{"ask": "rows"}, *questions])))
+    said = _said(case, equation, told["letters"])
+    kinds = {name: entry["kind"] for name, entry in told["letters"].items()}
+    unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
+    found = [*_balances(asked, told["answers"][1:]), *_rows(told["answers"][0], max((s.dots for s in said), default=0))]
+    common = [each for each in found if (unknown & each.unknown if unknown else _rates(said) & _rates(each.unknown))]
+    if not common:
+        return ""
+    best = min(common, key=lambda each: each.distance(said, unknown or _rates(said)))
+    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in told["letters"].items()})
+    told = equation_text(best.left, best.right, table, width=_LONG)
+    return f"{best.words} reads: {told}" if len(told) < _LONG else f"{best.words} is too long to be told"
+
+
+def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Balances of bodies that hang together, about points and along directions that have a name."""
+    twists, _ = named_twists(given, points)
+    for group in groups(given)[0]:
+        bodies = [given.bodies[i] for i in group]
+        for twist in sorted(twists, key=lambda twist: twist.rank):
+            if twist.question is not None:
+                how = "moments about" if "about" in twist.question else "forces along"
+                words = f"the balance of {how} {twist.name} for {' + '.join(bodies)}"
+                yield words, {"ask": "equation", "bodies": bodies, **twist.question}
+
+
+def _balances(asked: Sequence[tuple[str, Any]], answers: Sequence[Mapping[str, Any]]) -> Iterator[_True]:
+    for (words, _), answer in zip(asked, answers, strict=True):
+        unknown = frozenset(_letter(each["letter"]) for each in answer["linear"]["coefficients"])
+        yield _True(words, read(answer["left"]), read(answer["right"]), unknown)
+
+
+def _rows(rows: Sequence[Mapping[str, Any]], level: int) -> Iterator[_True]:
+    """What loops ask of the configuration, the rates or the accelerations."""
+    for row in rows:
+        tree = read(row[_LEVELS[level]])
+        yield _True(f"the closure at {row['name']}", tree, read(_ZERO), frozenset(s for s in symbols(tree) if s.dots == level))
+
+
+def _letter(data: Mapping[str, Any]) -> Sym:
+    return Sym(data["sym"], data["dots"])
+
+
+def _rates(found: frozenset[Sym]) -> frozenset[Sym]:
+    return frozenset(s for s in found if s.dots == 1)
+
+
+def _said(case: Case, equation: Equation, table: Mapping[str, Any]) -> frozenset[Sym]:
+    """The letters of the model that a statement holds."""
+    found = set()
+    for letter in letters(equation):
+        for text in case.meaning.texts(Letter(letter.name)):
+            dots = letter.dots + (2 if "accel(" in text else 1 if "rate(" in text else 0)
+            words = [word for word in _WORD.findall(text) if word in table]
+            found |= {Sym(word, dots if table[word]["kind"] == "coordinate" else 0) for word in words}
+    return frozenset(found)

@@ -1,0 +1,28 @@
+"""Where nothing mends an equation, a true one with the same letters is told; it is put to the test like any other."""
+
+from __future__ import annotations
+
+import pytest
+from textbook import BOOKS
+
+from freebody.check import Checker, Kind
+from freebody.model import Mechanism
+
+HOPELESS = [
+    ("pendulum on a cart", "l^2*thetaddot*sin(theta)^2 = 7*g*x + 3*l*xddot", "moments"),
+    ("pendulum on a cart", "7*(M + 2*m)*sin(theta)*xddot = 3*F", "forces"),
+    ("double pendulum", "m2*theta2ddot*l2*sin(theta1) = 5*m2*theta1ddot*l1*cos(theta2)^3", "moments"),
+    ("bead on a turning rod", "m2*Rddot*(2 + cos(theta)^3) = 3*m2*R*thetaddot*sin(theta) - 5*m1*l*thetadot^2", ""),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "what"), HOPELESS)
+def test_the_nearest_balance_is_true(name: str, text: str, what: str) -> None:
+    book = next(book for book in BOOKS if book.name == name)
+    checker = Checker(Mechanism.loads(f"freebody: 1\n{book.model}"), dict(book.letters))
+    verdict = checker.check(text)
+    assert verdict.kind is Kind.WRONG
+    assert not verdict.mends
+    words, _, equation = verdict.true.partition(" reads: ")
+    assert what in words
+    assert checker.check(equation).ok, equation
