@@ -66,6 +66,11 @@ impl Reached {
         self.rates[self.len()..].to_vec()
     }
 
+    /// Sizes of the speeds that each impulse alone gives where it acts, m/s.
+    pub fn speeds_of<'a>(&'a self, normal: &'a [f64], tangent: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        normal.iter().chain(tangent).enumerate().map(|(i, p)| (self.g[(i, i)] * p).abs())
+    }
+
     /// Of each limit whether it approaches faster than `still`, or is coupled to one that does.
     pub fn takes_part(&self, still: f64) -> Vec<bool> {
         let k = self.len();

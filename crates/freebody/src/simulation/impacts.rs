@@ -1,7 +1,6 @@
 //! Impacts: blows of limits that are reached, the end of bounces without end, and contacts that jam.
 
 use super::changes::{Change, Impulses};
-use super::switching::STILL;
 use super::Machine;
 use crate::balance::{Blow, Reached, Trouble};
 use crate::contact::complementarity::{self, Law, NoImpact, Strike};
@@ -11,6 +10,12 @@ use crate::plane::Vec2;
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more: its
 /// height comes near the round-off of the gap.
 const BRIEF: f64 = 1e-5;
+/// Part of the kinetic energy by which it may rise in an impact, as round-off.
+const RISE: f64 = 1e-11;
+/// Shares of themselves by which limits yield, one after the other, where impulses of rigid ones are lost in round-off.
+const YIELDING: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
+/// Speed, over the mechanism's own, up to which what yielding leaves over counts as none.
+const LEFT_OVER: f64 = 1e-6;
 /// Part of the largest impulse below which one is round-off.
 const NOTHING: f64 = 1e-12;
 
@@ -44,18 +49,22 @@ impl Rule {
 impl Machine<'_> {
     /// The limits reached strike; returns those that did.
     pub(super) fn impact(&mut self, t: f64, y: &mut [f64], reached: &Reached) -> Result<Vec<usize>, Trouble> {
-        let n = self.balance.m.freedom();
         let restitution: Vec<f64> = reached.limits.iter().map(|&l| self.balance.restitution(l)).collect();
         let names = self.balance.names_of(&reached.limits);
         let rule = self.rule;
-        let before = y.to_vec();
-        let energy = self.balance.kinetic_energy();
-        let blow = self.balance.blow(reached, &restitution, |strike| decide(strike, rule, &names))?;
-        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
-        self.place(t, y);
-        let lost = energy - self.balance.kinetic_energy();
+        let (before, still) = (y.to_vec(), self.still);
+        let blow = self.balance.blow(reached, &restitution, |strike| decide(strike, rule, &names));
+        let mut struck = blow.and_then(|blow| self.strike(t, y, blow));
+        for share in YIELDING.into_iter().filter(|_| rule != Rule::Stop) {
+            if struck.is_err() {
+                let blow = self.balance.blow(reached, &restitution, |strike| yielding(strike, share, &names));
+                struck = blow.and_then(|blow| self.strike(t, y, blow));
+                struck.iter().for_each(|(blow, _)| self.let_pass(reached, blow, share));
+            }
+        }
+        let (blow, lost) = struck?;
         let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
-        let part = reached.takes_part(STILL * self.speed);
+        let part = reached.takes_part(still);
         let struck = (0..part.len()).filter(|&i| part[i] && blow.normal[i] > NOTHING * most);
         let struck: Vec<usize> = struck.map(|i| reached.limits[i]).collect();
         let m = self.balance.m;
@@ -70,6 +79,31 @@ impl Machine<'_> {
             note: blow.note,
         });
         Ok(struck)
+    }
+
+    /// Takes the velocities after a blow, with the energy lost in it, if there is less than before: large impulses that all but
+    /// cancel can bring energy from nowhere.
+    fn strike(&mut self, t: f64, y: &mut [f64], blow: Blow) -> Result<(Blow, f64), Trouble> {
+        let n = self.balance.m.freedom();
+        let (before, energy) = (y.to_vec(), self.balance.kinetic_energy());
+        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.balance.kinetic_energy();
+        if lost >= -RISE * energy {
+            return Ok((blow, lost));
+        }
+        y.copy_from_slice(&before);
+        self.place(t, y);
+        let sentence = format!("the impulses found at t = {t:.12} s would create the energy {:.6e} J", -lost);
+        Err(Trouble::new("no_impact", sentence))
+    }
+
+    /// From now on in this instant the speeds that yielding left over count as none.
+    fn let_pass(&mut self, reached: &Reached, blow: &Blow, share: f64) {
+        let left = reached.speeds_of(&blow.normal, &blow.tangent).map(|v| 2.0 * share * v).fold(0.0, f64::max);
+        if left <= LEFT_OVER * self.speed {
+            self.still = self.still.max(left);
+        }
     }
 
     fn impulses(&self, reached: &Reached, blow: &Blow) -> Impulses {
@@ -151,11 +185,9 @@ impl Machine<'_> {
     pub(super) fn seize(&mut self, t: f64, y: &mut [f64], limits: &[usize]) -> Result<bool, Trouble> {
         self.place(t, y);
         let reached = self.balance.reach(limits.to_vec())?;
-        let (n, before, energy) = (self.balance.m.freedom(), y.to_vec(), self.balance.kinetic_energy());
-        let scale = self.judgement();
+        let (before, scale) = (y.to_vec(), self.judgement());
         let Some(blow) = self.balance.jam(&reached, scale)? else { return Ok(false) };
-        y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
-        self.place(t, y);
+        let (blow, lost) = self.strike(t, y, blow)?;
         let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
         let jammed = (0..reached.limits.len()).filter(|&i| blow.normal[i] > NOTHING * most);
         let jammed: Vec<usize> = jammed.map(|i| reached.limits[i]).collect();
@@ -163,7 +195,7 @@ impl Machine<'_> {
             t,
             kind: "impact",
             of: self.names(&jammed),
-            lost: energy - self.balance.kinetic_energy(),
+            lost,
             states: Some([before, y.to_vec()]),
             impulses: Some(self.impulses(&reached, &blow)),
             note: blow.note,
@@ -194,6 +226,19 @@ fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::
     };
     let note = (!settled.notes.is_empty()).then(|| settled.notes.join("; "));
     Ok((settled.impulses, note))
+}
+
+/// The impulses of a strike without restitution, on limits that yield by a share of themselves.
+fn yielding(
+    strike: &Strike,
+    share: f64,
+    names: &str,
+) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+    let impulses = complementarity::yielding(strike, share).map_err(|e| {
+        Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}"))
+    })?;
+    let note = format!("Taken as plastic, e = 0, at touches that yield by {share:.0e} of themselves: of rigid ones no impulses were found that create no energy.");
+    Ok((impulses, Some(note)))
 }
 
 fn undecided(names: &str, alternatives: &[(Law, complementarity::Impulses)]) -> Trouble {

@@ -49,6 +49,8 @@ pub struct Machine<'m> {
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
+    /// Speed below which there is none, at the instant that is settled, m/s.
+    pub(super) still: f64,
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) stretches: Vec<Stretch>,
@@ -83,6 +85,7 @@ impl<'m> Machine<'m> {
             flight: None,
             strength: 1.0,
             speed: 1.0,
+            still: 0.0,
             set: m.overruled(p),
             stretches: vec![],
             worst_gap: 0.0,

@@ -10,6 +10,8 @@ use crate::motion::System;
 pub(super) const REACHED: f64 = 1e-10;
 /// Speed, over the mechanism's own, below which there is none.
 pub(super) const STILL: f64 = 1e-10;
+/// Kinetic energy, over the mechanism's own, that it takes no round-off to gain.
+const GAIN: f64 = 1e-9;
 /// The troubles in which friction lets no motion go on, or none that was found.
 const JAMS: [&str; 2] = ["painleve_inconsistent", "contact_unsolved"];
 /// Impacts that one instant may hold.
@@ -80,9 +82,22 @@ impl Machine<'_> {
     }
 
     fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
+        let (known, earlier) = ([self.changes.len(), self.stretches.len()], y.to_vec());
+        self.still = STILL * self.speed;
+        let settled = self.settle_from(t, y, loose);
+        if settled.is_err() {
+            // The motion ends with the state before.
+            y.copy_from_slice(&earlier);
+            self.changes.truncate(known[0]);
+            self.stretches.truncate(known[1]);
+        }
+        settled
+    }
+
+    fn settle_from(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
-        let (still, mut struck) = (STILL * self.speed, vec![]);
+        let mut struck = vec![];
         for _ in 0..ROUNDS {
             // Joints pass impulses on without friction.
             self.balance.mode.rubs.fill(Hold::Open);
@@ -90,7 +105,7 @@ impl Machine<'_> {
             self.balance.find_pieces();
             let touching = self.balance.touching(REACHED * self.balance.length);
             let reached = self.balance.reach(touching)?;
-            let k = reached.limits.len();
+            let (k, still) = (reached.limits.len(), self.still);
             if reached.rates[..k].iter().any(|&rate| rate < -still) {
                 struck.extend(self.impact(t, y, &reached)?);
                 continue;
@@ -108,7 +123,7 @@ impl Machine<'_> {
             }
             // What bounces back does so from where it is: to shift it would turn its way.
             let at_rest: Vec<usize> = reached.limits.iter().copied().filter(|l| !struck.contains(l)).collect();
-            self.put_onto(t, y, &at_rest)?;
+            self.bring_onto(t, y, &at_rest)?;
             match parting.is_empty() {
                 true => self.flight = None,
                 false if self.capture(t, y, &reached, &parting, &struck)? => continue,
@@ -135,6 +150,24 @@ impl Machine<'_> {
             if self.balance.m.rubs.is_empty() || !self.balance.loosen_rubs()? {
                 break;
             }
+        }
+        Ok(())
+    }
+
+    /// Brings the state exactly onto the limits that hold. What speed that takes away, where limits all but depend on each
+    /// other, is in the ledger.
+    fn bring_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
+        self.place(t, y);
+        let before = self.balance.kinetic_energy();
+        self.put_onto(t, y, reached)?;
+        let lost = before - self.balance.kinetic_energy();
+        if lost < -GAIN * self.strength * self.balance.length {
+            let names = self.balance.names_of(reached);
+            let what = format!("to bring {names} to rest on each other would create the energy {:.6e} J", -lost);
+            return Err(Trouble::new("contact_unsolved", what));
+        }
+        if lost != 0.0 {
+            self.begin_stretch(t, 0.0, -lost);
         }
         Ok(())
     }
@@ -175,6 +208,7 @@ impl Machine<'_> {
             // Nothing can move: not even by round-off.
             y[n..2 * n].fill(0.0);
             self.balance.mode.resting = true;
+            self.place(t, y);
         }
         Ok(())
     }
@@ -204,7 +238,7 @@ impl Machine<'_> {
     /// What counts as slow, and what is done where nothing decides.
     pub(super) fn judgement(&self) -> Scale {
         let pace = self.speed * self.speed / self.balance.length;
-        Scale { still: STILL * self.speed, pace, stay: self.rule != Rule::Stop }
+        Scale { still: self.still, pace, stay: self.rule != Rule::Stop }
     }
 
     /// A time that is short beside any of the motion, s.

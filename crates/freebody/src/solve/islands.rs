@@ -15,6 +15,10 @@ struct Island {
     unknowns: Vec<usize>,
     rows: Vec<usize>,
     saddle: Saddle,
+    /// Its parts of the matrices.
+    mass: Matrix,
+    g: Matrix,
+    b: Matrix,
 }
 
 impl Islands {
@@ -33,12 +37,19 @@ impl Islands {
         self.islands.resize_with(groups.len(), Island::default);
         let mut done = Ok(());
         for (island, (unknowns, rows)) in self.islands.iter_mut().zip(groups) {
-            let at = |m: &Matrix, rows: &[usize]| {
-                Matrix::from_fn(rows.len(), unknowns.len(), |i, j| m[(rows[i], unknowns[j])])
+            let part = |of: &Matrix, rows: &[usize], to: &mut Matrix| {
+                to.fill(rows.len(), unknowns.len(), |i, j| of[(rows[i], unknowns[j])]);
             };
-            let (mass, g, b) = (at(mass, &unknowns), at(g, &rows), b.map(|b| at(b, &rows)));
-            let factored =
-                island.saddle.refactor(&mass, &g, b.as_ref(), &gather(row_scale, &rows), &gather(col_scale, &unknowns));
+            part(mass, &unknowns, &mut island.mass);
+            part(g, &rows, &mut island.g);
+            b.iter().for_each(|b| part(b, &rows, &mut island.b));
+            let factored = island.saddle.refactor(
+                &island.mass,
+                &island.g,
+                b.map(|_| &island.b),
+                &gather(row_scale, &rows),
+                &gather(col_scale, &unknowns),
+            );
             done = done.and(factored.map_err(|error| spread_out(error, &unknowns, self.size[1])));
             (island.unknowns, island.rows) = (unknowns, rows);
         }
@@ -95,7 +106,7 @@ impl Islands {
     /// Solves for applied forces f (n) and right-hand sides r (m), refined once.
     pub fn solve(&self, f: &[f64], r: &[f64]) -> Solution {
         let mut all = Solution { a: vec![0.0; f.len()], lambda: vec![0.0; r.len()], inconsistency: 0.0 };
-        for Island { unknowns, rows, saddle } in &self.islands {
+        for Island { unknowns, rows, saddle, .. } in &self.islands {
             let (f, r) = (gather(f, unknowns), gather(r, rows));
             if f.iter().chain(&r).all(|&v| v == 0.0) {
                 continue;

@@ -24,13 +24,16 @@ impl Matrix {
     }
     /// The matrix with entries `f(i, j)`.
     pub fn from_fn(rows: usize, cols: usize, mut f: impl FnMut(usize, usize) -> f64) -> Self {
-        let mut m = Matrix::zeros(rows, cols);
-        for i in 0..rows {
-            for j in 0..cols {
-                m[(i, j)] = f(i, j);
-            }
-        }
+        let mut m = Matrix::default();
+        m.fill(rows, cols, &mut f);
         m
+    }
+    /// Becomes the rows × cols matrix with entries `f(i, j)` and keeps its memory.
+    pub fn fill(&mut self, rows: usize, cols: usize, mut f: impl FnMut(usize, usize) -> f64) {
+        self.data.clear();
+        self.data.reserve(rows * cols);
+        (0..rows).for_each(|i| self.data.extend((0..cols).map(|j| f(i, j))));
+        (self.rows, self.cols) = (rows, cols);
     }
     /// Becomes rows × cols zeros and keeps its memory.
     pub fn reset(&mut self, rows: usize, cols: usize) {

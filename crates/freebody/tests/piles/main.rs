@@ -18,6 +18,8 @@ use std::time::Instant;
 /// Penetration, m, and rise of the energy, in parts of what there is, that are let pass.
 const DEPTH: f64 = 1e-9;
 const RISE: f64 = 1e-9;
+/// What the ledger may leave over, in the same parts: errors of the steps.
+const LEFT: f64 = 1e-6;
 
 /// What a run came to.
 struct Told {
@@ -46,7 +48,7 @@ impl Told {
         )
     }
     fn is_sound(&self) -> bool {
-        self.deepest.0 > -DEPTH && self.rise.0 < RISE
+        self.deepest.0 > -DEPTH && self.rise.0 < RISE && self.left < LEFT
     }
 }
 

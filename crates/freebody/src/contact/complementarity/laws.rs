@@ -1,7 +1,9 @@
 //! Which impact law to believe: the one that creates no energy, and whether the laws agree.
 
 use super::impact::{strike, Impulses, Law, NoImpact, Strike};
+use super::jam::least;
 use super::task::groups;
+use crate::solve::Matrix;
 
 /// Velocities after that differ by less, relative to the fastest, agree.
 const AGREE: f64 = 1e-9;
@@ -35,6 +37,19 @@ pub fn settle(s: &Strike, law: Law) -> Result<Settled, NoImpact> {
     }
     notes.push("Taken as plastic, e = 0.".to_owned());
     Ok(Settled { impulses: strike(&plastic, Law::Newton)?, law: Law::Newton, plastic: true, notes })
+}
+
+/// The impulses without restitution where each touch yields: a unit impulse on it moves it by `share` more than rigid bodies
+/// would. Touches that all but oppose each other then share finite impulses; they never create energy, and a part `share` of
+/// the speeds that they take away is left over.
+pub fn yielding(s: &Strike, share: f64) -> Result<Impulses, NoImpact> {
+    let entry = |i: usize, j: usize| if i == j { (1.0 + share) * s.g[(i, j)] } else { s.g[(i, j)] };
+    let g = Matrix::from_fn(s.g.rows(), s.g.cols(), entry);
+    let none = vec![0.0; s.friction.len()];
+    match strike(&Strike { g: &g, restitution: &none, ..*s }, Law::Newton) {
+        Err(NoImpact::Ambiguous(all)) => Ok(least(all)),
+        struck => struck,
+    }
 }
 
 /// The impulses by `law`, or a note why not.

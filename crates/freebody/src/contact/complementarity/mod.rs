@@ -30,7 +30,7 @@ mod tests;
 
 pub use impact::{strike, Impulses, Law, NoImpact, Strike};
 pub use jam::{jam, least};
-pub use laws::{settle, undecided, Settled};
+pub use laws::{settle, undecided, yielding, Settled};
 pub use painleve::{painleve, Painleve};
 
 use crate::solve::Matrix;
