@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from freebody.equations.latex import latex
 from freebody.equations.names import Name
 from freebody.equations.text import columns, text
-from freebody.equations.tree import Add, Sym, symbols
+from freebody.equations.tree import Add, Sym, is_zero, symbols
 from freebody.free_body import Load
 from freebody.naming import Naming
 
@@ -59,7 +59,7 @@ class Labels:
         return self._of_body("alpha", body, alone).latex()
 
     def _of_body(self, stem: str, body: str, alone: bool) -> Name:
-        heavy = [other for other in self.naming.free.bodies.values() if other.mass > 0]
+        heavy = [mass for mass, _ in self.naming.bodies.values() if not is_zero(mass)]
         return Name(stem) if alone or len(heavy) == 1 else Name.parse(f"{stem}_{body}")
 
 
