@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
     from freebody.check import Verdict
+    from freebody.equations.answers import Answers
+    from freebody.equations.derivation import Equations
     from freebody.free_body import FreeBodies
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
@@ -80,6 +82,39 @@ class Moving:
         from freebody.balances.minimal import minimal_form
 
         return minimal_form(*self._near(initial, t, changes))
+
+    def equations(
+        self: Builder,
+        form: str = "minimal",
+        *,
+        want: str | None = None,
+        at_rest: bool = False,
+        fixed: Mapping[str, Any] | None = None,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        **changes: Any,
+    ) -> Equations:
+        """The equations of motion in letters, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
+        state, by default the start; ``changes`` as in ``solve``.
+
+        ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
+        coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``."""
+        from freebody.equations.derivation import derive
+        from freebody.equations.derivation.told import Subject
+
+        chosen = dict(fixed or {})
+        state, notes = self.start(initial, t, **changes, **chosen)
+        with self.told():
+            subject = Subject(self.source(notes), state, at_rest)
+            return derive(subject.with_numbers(list(chosen)), form, want)
+
+    def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
+        """Accelerations (``theta``) and reactions (``pivot.Fx``) in letters near the start: the fewest balance equations, solved,
+        simplified, and held against numbers. ``at_rest``, ``set={"theta": "45 deg", "m2": "m1"}``, ``limits={"m2": "inf"}``; see
+        ``freebody.equations.answers.solve_in_letters``."""
+        from freebody.equations.answers import solve_in_letters
+
+        return solve_in_letters(self, wanted, **asked)
 
     def code(
         self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,7 +70,7 @@ def dropped(problem: Problem, candidate: Candidate, place: Place) -> tuple[Dropp
         touches = np.abs(problem.systems[0].columns[i, list(candidate.group)]).max() > 0
         if touches and not candidate.support >> i & 1:
             found.setdefault(_why(problem, candidate, place, unknown), []).append(unknown.name)
-    return tuple(Dropped(tuple(names), _agree(why, len(names))) for why, names in found.items())
+    return tuple(Dropped(tuple(names), agree(why, len(names))) for why, names in found.items())
 
 
 def _why(problem: Problem, candidate: Candidate, place: Place, unknown: Unknown) -> str:
@@ -79,6 +80,11 @@ def _why(problem: Problem, candidate: Candidate, place: Place, unknown: Unknown)
         if place.kind == "AMB":
             return f"it makes no moment of inertia about {place.short}"
         return f"it accelerates no mass centre along {place.short}"
+    return why_absent(load, names, place, problem.length)
+
+
+def why_absent(load: Load, names: Sequence[str], place: Place, length: float) -> str:
+    """Why a load is not in the balance of a group (``names``); ``length`` is the size of the mechanism, m."""
     if load.inside(names):
         return f"it is internal to {' + '.join(names)}"
     unit = load.unit(names, place.at if place.kind == "AMB" else (0.0, 0.0))
@@ -86,16 +92,16 @@ def _why(problem: Problem, candidate: Candidate, place: Place, unknown: Unknown)
         return "it is a couple, which has no part in a force balance"
     if place.kind == "LMB":
         return f"it is perpendicular to {place.short}"
-    if _acts_at(load, names, place.at, problem.length):
+    if _acts_at(load, names, place.at, length):
         return f"it acts at {place.short}"
     return f"its line of action passes through {place.short}"
 
 
-def _acts_at(load: Load, names: list[str], at: Pair, length: float) -> bool:
+def _acts_at(load: Load, names: Sequence[str], at: Pair, length: float) -> bool:
     return all(np.hypot(*np.subtract(part.point, at)) < AT * length for part in load.on if part.body in names)
 
 
-def _agree(why: str, number: int) -> str:
+def agree(why: str, number: int) -> str:
     """The reason in the plural where it holds of several."""
     for one, several in _SEVERAL.items() if number > 1 else ():
         if why.startswith(one + " ") and "a couple" not in why:

@@ -9,6 +9,9 @@ from types import ModuleType
 
 from freebody.catalogue.answers import Question
 
+STATEMENTS = "statements.yaml"
+"""What is printed about a system; no model."""
+
 
 @dataclass(frozen=True)
 class System:

@@ -12,6 +12,7 @@ import typer
 
 from freebody.cli.check import check
 from freebody.cli.code import code
+from freebody.cli.equations import equations
 from freebody.cli.mistakes import Guarded, Mistake
 
 if TYPE_CHECKING:
@@ -170,6 +171,9 @@ def systems(
     stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
     output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
+    in_letters: Annotated[
+        bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
+    ] = False,
 ) -> None:
     """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
     from freebody import catalogue
@@ -184,6 +188,8 @@ def systems(
         pictured(chosen(identity), output)
         return
     if stated:
+        from freebody.cli.statements import judged
+
         judged(chosen(identity), as_json)
         return
     if identity is None and not everything:
@@ -192,17 +198,24 @@ def systems(
         else:
             show.show_list(listed)
         return
+    if in_letters:
+        for system in chosen(identity):
+            derived(system)
+        return
     results = {system.id: answered(system, as_json) for system in chosen(identity)}
     if as_json:
         typer.echo(catalogue.to_json(results))
     elif everything:
         show.show_summary(results)
     else:
+        from freebody.cli.statements import verdicts
+
         verdicts(chosen(identity))
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(BAD_END)
 
 
+app.command()(equations)
 app.command()(code)
 app.command()(check)
 
@@ -313,6 +326,19 @@ def chosen(identity: str | None) -> list[System]:
         raise Mistake(error.args[0], "freebody systems lists them") from None
 
 
+def derived(system: System) -> None:
+    """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
+    from freebody import _core
+    from freebody.equations.derivation import FORMS
+
+    for model in system.models:
+        try:
+            for form in FORMS:
+                typer.echo(opened(model).equations(form).text())
+        except _core.MotionError as error:
+            typer.echo(f"{model.name}: {error.args[2]}\n")
+
+
 def pictured(systems: list[System], page: Path) -> None:
     """A page with the diagrams of all models of some systems."""
     from freebody.cli import show
@@ -320,38 +346,6 @@ def pictured(systems: list[System], page: Path) -> None:
 
     models = [(f"{system.id}, {path.stem}: {system.title}", path) for system in systems for path in system.models]
     show.written([write_gallery(models, page)])
-
-
-def judged(systems: list[System], as_json: bool) -> None:
-    """The verdicts about what is stated, in tables or as JSON. Ends with an error where one is not as expected."""
-    from freebody.catalogue import show
-    from freebody.catalogue.statements import statements, statements_json
-    from freebody.model.errors import Complaint
-
-    results = []
-    try:
-        for system, found in statements(systems):
-            results.append((system, found))
-            if not as_json:
-                show.show_statements(system, found)
-    except Complaint as complaint:
-        raise Mistake(complaint.what, complaint.hint) from None
-    every = [one for _, found in results for one in found]
-    if as_json:
-        typer.echo(json.dumps(statements_json(results), ensure_ascii=False, indent=1))
-    else:
-        show.show_totals(every)
-    if any(one.as_expected is False for one in every):
-        raise typer.Exit(BAD_END)
-
-
-def verdicts(systems: list[System]) -> None:
-    """In short, which of the statements about systems are true."""
-    from freebody.catalogue import show
-    from freebody.catalogue.statements import statements
-
-    for system, found in statements(systems):
-        show.show_verdicts(system, found)
 
 
 def answered(system: System, silent: bool) -> list[Asked]:

@@ -60,7 +60,7 @@ class Equation:
 
 @dataclass(frozen=True)
 class MatrixEquation:
-    """A x = b: rows of trees, unknowns, right-hand side."""
+    """A x = b: rows of trees, unknowns, right-hand side; ``letter`` is what a person calls the matrix."""
 
     matrix: Sequence[Sequence[Tree]]
     unknowns: Sequence[Tree]
@@ -68,6 +68,7 @@ class MatrixEquation:
     name: Words = ""
     label: str = ""
     note: Words = ""
+    letter: str = "A"
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ GREEK = SMALL_GREEK | {
     "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ",
     "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
-_SPELT = {sign: word for word, sign in GREEK.items()}
+SPELT = {sign: word for word, sign in GREEK.items()}
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _FROM_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -29,10 +29,10 @@ class Name:
     @classmethod
     def parse(cls, name: str) -> Name:
         """In parts: what follows the first underscore, or digits at the end, is the subscript."""
-        owner, _, last = name.translate(_FROM_SUBSCRIPTS).rpartition(".")
+        owner, _, last = name.translate(_FROM_SUBSCRIPTS).replace("'", "").rpartition(".")
         found = re.fullmatch(r"([^\W\d_]+)(?:_?(\d+)|_(\w+))?", last)
         stem, digits, word = found.groups() if found else (last, None, None)
-        return cls(owner, _SPELT.get(stem, stem), digits or word or "")
+        return cls(owner, SPELT.get(stem, stem), digits or word or "")
 
     @property
     def is_letter(self) -> bool:
@@ -51,7 +51,7 @@ def unicode_name(text: str, dots: int = 0) -> str:
 
 def ascii_name(text: str, dots: int = 0) -> str:
     """The name with Greek spelt and a prime for each dot: ``theta1''``."""
-    return "".join(_SPELT.get(sign, sign) for sign in text.translate(_FROM_SUBSCRIPTS)) + "'" * dots
+    return "".join(SPELT.get(sign, sign) for sign in text.translate(_FROM_SUBSCRIPTS)) + "'" * dots
 
 
 def latex_name(text: str, dots: int = 0, *, reaction: bool = False) -> str:

@@ -46,7 +46,12 @@ pub(crate) struct Arena {
     pub(super) leads: FxHashMap<SumId, Option<Lead>>,
     pub(super) known: Known,
     pub(super) rules: FxHashMap<Rc<str>, Rule>,
+    /// Terms written so far.
+    spent: usize,
 }
+
+/// Terms that a session may write; a ten-link chain takes a twentieth. Beyond, everything is undefined.
+const BUDGET: usize = 40_000_000;
 
 thread_local! {
     static ARENA: RefCell<Arena> = RefCell::new(Arena::new());
@@ -153,9 +158,17 @@ impl Arena {
         });
         self.sorted_sum(terms)
     }
+    /// Whether so many more terms may be written.
+    pub(super) fn spend(&mut self, terms: usize) -> bool {
+        self.spent = self.spent.saturating_add(terms);
+        !self.is_exhausted()
+    }
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.spent > BUDGET
+    }
     /// The sum of terms that are sorted and distinct.
     pub(super) fn sorted_sum(&mut self, mut terms: Vec<Term>) -> SumId {
-        if terms.iter().any(|term| !term.1.value().is_finite()) {
+        if !self.spend(terms.len()) || terms.iter().any(|term| !term.1.value().is_finite()) {
             terms = vec![(MonomialId::UNIT, Coefficient::UNDEFINED)];
         }
         terms.retain(|term| !term.1.is_zero());

@@ -48,6 +48,11 @@ pub fn session<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
+/// Whether the session has written more than it may; what was found since is undefined.
+pub fn is_exhausted() -> bool {
+    with(|arena| arena.is_exhausted())
+}
+
 impl arena::Arena {
     /// A constant, as a fraction or a fraction of π where it is one.
     pub(crate) fn number(&mut self, x: f64) -> SumId {

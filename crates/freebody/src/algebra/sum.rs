@@ -60,6 +60,9 @@ impl Arena {
             return self.scale(a, number);
         }
         let (left, right) = (self.terms(a), self.terms(b));
+        if !self.spend(left.len() * right.len()) {
+            return self.constant(Coefficient::UNDEFINED);
+        }
         let mut all = Vec::with_capacity(left.len() * right.len());
         for &(m, c) in left.iter() {
             for &(n, d) in right.iter() {

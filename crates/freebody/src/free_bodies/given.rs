@@ -37,17 +37,18 @@ pub fn forces<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
             let value = crate::balance::pull_value(at, pull);
             let spread: Spread<S> = pull.bodies.iter().map(|&b| (b, gradient(at, &pull.gauge, b) * value)).collect();
             let parts = along_gauge(at, &pull.gauge, &spread);
-            out.push(load(index, name(k), parts));
+            out.push(load([index, k], name(k), parts));
         }
         for (k, push) in force.pushes.iter().enumerate() {
-            out.push(load(index, name(force.pulls.len() + k), vec![pushed(at, push)]));
+            let k = force.pulls.len() + k;
+            out.push(load([index, k], name(k), vec![pushed(at, push)]));
         }
     }
 }
 
-fn load<S: Scalar>(force: usize, symbol: String, parts: Vec<Part<S>>) -> Load<S> {
+fn load<S: Scalar>([force, number]: [usize; 2], symbol: String, parts: Vec<Part<S>>) -> Load<S> {
     let of = [if parts.len() > 1 { parts[1].body } else { 0 }, parts.first().map_or(0, |p| p.body)];
-    Load { origin: Origin::Force(force), symbol, of, parts, size: Size::Known }
+    Load { origin: Origin::Force(force, number), symbol, of, parts, size: Size::Known }
 }
 
 fn pushed<S: Scalar>(at: Placed<'_, S>, push: &Push) -> Part<S> {

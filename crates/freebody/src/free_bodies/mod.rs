@@ -23,8 +23,8 @@ use crate::scalar::Scalar;
 pub enum Origin {
     /// Gravity on a body.
     Weight(usize),
-    /// A force of the model.
-    Force(usize),
+    /// A force of the model: its pull or push of a number, of which the first is that of its potential, if it has one.
+    Force(usize, usize),
     /// The force of a pin of a joint along fixed axes: 0 for x, 1 for y.
     Pin(usize, usize),
     /// A row: of a joint, a motion or coupling, a closed limit, friction that sticks.

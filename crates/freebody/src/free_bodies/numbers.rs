@@ -112,7 +112,7 @@ fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, 
     let row = |joint: usize, r: usize| Some(m.joints[joint].kind.card().rows[r].name.to_string());
     match load.origin {
         Origin::Weight(body) => ("weight", &m.bodies[body].name, format!("bodies.{}", m.bodies[body].name), None),
-        Origin::Force(force) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name), None),
+        Origin::Force(force, _) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name), None),
         Origin::Pin(joint, axis) => {
             let component = ["x", "y"][axis].to_string();
             ("joint", &m.joints[joint].name, format!("joints.{}", m.joints[joint].name), Some(component))
@@ -166,7 +166,7 @@ impl<'l> Sizes<'l> {
             return (normal.map(|n| n * ratio), sure);
         }
         match load.origin {
-            Origin::Weight(_) | Origin::Force(_) => (None, true),
+            Origin::Weight(_) | Origin::Force(..) => (None, true),
             Origin::Pin(joint, axis) => {
                 let force = self.joints[joint].0;
                 (Some([force.x, force.y][axis]), self.labels.joints[joint][axis])

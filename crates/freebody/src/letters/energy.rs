@@ -84,7 +84,7 @@ impl Letters<'_> {
         for (load, &size) in self.loads.iter().zip(&self.sizes) {
             let stored = match load.origin {
                 Origin::Weight(_) => true,
-                Origin::Force(force) => self.m.forces[force].potential.is_some(),
+                Origin::Force(force, number) => number == 0 && self.m.forces[force].potential.is_some(),
                 _ => false,
             };
             if stored {

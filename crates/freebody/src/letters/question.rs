@@ -136,6 +136,10 @@ pub fn answer(balance: &mut Balance<'_>, setting: &Setting, questions: &[Questio
     algebra::session(|| {
         let letters = Letters::new(balance, setting, &values);
         let answers: Result<Vec<Value>, Trouble> = questions.iter().map(|q| letters.answer(q)).collect();
+        if algebra::is_exhausted() {
+            let sentence = "in letters the equations of this mechanism grow beyond what can be written; ask for fewer, or set letters to numbers";
+            return Err(Trouble::new("too_large", sentence));
+        }
         Ok(json!({"answers": answers?, "loads": told["loads"], "letters": letters.table()}))
     })
 }

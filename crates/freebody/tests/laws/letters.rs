@@ -123,7 +123,13 @@ fn equations_told_at_one_state_hold_at_another() {
             state
         };
         go(&mut balance);
-        let answers = answer(&mut balance, &Setting::default(), &questions(&bench)).unwrap();
+        let answers = match answer(&mut balance, &Setting::default(), &questions(&bench)) {
+            Ok(answers) => answers,
+            Err(trouble) => {
+                assert_eq!(trouble.name, "too_large", "seed {seed}: {trouble:?}");
+                continue;
+            }
+        };
         let state = go(&mut balance);
         let mut numbers = numbers(&mut balance, &bench, &state);
         for (name, letter) in answers["letters"].as_object().unwrap() {

@@ -27,7 +27,7 @@ from freebody.equations.document import (
 )
 from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
-from freebody.equations.names import GREEK, escaped, latex_name
+from freebody.equations.names import GREEK, SPELT, escaped, latex_name
 from freebody.equations.rendering.plain import side_text
 from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
@@ -56,7 +56,8 @@ def side_lines(side: Side, letters: Letters) -> list[str]:
 def _component(tree: Tree, direction: str, letters: Letters) -> str:
     inner = latex(tree, letters)
     stem, _, below = direction.partition("_")
-    unit = rf"\mathbf{{{escaped(stem)}}}" + (f"_{{{latex_subscript(below)}}}" if below else "")
+    letter = rf"\boldsymbol{{\{SPELT[stem]}}}" if stem in SPELT else rf"\mathbf{{{escaped(stem)}}}"
+    unit = letter + (f"_{{{latex_subscript(below)}}}" if below else "")
     if isinstance(tree, Add):
         return f"{LatexPrinter(letters).bracket(inner)} {unit}"
     return unit if inner == "1" else f"-{unit}" if inner == "-1" else rf"{inner} \, {unit}"

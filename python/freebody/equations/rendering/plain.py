@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,19 +23,32 @@ from freebody.equations.document import (
     Written,
     is_tree,
     pieces,
-)
+)  # fmt: skip
 from freebody.equations.letters import Letters
+from freebody.equations.names import ascii_name, unicode_name
 from freebody.equations.text import columns, equation_text, folded, text
-from freebody.equations.tree import Add, Mul, Tree, is_zero
+from freebody.equations.tree import Add, Tree, add, is_zero, mul
 
 _INDENT = "    "
+_FEW = 4
+"""Unknowns up to which a matrix that is too wide is told entry by entry."""
+_TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
 
 
 def render(document: Document, *, ascii: bool, width: int) -> str:
     """All blocks, an empty line between them."""
     writer = _Writer(document.letters, ascii, width)
-    return "\n\n".join(filter(None, map(writer.block, document.blocks))) + "\n"
+    made = [(block, writer.block(block)) for block in document.blocks]
+    kept = [(block, shown) for block, shown in made if shown]
+    spaces = ["" if place == 0 else _space(kept[place - 1][0], block) for place, (block, _) in enumerate(kept)]
+    return "".join(space + shown for space, (_, shown) in zip(spaces, kept, strict=True)) + "\n"
+
+
+def _space(above: Block, below: Block) -> str:
+    """Equations without words between them stand together."""
+    close = isinstance(above, Equation) and isinstance(below, Equation) and not above.note and not below.name
+    return "\n" if close else "\n\n"
 
 
 def side_text(side: Side, letters: Letters, *, ascii: bool = False) -> str:
@@ -45,6 +59,11 @@ def side_text(side: Side, letters: Letters, *, ascii: bool = False) -> str:
         parts = [_component(tree, direction, letters, ascii) for tree, direction in side.components if not is_zero(tree)]
         return " + ".join(parts).replace("+ −", "− ").replace("+ -", "- ") or "0"
     return text(side, letters, ascii=ascii)
+
+
+def _tied(math: str) -> str:
+    """Mathematics in a sentence, to be broken at plus and minus signs only."""
+    return re.sub(rf" (?![+−-]{_TIE})", _TIE, re.sub(r"(?<= [+−-]) ", _TIE, math))
 
 
 def _component(tree: Tree, direction: str, letters: Letters, ascii: bool) -> str:
@@ -84,9 +103,14 @@ class _Writer:
         )
 
     def filled(self, words: Words, lead: str = "") -> str:
-        return textwrap.fill(
-            self.words(words), self.width, initial_indent=lead, subsequent_indent=" " * len(lead), break_long_words=False
+        whole = "".join(
+            _tied(side_text(p, self.letters, ascii=self.ascii)) if not isinstance(p, str) else p for p in pieces(words)
         )
+        indent = " " * len(lead)
+        filled = textwrap.fill(
+            whole, self.width, initial_indent=lead, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        )
+        return filled.replace(_TIE, " ")
 
     def stated(self, block: Equation | MatrixEquation, body: str) -> str:
         lines = textwrap.indent(body, _INDENT).split("\n")
@@ -109,8 +133,9 @@ class _Writer:
         unknowns, right = (
             [[text(entry, self.letters, ascii=self.ascii)] for entry in side] for side in (block.unknowns, block.right)
         )
-        parts = [self.bracketed(part) for part in (shown, unknowns, right)]
-        middle = (len(shown) - 1) // 2
+        height = max(len(shown), len(unknowns))
+        parts = [_padded(self.bracketed(part), height) for part in (shown, unknowns, right)]
+        middle = (height - 1) // 2
         lines = [f"{a} {x} {'=' if row == middle else ' '} {b}" for row, (a, x, b) in enumerate(zip(*parts, strict=True))]
         if all(columns(line) <= self.width - len(_INDENT) - 8 for line in lines):
             return "\n".join(lines)
@@ -127,13 +152,36 @@ class _Writer:
         return made
 
     def listed(self, block: MatrixEquation) -> str:
-        """What is too wide for brackets: row by row, as equations."""
+        """What is too wide for brackets: entry by entry if there are few, else row by row, as equations."""
+        if len(block.unknowns) <= _FEW:
+            return self.entries(block)
         lines = []
         for row, right in zip(block.matrix, block.right, strict=True):
-            products = [Mul((entry, unknown)) for entry, unknown in zip(row, block.unknowns, strict=True) if not is_zero(entry)]
-            left = Add(tuple(products)) if len(products) > 1 else products[0]
+            products = [mul(entry, unknown) for entry, unknown in zip(row, block.unknowns, strict=True) if not is_zero(entry)]
+            left = add(*products)
             lines.append(equation_text(left, right, self.letters, ascii=self.ascii, width=self.width - len(_INDENT) - 8))
         return "\n".join(lines)
+
+    def entries(self, block: MatrixEquation) -> str:
+        """Every entry that is not 0, equal ones once, behind what they are entries of."""
+        found: dict[Tree, list[str]] = {}
+        for i, row in enumerate(block.matrix, 1):
+            for j, entry in enumerate(row, 1):
+                if not is_zero(entry):
+                    found.setdefault(entry, []).append(self.indexed(block.letter, f"{i}{j}"))
+        lines = [
+            folded(f"{' = '.join(names)} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8)
+            for entry, names in found.items()
+        ]
+        for i, entry in enumerate(block.right, 1):
+            name = self.indexed("b", str(i))
+            lines.append(folded(f"{name} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8))
+        unknowns = ", ".join(text(x, self.letters, ascii=self.ascii) for x in block.unknowns)
+        return "\n".join([f"{block.letter} x = b with x = ({unknowns}); what is not told is 0", *lines])
+
+    def indexed(self, letter: str, digits: str) -> str:
+        """A letter with digits below."""
+        return ascii_name(letter + digits) if self.ascii else unicode_name(letter + digits)
 
     def table(self, block: Table) -> str:
         rows = [[self.words(cell) for cell in row] for row in (block.heads, *block.rows)]
@@ -141,6 +189,12 @@ class _Writer:
         lines = ["  ".join(_left(cell, width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
         lines.insert(1, "  ".join("-" * width for width in widths))
         return "\n".join(([self.words(block.caption)] if block.caption else []) + lines)
+
+
+def _padded(lines: list[str], height: int) -> list[str]:
+    """The lines in the middle of some more."""
+    blank, spare = " " * columns(lines[0]), height - len(lines)
+    return [blank] * (spare // 2) + lines + [blank] * (spare - spare // 2)
 
 
 def _centred(cell: str, width: int) -> str:

@@ -1,0 +1,112 @@
+"""Sums as a person writes them: common factors in front, squares of sums as such, unknowns with one factor each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+
+from freebody.equations.tree import Add, Mul, Num, Pow, Sym, Tree, add, mul, number, power, symbols
+
+Powers = dict[Tree, Fraction]
+Term = tuple[Fraction | float, Powers]
+
+
+def factored(tree: Tree) -> Tree:
+    """A sum with what all terms have in common in front: −l θ̇₁² − 2 l θ̇₁ θ̇₂ − l θ̇₂² is −l (θ̇₁ + θ̇₂)². The value stays the same."""
+    if not isinstance(tree, Add):
+        return tree
+    terms = [_split(term) for term in tree.terms]
+    common, size = _common(terms), _size(terms)
+    rest = [(c / size, {f: e - common.get(f, 0) for f, e in p.items() if e != common.get(f, 0)}) for c, p in terms]
+    inner = _square(rest) or add(*map(_joined, rest))
+    return mul(number(size), *(power(f, e) for f, e in common.items()), inner)
+
+
+def collected(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
+    """A sum that is linear in some letters, with one factor for each of them; as it is if it is not linear."""
+    parts = _linear(tree, set(unknowns)) if isinstance(tree, Add) else None
+    if parts is None:
+        return tree
+    coefficients, rest = parts
+    made = [mul(factored(add(*coefficients[x])), x) for x in unknowns if x in coefficients]
+    return add(*made, *rest)
+
+
+def _linear(tree: Add, unknowns: set[Sym]) -> tuple[Mapping[Sym, list[Tree]], list[Tree]] | None:
+    coefficients: dict[Sym, list[Tree]] = {}
+    rest: list[Tree] = []
+    for term in tree.terms:
+        held = symbols(term) & unknowns
+        factors = list(term.factors) if isinstance(term, Mul) else [term]
+        if not held:
+            rest.append(term)
+        elif len(held) == 1 and (x := next(iter(held))) in factors:
+            factors.remove(x)
+            if x in symbols(*factors):
+                return None
+            coefficients.setdefault(x, []).append(mul(*factors))
+        else:
+            return None
+    return coefficients, rest
+
+
+def _split(term: Tree) -> Term:
+    size: Fraction | float = Fraction(1)
+    powers: Powers = {}
+    for factor in term.factors if isinstance(term, Mul) else (term,):
+        if isinstance(factor, Num):
+            size *= factor.value
+        elif isinstance(factor, Pow):
+            powers[factor.base] = powers.get(factor.base, Fraction(0)) + factor.exponent
+        else:
+            powers[factor] = powers.get(factor, Fraction(0)) + 1
+    return size, powers
+
+
+def _common(terms: Sequence[Term]) -> Powers:
+    first, *others = (powers for _, powers in terms)
+    shared = {f: min([e, *(p.get(f, Fraction(0)) for p in others)]) for f, e in first.items() if e > 0}
+    return {factor: exponent for factor, exponent in shared.items() if exponent > 0}
+
+
+def _size(terms: Sequence[Term]) -> Fraction:
+    """The number in front: the largest that leaves whole numbers, negative where all terms are."""
+    sizes = [size for size, _ in terms]
+    sign = -1 if all(size < 0 for size in sizes) else 1
+    if any(isinstance(size, float) for size in sizes):
+        return Fraction(sign)
+    above = math.gcd(*(abs(size.numerator) for size in sizes))
+    below = {size.denominator for size in sizes}
+    return sign * Fraction(above, below.pop() if len(below) == 1 else 1)
+
+
+def _square(terms: Sequence[Term]) -> Tree | None:
+    """(Σ k x)² if that is what the terms are."""
+    roots = [(c, next(iter(p))) for c, p in terms if len(p) == 1 and set(p.values()) == {2}]
+    n = len(roots)
+    if n < 2 or len(terms) != n * (n + 1) // 2 or any(_root(size) is None for size, _ in roots):
+        return None
+    cross = {frozenset(p): c for c, p in terms if len(p) == 2 and set(p.values()) == {1}}
+    first = roots[0]
+    sized = [(_signed(first, root, cross), root[1]) for root in roots]
+    wanted = {frozenset((a, b)): 2 * p * q for i, (p, a) in enumerate(sized) for q, b in sized[:i]}
+    return power(add(*(mul(number(c), x) for c, x in sized)), 2) if cross == wanted else None
+
+
+def _signed(first: tuple, root: tuple, cross: Mapping[frozenset, Fraction | float]) -> Fraction:
+    size = _root(root[0]) or Fraction(0)
+    return -size if root is not first and cross.get(frozenset((first[1], root[1])), 0) < 0 else size
+
+
+def _root(value: Fraction | float) -> Fraction | None:
+    if not isinstance(value, Fraction) or value <= 0:
+        return None
+    above, below = math.isqrt(value.numerator), math.isqrt(value.denominator)
+    exact = above * above == value.numerator and below * below == value.denominator
+    return Fraction(above, below) if exact else None
+
+
+def _joined(term: Term) -> Tree:
+    size, powers = term
+    return mul(number(size), *(power(factor, exponent) for factor, exponent in powers.items()))

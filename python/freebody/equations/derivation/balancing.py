@@ -1,0 +1,121 @@
+"""One balance equation as a person states it: its title, what drops out and why, what acts, the scalar equation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody.balances.reasons import Place, agree, why_absent
+from freebody.equations.collect import collected, factored
+from freebody.equations.derivation.meaning import joined, load_words
+from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
+from freebody.equations.tree import Add, Mul, Num, Tree, evaluate, is_zero, negative
+
+_SAME = 1e-9
+"""Distance over the size of the mechanism below which two points are one."""
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A balance with its name: ``AMB about the pin elbow for forearm``. ``where`` is the point or direction in words, ``word``
+    about, along or across; a ``constructed`` one is only described."""
+
+    balance: Balance
+    where: str
+    word: str
+    label: str = ""
+    constructed: bool = False
+
+    @property
+    def kind(self) -> str:
+        """AMB or LMB."""
+        return "AMB" if self.balance.turns else "LMB"
+
+    @property
+    def title(self) -> str:
+        """What it is."""
+        return f"{self.kind} {self.word} {self.where} for {' + '.join(self.balance.bodies)}"
+
+    @property
+    def sides(self) -> tuple[Tree, Tree]:
+        """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        unknowns = list(self.balance.linear.coefficients)
+        left, right = (collected(side, unknowns) for side in (self.balance.right, self.balance.left))
+        return (
+            (negative(left), negative(right))
+            if _all_negative(left) and (_all_negative(right) or is_zero(right))
+            else (left, right)
+        )
+
+
+def _all_negative(side: Tree) -> bool:
+    terms = side.terms if isinstance(side, Add) else (side,)
+    return all(isinstance(t, Mul) and isinstance(t.factors[0], Num) and t.factors[0].value < 0 for t in terms)
+
+
+def blocks(subject: Subject, stated: Stated) -> list[Block]:
+    """The equation with all that a reader needs to believe it."""
+    balance = stated.balance
+    made: list[Block] = [Heading(stated.title, 3)]
+    if reasons := absent(subject, stated):
+        made.append(Paragraph(f"What drops out: {'; '.join(reasons)}."))
+    what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
+    unknowns = list(balance.linear.coefficients)
+    acting: list[Words] = [
+        [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)] for c in balance.contributions if not c.absent
+    ]
+    inertia: list[Words] = [
+        [f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)
+    ]
+    if acting:
+        made += [Paragraph(f"The {what} of what acts:"), Bullets(acting)]
+    else:
+        made.append(Paragraph("Nothing else acts on it in this equation."))
+    if inertia:
+        rate = "angular momentum" if balance.turns else "momentum"
+        made += [Paragraph(f"The rate of {rate}:"), Bullets(inertia)]
+    made.append(Equation(*stated.sides, f"So {sign} is", stated.label))
+    return made
+
+
+def absent(subject: Subject, stated: Stated) -> list[str]:
+    """Unknown loads that touch the bodies but are not in the equation, by reason: ``elbow.Fx and elbow.Fy (they act at elbow)``."""
+    found: dict[str, list[str]] = {}
+    at = numbers(subject, stated.balance)
+    place = Place(stated.kind, stated.where, at, stated.constructed or stated.word == "across")
+    for contribution in stated.balance.contributions:
+        load = subject.free.loads[contribution.load]
+        if contribution.absent and load.unknown:
+            why = why_absent(load, stated.balance.bodies, place, size(subject))
+            found.setdefault(why, []).append(load.symbol)
+    return [f"{joined(names)} ({agree(why, len(names))})" for why, names in found.items()]
+
+
+def numbers(subject: Subject, balance: Balance) -> tuple[float, float]:
+    """The point (m), or the unit direction, of a balance at the state, in fixed axes."""
+    values = subject.values
+    x, y = (float(evaluate(tree, values, subject.tables)) for tree in balance.place.xy)
+    length = 1.0 if balance.turns else float(np.hypot(x, y)) or 1.0
+    return x / length, y / length
+
+
+def size(subject: Subject) -> float:
+    """The size of the mechanism, m."""
+    points = np.array([part.point for load in subject.free.loads for part in load.on] or [(0.0, 0.0)])
+    return float(np.hypot(*np.ptp(points, axis=0))) or 1.0
+
+
+def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]) -> str:
+    """The name of a point: a pin there, else a mass centre, else another named point of the bodies."""
+    free, near = subject.free, _SAME * size(subject)
+    for load in free.loads:
+        pinned = load.kind == "joint" and load.component in ("x", "y")
+        if pinned and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
+            return f"the pin {load.name}"
+    for name in bodies:
+        if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
+            return f"the mass centre of {name}"
+    return ""

@@ -1,0 +1,73 @@
+"""Loops, prescribed motions and closed limits: their equations at the levels of position, velocity and acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.result import Printed
+from freebody.equations.derivation.system import System
+from freebody.equations.derivation.told import Row, linear_in
+from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph
+from freebody.equations.tree import ZERO, Sym, add, mul
+
+_WHAT = {
+    "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
+    "coupling": ("couples motions", "couple motions"), "contact": ("holds", "hold"), "string": ("is taut", "are taut"),
+    "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
+}  # fmt: skip
+
+_AGAIN = "Differentiated once more, for the accelerations"
+
+
+def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = False) -> list[Block]:
+    """The rows at all levels, the derivatives as matrix equations; ``everywhere``: every joint has rows, not those of loops only."""
+    title = "Constraints" if everywhere else "Loop closure and prescribed motions"
+    made: list[Block] = [Heading(title), Paragraph(_why(rows, everywhere))]
+    made += _positions(rows)
+    made += _velocities(rows, coordinates)
+    system = System.of([row.linear for row in rows], coordinates)
+    above = any(row.rate is not None for row in rows)
+    return made + _together(system, _AGAIN if above else "For the accelerations")
+
+
+def _together(system: System, name: str) -> list[Block]:
+    """Several equations as a matrix equation, one as it is."""
+    if not system.unknowns:
+        return []
+    if len(system.matrix) > 1:
+        return [MatrixEquation(system.matrix, system.unknowns, system.right, name, letter="J")]
+    left = add(*(mul(entry, x) for entry, x in zip(system.matrix[0], system.unknowns, strict=True)))
+    return [Equation(left, system.right[0], name)]
+
+
+def printed(rows: Sequence[Row]) -> list[Printed]:
+    """The rows at the level of accelerations, as equations among the others."""
+    return [Printed(f"acceleration at {row.name}", row.acceleration, ZERO, row.linear) for row in rows]
+
+
+def _why(rows: Sequence[Row], everywhere: bool) -> str:
+    parts = []
+    for kind, (one, several) in _WHAT.items():
+        one, several = ("holds", "hold") if everywhere and kind == "joint" else (one, several)
+        if names := list(dict.fromkeys(row.name for row in rows if row.kind == kind)):
+            parts.append(f"{joined(names)} {one if len(names) == 1 else several}")
+    number = "This is one equation" if len(rows) == 1 else f"These are {len(rows)} equations"
+    return f"{'; '.join(parts)}. {number} among the coordinates."
+
+
+def _positions(rows: Sequence[Row]) -> list[Block]:
+    held = [row for row in rows if row.value is not None]
+    firsts = "For the positions"
+    return [Equation(row.value, ZERO, firsts if i == 0 else "") for i, row in enumerate(held)]
+
+
+def _velocities(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
+    held = [row for row in rows if row.rate is not None]
+    rates = [Sym(name, 1) for name in coordinates]
+    try:
+        system = System.of([linear_in(row.rate, rates) for row in held], coordinates)
+    except ValueError:
+        return [Equation(row.rate, ZERO, "Their rates" if i == 0 else "") for i, row in enumerate(held)]
+    above = any(row.value is not None for row in rows)
+    return _together(system, "Differentiated, for the velocities" if above else "For the velocities")

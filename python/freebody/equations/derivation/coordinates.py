@@ -1,0 +1,75 @@
+"""The balance equation of a coordinate: of the bodies that it carries, in the sense in which it moves them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from freebody.equations.derivation.balancing import Stated, named_place, numbers
+from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.tree import is_zero
+
+_ALONG = {
+    "slider": "the slider {}", "slot": "the slot {}", "rollers": "the way of {}", "curved_slot": "the tangent of {}",
+    "polar": "the radius of {}",
+}  # fmt: skip
+
+
+def stated(subject: Subject) -> list[Stated]:
+    """One equation for every coordinate of the tree; no reaction of a joint of the tree is in any of them."""
+    asked = [_question(subject, coordinate) for coordinate in subject.coordinates]
+    found = subject.balances(asked)
+    return [
+        Stated(balance, *_place(subject, coordinate, balance))
+        for coordinate, balance in zip(subject.coordinates, found, strict=True)
+    ]
+
+
+def _question(subject: Subject, coordinate: Mapping[str, Any]) -> dict[str, Any]:
+    joint = _joint(subject, coordinate)
+    if joint["type"] == "link" and (carried := _particle(subject, joint)):
+        return {"ask": "equation", "bodies": [carried], "along": {"across": _load(subject, joint["name"])}}
+    return {"ask": "coordinate", "name": coordinate["name"]}
+
+
+def _particle(subject: Subject, joint: Mapping[str, Any]) -> str | None:
+    """The second body of a joint, if it is a particle that carries nothing."""
+    name, about = joint["second"], subject.source.about
+    particle = any(body["name"] == name and body["particle"] for body in about["bodies"])
+    carries = any(other["first"] == name or (other["second"] == name and other is not joint) for other in about["joints"])
+    return name if particle and not carries else None
+
+
+def _load(subject: Subject, joint: str) -> int:
+    return next(i for i, load in enumerate(subject.free.loads) if load.kind == "joint" and load.name == joint)
+
+
+def _joint(subject: Subject, coordinate: Mapping[str, Any]) -> Mapping[str, Any]:
+    joints = subject.source.about["joints"]
+    free = {"type": "free", "name": coordinate["joint"]}
+    return next((joint for joint in joints if joint["name"] == coordinate["joint"]), free)
+
+
+def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) -> tuple[str, str]:
+    """The point or direction in words, and the word before it."""
+    joint = _joint(subject, coordinate)
+    if balance.turns:
+        named = (
+            f"the pin {joint['name']}"
+            if joint["type"] == "hinge"
+            else named_place(subject, numbers(subject, balance), balance.bodies)
+        )
+        return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
+    if joint["type"] == "link":
+        return f"the link {joint['name']}", "across"
+    if joint["type"] == "polar" and coordinate["dimension"] == "rad":
+        return f"the radius of {joint['name']}, times r,", "across"
+    x, y = balance.place.xy
+    if is_zero(x) or is_zero(y):
+        return _axis(*numbers(subject, balance)), "along"
+    return _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
+
+
+def _axis(x: float, y: float) -> str:
+    """A fixed axis, or the direction against it."""
+    return ("−" if x + y < 0 else "") + ("x" if abs(x) > abs(y) else "y")

@@ -1,0 +1,170 @@
+"""The equations of a mechanism as an object that prints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from freebody.equations.code import generate
+from freebody.equations.derivation import conserved, matrices, opening
+from freebody.equations.derivation.brute import brute
+from freebody.equations.derivation.constrained import constrained
+from freebody.equations.derivation.lengths import readable
+from freebody.equations.derivation.minimal import minimal
+from freebody.equations.derivation.result import Form, Printed
+from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.wanted import wanted
+from freebody.equations.document import Block, Document, Heading
+from freebody.equations.letters import Letters
+from freebody.equations.tree import Sym, Tree, symbols
+
+if TYPE_CHECKING:
+    import sympy
+
+FORMS = ("minimal", "brute", "constraints")
+_TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The equations of motion in one ``form``: minimal, brute or constraints; or the fewest for something wanted.
+
+    ``print`` shows the derivation; a notebook typesets it. ``parts`` are the equations with titles, in the order of the rows of
+    the matrix form A x = b."""
+
+    form: str
+    letters: Letters
+    document: Document = field(repr=False)
+    content: Form = field(repr=False)
+
+    @property
+    def parts(self) -> tuple[Printed, ...]:
+        """The equations with their titles and sides."""
+        return self.content.equations
+
+    @property
+    def equations(self) -> tuple[Tree, ...]:
+        """Every equation as a tree that vanishes, SI."""
+        return tuple(part.residual for part in self.parts)
+
+    @property
+    def unknowns(self) -> tuple[Sym, ...]:
+        """x of A x = b: accelerations, then forces and couples."""
+        return self.content.system.unknowns
+
+    @property
+    def mass_matrix(self) -> tuple[tuple[Tree, ...], ...]:
+        """A of A x = b, in rows. In a tree's minimal form this is the mass matrix."""
+        return self.content.system.matrix
+
+    @property
+    def right_hand_side(self) -> tuple[Tree, ...]:
+        """b of A x = b."""
+        return self.content.system.right
+
+    def code(self, language: str = "python") -> str:
+        """Source of functions ``mass_matrix`` and ``right_hand_side`` of coordinates, rates, parameters and time, in ``python``
+        (NumPy) or ``c``."""
+        functions = {"mass_matrix": self.mass_matrix, "right_hand_side": self.right_hand_side}
+        return generate(functions, self.letters, {"python": "numpy"}.get(language, language))
+
+    def sympy(self) -> tuple[sympy.Matrix, sympy.Matrix, sympy.Matrix]:
+        """A, x and b of A x = b as matrices of SymPy, coordinates as functions of time."""
+        import sympy
+
+        from freebody.equations.to_sympy import to_sympy
+
+        def matrix(rows: Sequence[Sequence[Tree]]) -> sympy.Matrix:
+            return sympy.Matrix([[to_sympy(entry, self.letters, time=True) for entry in row] for row in rows])
+
+        return matrix(self.mass_matrix), matrix([[x] for x in self.unknowns]), matrix([[b] for b in self.right_hand_side])
+
+    def text(self, *, width: int = 100, ascii: bool = False) -> str:
+        """The derivation as plain text."""
+        return self.document.text(width=width, ascii=ascii)
+
+    def latex(self) -> str:
+        """The derivation as a fragment of a LaTeX article."""
+        return self.document.latex()
+
+    def markdown(self) -> str:
+        """The derivation as Markdown with LaTeX between dollars."""
+        return self.document.markdown()
+
+    def json(self) -> str:
+        """The derivation as JSON: letters, and blocks with trees."""
+        return self.document.json()
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def html(self) -> str:
+        """The derivation as a fragment of HTML, for MathJax or KaTeX."""
+        return self.document.html()
+
+    def _repr_html_(self) -> str:
+        return self.html()
+
+    def _repr_latex_(self) -> str:
+        return self.latex()
+
+
+def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> Equations:
+    """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
+
+    Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``_core.MotionError``."""
+    if want is not None:
+        content = wanted(subject, want)
+        return Equations(
+            "wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content
+        )
+    if form not in FORMS:
+        raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
+    letters = subject.letters
+    if form == "constraints":
+        content, letters = constrained(subject)
+    else:
+        content = (minimal if form == "minimal" else brute)(subject)
+    return Equations(form, letters, _Writer(subject, form, letters, content).document, content)
+
+
+@dataclass(frozen=True)
+class _Writer:
+    subject: Subject
+    form: str
+    letters: Letters
+    content: Form
+
+    @cached_property
+    def document(self) -> Document:
+        body = (
+            [*self._body(), *conserved.section(self.subject, in_letters=self.form != "constraints")]
+            if self.form in FORMS
+            else list(self.content.blocks)
+        )
+        first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
+        if self.form != "constraints":
+            first += opening.configuration(self.subject)
+        blocks = (*first, *opening.letters(self.letters, used(body)), *body)
+        return Document(tuple(map(readable, blocks)), self.letters)
+
+    def _body(self) -> list[Block]:
+        kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)
+        return [*kinematics, *self.content.blocks, *matrices.section(self.form, self.content, self.letters)]
+
+
+def used(blocks: Any) -> set[str]:
+    """Names of all letters in blocks, and in whatever these hold."""
+    found: set[str] = set()
+    waiting = [blocks]
+    while waiting:
+        each = waiting.pop()
+        if isinstance(each, Tree):
+            found |= {letter.name for letter in symbols(each)}
+        elif isinstance(each, list | tuple):
+            waiting += each
+        elif hasattr(each, "__dataclass_fields__"):
+            waiting += [getattr(each, name) for name in each.__dataclass_fields__]
+    return found

@@ -1,0 +1,126 @@
+"""Unit directions and vectors in them: λ along the x axis of a body, n = k × λ across it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+
+from freebody.equations.collect import factored
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.told import Arrow, Motion
+from freebody.equations.document import Vector, Words, Written
+from freebody.equations.names import latex_name, unicode_name
+from freebody.equations.tree import Add, Mul, Sym, Tree, add, is_zero, mul, number, symbols
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A pair of unit directions that turn with an angle: ``λ_below`` at the angle, ``n_below`` a right angle on."""
+
+    below: str
+    angle: Tree
+    owners: tuple[str, ...]
+    turning: tuple[str, ...] = ()
+
+    @property
+    def along(self) -> str:
+        """Name of the first."""
+        return f"λ_{self.below}"
+
+    @property
+    def across(self) -> str:
+        """Name of the second."""
+        return f"n_{self.below}"
+
+    def sentence(self) -> Words:
+        """What it is."""
+        at = ["at the angle ", self.angle, " from i, counter-clockwise"]
+        where = [f"along the x axis of {joined(self.owners)}, "] if self.owners else []
+        if self.turning and not self.owners:
+            where = [f"(turning with {joined(self.turning)}) "]
+        return [unit(self.along), " points ", *where, *at, "; ", unit(self.across), " = k × ", unit(self.along), "."]
+
+
+@dataclass(frozen=True)
+class Directions:
+    """All pairs that some vectors need, in the order of the bodies."""
+
+    pairs: tuple[Direction, ...]
+    moving: frozenset[str]
+
+    @classmethod
+    def of(cls, motions: Sequence[Motion], arrows: Iterable[Arrow], moving: Collection[str]) -> Directions:
+        """The pairs for some vectors (``moving`` letters change with time), named after bodies that turn with them, after the letter of the angle, or numbered."""
+        angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
+        bodies = [body for body in motions if not body.particle]
+        owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
+        turning = {angle: _turning(angle, bodies, moving) for angle in angles}
+        angles.sort(key=lambda angle: next((i for i, b in enumerate(bodies) if b.body in turning[angle]), len(bodies)))
+        made: list[Direction] = []
+        for angle in angles:
+            named = [_word(body) for body in (*owners[angle], *turning[angle])]
+            named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
+            taken = {pair.below for pair in made}
+            below = next((word for word in named if word not in taken), str(len(made) + 1))
+            made.append(Direction(below, angle, owners[angle], turning[angle]))
+        return cls(tuple(made), frozenset(moving))
+
+    def vector(self, arrow: Arrow) -> Vector:
+        """A vector in these directions and i, j."""
+        parts: list[tuple[Tree, str]] = [(arrow.i, "i"), (arrow.j, "j")]
+        for part in arrow.parts:
+            pair = next(pair for pair in self.pairs if pair.angle == part.angle)
+            parts += [(part.along, pair.along), (part.across, pair.across)]
+        return Vector(tuple((factored(tree), name) for tree, name in parts if not is_zero(tree)))
+
+    def rates(self) -> list[tuple[Written, Vector]]:
+        """How the directions turn: dλ/dt = ω n, dn/dt = −ω λ."""
+        found: list[tuple[Written, Vector]] = []
+        for pair in self.pairs:
+            rate = angle_rate(pair.angle, self.moving)
+            if rate is None or is_zero(rate):
+                continue
+            found.append((_rate(pair.along), Vector(((rate, pair.across),))))
+            found.append((_rate(pair.across), Vector(((mul(number(-1), rate), pair.along),))))
+        return found
+
+
+def unit(name: str) -> Written:
+    """A unit direction in a sentence."""
+    stem, _, below = name.partition("_")
+    letter = r"\boldsymbol{\lambda}" if stem == "λ" else rf"\mathbf{{{stem}}}"
+    return Written(name, f"{letter}_{{{latex_name(below)}}}" if below else letter)
+
+
+def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
+    """The rate of a sum of letters with numbers, of which some are ``moving``; None for any other angle."""
+    terms = angle.terms if isinstance(angle, Add) else (angle,)
+    rates = [_term_rate(term, moving) for term in terms]
+    return None if None in rates else add(*rates)
+
+
+def _turning(angle: Tree, bodies: Sequence[Motion], moving: Collection[str]) -> tuple[str, ...]:
+    """The bodies that turn as an angle does."""
+    rate = angle_rate(angle, moving)
+    return tuple(body.body for body in bodies if rate is not None and not is_zero(rate) and body.omega == rate)
+
+
+def _term_rate(term: Tree, moving: Collection[str]) -> Tree | None:
+    changing = [letter for letter in symbols(term) if letter.name in moving]
+    if not changing:
+        return number(0)
+    factors = term.factors if isinstance(term, Mul) else (term,)
+    if len(changing) > 1 or changing[0] not in factors:
+        return None
+    letter = changing[0]
+    return mul(*(Sym(letter.name, letter.dots + 1) if factor == letter else factor for factor in factors))
+
+
+def _word(name: str) -> str:
+    return re.sub(r"\W+", "", name) or "1"
+
+
+def _rate(name: str) -> Written:
+    shown = unit(name)
+    return Written(f"d{shown.text}/dt", rf"\dot{{{shown.latex}}}")

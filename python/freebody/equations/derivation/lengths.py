@@ -1,0 +1,42 @@
+"""What is too long to be read is not printed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from freebody.equations.document import Block, Bullets, Equation, MatrixEquation, Paragraph, Words, is_tree, pieces
+from freebody.equations.tree import Tree, walk
+
+LONGEST = 2500
+"""Letters, numbers and operations of an expression beyond which nobody reads it."""
+
+
+def readable(block: Block) -> Block:
+    """The block, or a sentence in its place where an expression in it is too long."""
+    match block:
+        case Equation(left, right) if (size := _size([left, right])) > LONGEST:
+            return Paragraph([*_named(block.name), *_instead(size)])
+        case MatrixEquation(matrix, _, right) if (size := max(map(_size, [*matrix, right]), default=0)) > LONGEST:
+            return Paragraph([*_named(block.name), *_instead(size)])
+        case Bullets(items):
+            return Bullets([_item(item) for item in items])
+        case _:
+            return block
+
+
+def _item(words: Words) -> Words:
+    size = _size(pieces(words))
+    return words if size <= LONGEST else [*(p for p in pieces(words) if isinstance(p, str)), f"an expression of {size} signs"]
+
+
+def _named(name: Words) -> list:
+    return [*pieces(name), ": "] if name else []
+
+
+def _instead(size: int) -> list[str]:
+    return [f"an expression of {size} signs, too long to be read; it is among the equations as data and in the generated code."]
+
+
+def _size(parts: Sequence[object]) -> int:
+    trees: list[Tree] = [part for part in parts if is_tree(part)]
+    return sum(1 for tree in trees for _ in walk(tree))

@@ -1,0 +1,100 @@
+"""The first sections of a derivation: configuration, letters, kinematics."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Sequence
+
+from freebody.equations.derivation.directions import Directions
+from freebody.equations.derivation.meaning import joined, plain
+from freebody.equations.derivation.told import Motion, Subject
+from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Table, Written
+from freebody.equations.letters import Letter, Letters
+from freebody.equations.names import latex_name, superscript
+from freebody.equations.tree import Sym, is_zero
+
+
+def configuration(subject: Subject) -> list[Block]:
+    """The coordinates, and what each measures."""
+    freedom, coordinates = subject.source.about["freedom"], subject.coordinates
+    if not coordinates:
+        return [Heading("Configuration"), Paragraph("Nothing can move: there are no coordinates.")]
+    rows = [([Sym(c["name"])], _doc(c), c["dimension"] or "1") for c in coordinates]
+    degrees = "one degree" if freedom["count"] == 1 else f"{freedom['count'] or 'no'} degrees"
+    prescribed = f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
+    return [
+        Heading("Configuration"),
+        Paragraph(f"The mechanism has {degrees} of freedom{prescribed}. {_count(len(coordinates))} where it is:"),
+        Table(("coordinate", "what it measures", "unit"), rows),
+    ]
+
+
+def kinematics(subject: Subject) -> list[Block]:
+    """Position, velocity and acceleration of every mass centre in named unit directions."""
+    motions = subject.motions
+    names = [c["name"] for c in subject.coordinates]
+    directions = Directions.of(motions, [a for b in motions for a in (b.r, b.v, b.a)], [*names, "t"])
+    made: list[Block] = [Heading("Kinematics"), Paragraph(_axes(motions))]
+    if directions.pairs:
+        made += [Paragraph("Unit directions that turn:"), Bullets([pair.sentence() for pair in directions.pairs])]
+        made += [Equation(left, right) for left, right in directions.rates() if not subject.at_rest]
+    for body in motions:
+        made += _body(body, directions)
+    return made
+
+
+def letters(known: Letters, used: Collection[str]) -> list[Block]:
+    """What the other letters mean, as far as they occur."""
+    shown = [letter for letter in known.values() if letter.name in used]
+    given = [letter for letter in shown if letter.kind in ("parameter", "constant")]
+    unknown = [letter for letter in shown if letter.kind == "unknown"]
+    made: list[Block] = []
+    if given:
+        made.append(Paragraph(["Given: ", *(piece for i, letter in enumerate(given) for piece in _given(letter, i)), "."]))
+    if unknown:
+        rows = [([Sym(letter.name)], letter.doc) for letter in unknown]
+        made.append(Table(("letter", "what it is"), rows, "Unknown:"))
+    return [Heading("Letters"), *made] if made else []
+
+
+def _given(letter: Letter, place: int) -> list[str | Sym]:
+    said = ", ".join(filter(None, (letter.doc, unit_text(letter.unit))))
+    return [", " * bool(place), Sym(letter.name), f" ({said})" * bool(said)]
+
+
+def unit_text(unit: str) -> str:
+    """A unit as it is printed: kg·m²."""
+    return re.sub(r"\^(-?\d+)", lambda found: superscript(found[1]), unit).replace("*", "·")
+
+
+def _doc(coordinate: dict) -> str:
+    """What it measures; a way along a guide in more words than the core's."""
+    doc = plain(coordinate["doc"])
+    way = re.fullmatch(r"(s|x|y) of (.+) from (.+) at (.+)", doc)
+    if not way:
+        return doc
+    letter, second, first, joint = way.groups()
+    return f"way of {second} along {joint}, on {first}" if letter == "s" else f"{letter} of {second}, seen from {first}"
+
+
+def _count(number: int) -> str:
+    return "One coordinate tells" if number == 1 else f"{number} coordinates tell"
+
+
+def _axes(motions: Sequence[Motion]) -> str:
+    massless = [body.body for body in motions if is_zero(body.mass)]
+    said = "i and j are unit vectors along the fixed axes x and y, k = i × j. r, v and a are those of mass centres."
+    return said + (f" {joined(massless)} {'has' if len(massless) == 1 else 'have'} no mass." if massless else "")
+
+
+def _body(body: Motion, directions: Directions) -> list[Block]:
+    named = [(letter, getattr(body, letter)) for letter in "rva"]
+    made: list[Block] = [
+        Equation(Written(f"{letter}_{body.body}", rf"\mathbf{{{letter}}}_{{{latex_name(body.body)}}}"), directions.vector(arrow),
+                 f"For {body.body}" if letter == "r" else "")
+        for letter, arrow in named
+    ]  # fmt: skip
+    if not body.particle:
+        alpha = Written(f"α_{body.body}", rf"\alpha_{{{latex_name(body.body)}}}")
+        made.append(Equation(alpha, body.alpha))
+    return made

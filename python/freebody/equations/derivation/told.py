@@ -1,0 +1,260 @@
+"""What the core tells of a state in letters: balances, rows, motions of bodies; read from JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from freebody.equations.letters import Letters
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, read
+from freebody.free_body import FreeBodies
+from freebody.instant import State
+from freebody.source import Source
+
+Question = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A part of a vector in the unit direction at an angle to the x axis, and across it, a right angle on."""
+
+    angle: Tree
+    along: Tree
+    across: Tree
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """A vector: parts in turning unit directions, and what is left along the fixed axes; ``xy`` is all of it along those."""
+
+    parts: tuple[Direction, ...]
+    i: Tree
+    j: Tree
+    xy: tuple[Tree, Tree]
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Arrow:
+        """From an answer."""
+        parts = (Direction(read(d["angle"]), read(d["along"]), read(d["across"])) for d in data["directions"])
+        x, y = data["xy"]
+        return cls(tuple(parts), read(data["i"]), read(data["j"]), (read(x), read(y)))
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A body: its angle and the position, velocity and acceleration of its mass centre."""
+
+    body: str
+    particle: bool
+    mass: Tree
+    inertia: Tree
+    angle: Tree
+    omega: Tree
+    alpha: Tree
+    r: Arrow
+    v: Arrow
+    a: Arrow
+
+
+@dataclass(frozen=True)
+class Linear:
+    """An expression as Σ ``coefficients[x]`` x + ``rest`` of what is unknown."""
+
+    coefficients: Mapping[Sym, Tree]
+    rest: Tree
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Linear:
+        """From an answer."""
+        return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
+
+
+@dataclass(frozen=True)
+class Contribution:
+    """What one load, by its place in the list, gives to a balance; ``internal``: it acts between bodies of the group."""
+
+    load: int
+    tree: Tree
+    internal: bool
+
+    @property
+    def absent(self) -> bool:
+        """Whether it gives nothing."""
+        return self.internal or is_zero(self.tree)
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``residual`` = right − left.
+
+    ``place`` is the point about which, or the vector along which; ``linear`` that of the residual."""
+
+    bodies: tuple[str, ...]
+    turns: bool
+    place: Arrow
+    contributions: tuple[Contribution, ...]
+    inertia: tuple[tuple[str, Tree], ...]
+    momentum: Tree
+    left: Tree
+    right: Tree
+    residual: Tree
+    linear: Linear
+
+    def without(self, loads: Collection[int], letters: Collection[str]) -> Balance:
+        """The same with some loads left out, by place and letter: they vanish wherever loops and contacts are closed, though not
+        identically in the letters."""
+        if not any(each.load in loads and not each.absent for each in self.contributions):
+            return self
+        kept = tuple(replace(each, tree=ZERO) if each.load in loads else each for each in self.contributions)
+        left = add(*(each.tree for each in kept if not each.internal))
+        coefficients = {x: tree for x, tree in self.linear.coefficients.items() if x.dots or x.name not in letters}
+        linear = Linear(coefficients, self.linear.rest)
+        return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Balance:
+        """From an answer."""
+        test, turns = data["test"], data["test"]["kind"] == "moment"
+        loads = (Contribution(each["load"], read(each["tree"]), each["internal"]) for each in data["loads"])
+        trees = (read(data[word]) for word in ("momentum", "left", "right", "residual"))
+        inertia = tuple((each["body"], read(each["tree"])) for each in data["inertia"])
+        place = Arrow.read(test["about" if turns else "along"])
+        return cls(tuple(data["bodies"]), turns, place, tuple(loads), inertia, *trees, Linear.read(data["linear"]))
+
+
+@dataclass(frozen=True)
+class Row:
+    """What a joint that closes a loop, a motion or a closed limit asks: ``value``, ``rate`` and ``acceleration`` vanish.
+
+    A row without a value holds rates only, one without a rate accelerations only."""
+
+    name: str
+    kind: str
+    value: Tree | None
+    rate: Tree | None
+    acceleration: Tree
+    linear: Linear
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Row:
+        """From an answer."""
+        value, rate = (None if data[word] is None else read(data[word]) for word in ("value", "rate"))
+        return cls(data["name"], data["kind"], value, rate, read(data["acceleration"]), Linear.read(data["linear"]))
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What is derived: a mechanism at a state, of which letters may be set to numbers."""
+
+    source: Source
+    state: State
+    at_rest: bool = False
+    numbers: Mapping[str, float] | None = None
+
+    def with_numbers(self, names: Sequence[str]) -> Subject:
+        """The same with some coordinates and parameters as the numbers that they are at the state."""
+        places = {c["name"]: float(x) for c, x in zip(self.coordinates, self.state.q, strict=True)}
+        places |= {p["name"]: float(x) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)}
+        return replace(self, numbers={name: places[name] for name in names})
+
+    def ask(self, questions: Sequence[Question]) -> list[Any]:
+        """The answers of the core, as data. Raises ``_core.MotionError``."""
+        return self._told(questions)["answers"]
+
+    def balances(self, questions: Sequence[Question]) -> list[Balance]:
+        """Answers about balances."""
+        return list(map(Balance.read, self.ask(questions)))
+
+    @property
+    def coordinates(self) -> list[dict[str, Any]]:
+        """The coordinates of the tree, as the core describes them."""
+        return self.source.about["coordinates"]
+
+    @cached_property
+    def free(self) -> FreeBodies:
+        """All loads at the state, in numbers; they are counted as in contributions."""
+        s = self.state
+        return FreeBodies.read(self.source.core.free_bodies(s.p, s.t, s.q, s.u))
+
+    @cached_property
+    def rows(self) -> list[Row]:
+        """What closes loops, prescribes motions, and holds limits."""
+        return list(map(Row.read, self.ask([{"ask": "rows"}])[0]))
+
+    @cached_property
+    def motions(self) -> list[Motion]:
+        """Of every body."""
+        arrows, trees = ("r", "v", "a"), ("mass", "inertia", "angle", "omega", "alpha")
+        told = self.ask([{"ask": "kinematics"}])[0]
+        return [
+            Motion(b["body"], b["particle"], **{w: read(b[w]) for w in trees}, **{w: Arrow.read(b[w]) for w in arrows})
+            for b in told
+        ]
+
+    @cached_property
+    def table(self) -> dict[str, dict[str, Any]]:
+        """The letters as the core lists them: kind, unit and value by name."""
+        return self._told([])["letters"]
+
+    @cached_property
+    def letters(self) -> Letters:
+        """The letters and what they mean."""
+        from freebody.equations.derivation.meaning import meanings
+
+        return meanings(self)
+
+    @cached_property
+    def values(self) -> dict[Sym, float]:
+        """The numbers of all letters at the state."""
+        s, free, names = self.state, self.free, [c["name"] for c in self.coordinates]
+        found = {Sym(name): entry["value"] for name, entry in self.table.items()}
+        found |= {Sym(load.symbol): load.value for load in free.loads if load.unknown}
+        found |= {Sym(name): float(x) for name, x in zip(names, s.q, strict=True)}
+        found |= {Sym(name, 1): float(x) for name, x in zip(names, s.u, strict=True)}
+        return found | {Sym(name, 2): x for name, x in free.accelerations.items()}
+
+    @cached_property
+    def tables(self) -> dict[str, Callable[..., float]]:
+        """The functions of the model that are given by points."""
+        s, core = self.state, self.source.core
+        names = [table["name"] for table in json.loads(self.source.spec).get("tables", [])]
+
+        def table(name: str) -> Callable[..., float]:
+            return lambda x: float(core.evaluate([f"{name}({float(x)!r})"], s.p, s.t, s.q, s.u)[0])
+
+        return {name: table(name) for name in names}
+
+    @cached_property
+    def points(self) -> Mapping[str, tuple[str, float, float]]:
+        """Named points: body, x, y in its frame."""
+        return json.loads(self.source.core.points(self.state.p))
+
+    def _told(self, questions: Sequence[Question]) -> dict[str, Any]:
+        setting = {"at_rest": self.at_rest, "numbers": dict(self.numbers or {})}
+        s = self.state
+        return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, json.dumps(setting), json.dumps(questions)))
+
+
+def linear_in(tree: Tree, unknowns: Sequence[Sym]) -> Linear:
+    """An expression that is linear in some letters, by its coefficients; ``ValueError`` if it is not."""
+    from freebody.equations.tree import Add, Mul, mul, symbols
+
+    wanted = set(unknowns)
+    if not symbols(tree) & wanted:
+        return Linear({}, tree)
+    if tree in wanted:
+        return Linear({tree: mul()}, ZERO)
+    if isinstance(tree, Add):
+        parts = [linear_in(term, unknowns) for term in tree.terms]
+        found = dict.fromkeys(x for part in parts for x in part.coefficients)
+        sums = {x: add(*(part.coefficients[x] for part in parts if x in part.coefficients)) for x in found}
+        return Linear(sums, add(*(part.rest for part in parts)))
+    if isinstance(tree, Mul):
+        holding = [factor for factor in tree.factors if symbols(factor) & wanted]
+        if len(holding) == 1:
+            inner, others = linear_in(holding[0], unknowns), [f for f in tree.factors if f is not holding[0]]
+            return Linear({x: mul(*others, c) for x, c in inner.coefficients.items()}, mul(*others, inner.rest))
+    raise ValueError(f"the expression is not linear in {', '.join(x.name for x in unknowns)}")

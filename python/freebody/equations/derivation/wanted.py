@@ -1,0 +1,72 @@
+"""The fewest balance equations that give one wanted quantity, in letters, with the numbers of the state."""
+
+from __future__ import annotations
+
+from freebody.balances.show import show
+from freebody.balances.smallest import SmallestSet, smallest_set
+from freebody.balances.states import nearby
+from freebody.equations.derivation.balancing import blocks
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.minimal import from_search
+from freebody.equations.derivation.result import Form, Printed
+from freebody.equations.derivation.told import Subject
+from freebody.equations.document import Block, Bullets, Heading, Paragraph, Table
+from freebody.equations.tree import Sym
+from freebody.tables import figure
+
+_COUNT = ("no", "one", "two", "three", "four")
+
+
+def wanted(subject: Subject, name: str) -> Form:
+    """The smallest set for a coordinate's acceleration, a component of a reaction, or a motion's force or torque.
+
+    Raises ``KeyError`` for what is not unknown, ``Indeterminate``."""
+    found = smallest_set(name, nearby(subject.source, subject.state), subject.points)
+    stated = from_search(subject, list(found.equations)) if found.equations else None
+    if stated is None:
+        return Form.of(subject.letters, [], [*_numeric(found), *_numbers(found)])
+    equations = [Printed(s.title, *s.sides, s.balance.linear) for s in stated]
+    made: list[Block] = [Heading("Balance equations"), Paragraph(_introduction(found))]
+    for s in stated:
+        made += blocks(subject, s)
+    form = Form.of(subject.letters, equations, [])
+    return Form(form.equations, (*made, *_numbers(found)), form.system, form.reactions)
+
+
+def _introduction(found: SmallestSet) -> str:
+    number = len(found.equations)
+    names = joined([_shown(name) for name in found.values])
+    if number == 1:
+        return f"One balance equation gives {names} by itself; no other unknown is in it."
+    return f"{_COUNT[number].capitalize()} balance equations hold {names} and no other unknown; fewer do not give {_shown(found.wanted)}."
+
+
+def _shown(name: str) -> str:
+    return f"the acceleration of {name[6:-1]}" if name.startswith("accel(") else name
+
+
+def _numeric(found: SmallestSet) -> list[Block]:
+    """A set that has no letters, as numbers."""
+    if found.virtual:
+        moves = [
+            f"{body}: its mass centre moves with ({figure(x)}, {figure(y)}), it turns with {figure(turn)}"
+            for body, (x, y, turn) in found.virtual.motion.items()
+        ]
+        said = f"{_shown(found.wanted)} takes more than four balance equations. One of virtual power gives it: move the bodies so that "
+        return [
+            Heading("Virtual power"),
+            Paragraph(f"{said}of all unknowns only {found.virtual.unknown} does work."),
+            Bullets(moves),
+        ]
+    lines = [line.strip() for line in show(found).splitlines() if line.strip()]
+    return [Heading("Balance equations"), Paragraph("The points of this set have no letters; in numbers it is:"), Bullets(lines)]
+
+
+def _numbers(found: SmallestSet) -> list[Block]:
+    rows = [
+        ([Sym(name[6:-1], 2)] if name.startswith("accel(") else [Sym(name)], figure(value))
+        for name, value in found.values.items()
+    ]
+    said = f"They differ from the solution of all equations by {found.check:.0e} of their size."
+    exact = "" if found.exact else " Not every set of bodies was tried: there are too many."
+    return [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(said + exact)]

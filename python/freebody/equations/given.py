@@ -1,0 +1,166 @@
+"""What a question sets: letters to exact numbers, ``45 deg`` is π/4, or to other letters."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.equations.derivation.told import Subject
+from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, evaluate, mul, number, replace, symbols
+from freebody.instant import State
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+_DEGREES = re.compile(r"\s*(-?\d+(?:\.\d+)?(?:/\d+)?)\s*(?:deg|°)\s*")
+_NUMBER = re.compile(r"\s*-?\d+(?:\.\d+)?(?:/\d+)?\s*")
+_RATIONAL = 1e-12
+_DENOMINATORS = 1000
+_NEAR = 0.15
+"""How far other states for checks are, in rad and m, and parts of parameters."""
+
+
+@dataclass(frozen=True)
+class Given:
+    """Letters with what they are set to."""
+
+    trees: Mapping[str, Tree]
+
+    def put(self, tree: Tree) -> Tree:
+        """An expression with the letters replaced, and plain numbers exact."""
+        from freebody.equations.to_sympy import from_sympy, to_sympy
+
+        new = {Sym(name): value for name, value in self.trees.items()}
+        made = _with_exact_numbers(tree)
+        return from_sympy(to_sympy(replace(made, new))) if symbols(made) & new.keys() else made
+
+    def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
+        """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
+        first, _ = mechanism.start(initial)
+        changes = self._numbers(_parameters(mechanism.source().about, first.p))
+        if at_rest:
+            changes["at_rest"] = True
+            if initial is None and mechanism.lowered().start.rates:
+                changes["rates"] = {}
+        return mechanism.start(initial, **changes)[0]
+
+    def near(self, subject: Subject, rng: np.random.Generator) -> State | None:
+        """Another state, at rest if the subject is, in which the same letters are set; None where it cannot be assembled."""
+        from freebody import _core
+
+        source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
+        p = state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p))
+        values = _parameters(source.about, p)
+        set_to = self._numbers(values)
+        p = source.core.bind({name: set_to.get(name, value) for name, value in values.items()})
+        q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}
+        fixed = {name: x for name, x in set_to.items() if name in q}
+        rates = {} if subject.at_rest else {n: float(x) for n, x in zip(names, rng.uniform(-1, 1, len(names)), strict=True)}
+        try:
+            q, u, _ = source.core.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
+            if rates and source.about["freedom"]["count"] == len(names):
+                u = np.array(list(rates.values()))
+            return State(p, state.t, q, u)
+        except _core.MotionError:
+            return None
+
+    def generic(self, subject: Subject) -> State:
+        """The state where no parameter is 0 by chance, so that what drops out of a balance does so whatever they are."""
+        from freebody import _core
+
+        source, state = subject.source, subject.state
+        values = _parameters(source.about, state.p)
+        moved = {name: value or _NEAR for name, value in values.items()} | self._numbers(values)
+        names = [c["name"] for c in source.about["coordinates"]]
+        p = source.core.bind({name: moved[name] for name in values})
+        try:
+            q, _, _ = source.core.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
+        except _core.MotionError:
+            return state
+        return State(p, state.t, q, state.u)
+
+    def said(self) -> list[str]:
+        """As words: ``theta = π/4``."""
+        from freebody.equations.text import text
+
+        return [f"{text(Sym(name))} = {text(tree)}" for name, tree in self.trees.items()]
+
+    def _numbers(self, parameters: Mapping[str, float]) -> dict[str, Any]:
+        values = {Sym(name): value for name, value in parameters.items()}
+        return {name: float(evaluate(tree, values)) for name, tree in self.trees.items()}
+
+
+def given(mechanism: Builder, set: Mapping[str, Any]) -> Given:
+    """What is set, exactly. Raises ``ValueError`` where it is no quantity and no letter."""
+    about = mechanism.source().about
+    letters = [p["name"] for p in about["parameters"]]
+    known = [*letters, *(c["name"] for c in about["coordinates"])]
+    for name in set:
+        if name not in known:
+            raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
+    return Given({name: _exact(value, letters) for name, value in set.items()})
+
+
+def _with_exact_numbers(tree: Tree) -> Tree:
+    match tree:
+        case Num(float() as value):
+            return exact(value)
+        case Add(parts) | Mul(parts):
+            return type(tree)(tuple(map(_with_exact_numbers, parts)))
+        case Pow(base, exponent):
+            return Pow(_with_exact_numbers(base), exponent)
+        case Fn(name, args):
+            return Fn(name, tuple(map(_with_exact_numbers, args)))
+        case _:
+            return tree
+
+
+def exact_angle(value: float) -> Tree:
+    """An angle as a part of π, where it is a plain one."""
+    part = Fraction(value / np.pi).limit_denominator(12)
+    return mul(number(part), Sym(PI)) if abs(float(part) * np.pi - value) < _RATIONAL else exact(value)
+
+
+def exact(value: float) -> Tree:
+    """A number as a fraction, where it is a plain one."""
+    part = Fraction(value).limit_denominator(_DENOMINATORS)
+    return number(part if abs(float(part) - value) <= _RATIONAL * max(1.0, abs(value)) else float(value))
+
+
+def _exact(value: Any, letters: list[str]) -> Tree:
+    if isinstance(value, int | float | Fraction) and not isinstance(value, bool):
+        return exact(float(value))
+    if found := _DEGREES.fullmatch(str(value)):
+        return mul(number(Fraction(found[1]) / 180), Sym(PI))
+    if _NUMBER.fullmatch(str(value)):
+        return number(Fraction(str(value).strip()))
+    if str(value).strip() in letters:
+        return Sym(str(value).strip())
+    return exact(_quantity(str(value), letters))
+
+
+def _quantity(value: str, letters: list[str]) -> float:
+    from freebody.model.errors import Complaint
+    from freebody.model.start import evaluate as quantity
+
+    try:
+        return quantity(value, {})
+    except Complaint as complaint:
+        raise ValueError(f"{value!r} is no quantity and none of {', '.join(letters)}: {complaint.what}") from None
+
+
+def _parameters(about: Mapping[str, Any], p: Any) -> dict[str, float]:
+    return {each["name"]: float(x) for each, x in zip(about["parameters"], p, strict=True)}
+
+
+def given_quantity(value: Any, unit: str) -> float:
+    """A number in SI, or a quantity. Raises ``ValueError``."""
+    try:
+        return float(value)
+    except ValueError:
+        return _quantity(str(value), [f"a number in {unit}"])

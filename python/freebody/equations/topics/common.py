@@ -1,0 +1,88 @@
+"""What the topics share: subjects, documents, derivatives with respect to time."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
+
+from freebody.equations.collect import factored
+from freebody.equations.derivation import opening
+from freebody.equations.derivation.derive import used
+from freebody.equations.derivation.told import Arrow, Subject
+from freebody.equations.document import Block, Document, Heading
+from freebody.equations.letters import Letter, Letters
+from freebody.equations.simplify import shortest
+from freebody.equations.to_sympy import from_sympy, to_sympy
+from freebody.equations.tree import Tree, add, mul, negative
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+
+class NotHere(ValueError):
+    """A topic that a mechanism has nothing for; the sentence says why."""
+
+
+def subject_of(mechanism: Builder, state: State, at_rest: bool = False) -> Subject:
+    """A mechanism at a state, to be asked in letters."""
+    return Subject(mechanism.source(), state, at_rest)
+
+
+def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequence[Letter] = ()) -> Document:
+    """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
+    letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
+    first = Heading(f"{subject.source.name}: {title}", 1)
+    return Document((first, *opening.letters(letters, used(list(blocks))), *blocks), letters)
+
+
+def moving_names(subject: Subject) -> list[str]:
+    """The names of the coordinates."""
+    return [c["name"] for c in subject.coordinates]
+
+
+def rate(tree: Tree, coordinates: Collection[str]) -> Tree:
+    """The derivative with respect to time of an expression of coordinates, rates and time."""
+    import sympy
+
+    expression = to_sympy(tree)
+    found = expression.diff(sympy.Symbol("t"))
+    for name in coordinates:
+        for dots in (0, 1):
+            lower, upper = (sympy.Symbol(name + "'" * k) for k in (dots, dots + 1))
+            found += expression.diff(lower) * upper
+    return from_sympy(found)
+
+
+def rates(pair: tuple[Tree, Tree], coordinates: Collection[str]) -> tuple[Tree, Tree]:
+    """The derivative of a vector along fixed axes."""
+    return rate(pair[0], coordinates), rate(pair[1], coordinates)
+
+
+def cross(a: tuple[Tree, Tree], b: tuple[Tree, Tree]) -> Tree:
+    """The component along k of a × b."""
+    return add(mul(a[0], b[1]), negative(mul(a[1], b[0])))
+
+
+def brief(tree: Tree, letters: Letters) -> Tree:
+    """The shortest form found; it takes up to seconds."""
+    return shortest(to_sympy(tree), letters)
+
+
+def spread(tree: Tree) -> Tree:
+    """The sum of all products, with what they have in common in front."""
+    import sympy
+
+    return factored(from_sympy(sympy.expand(to_sympy(tree))))
+
+
+def place_of(subject: Subject, point: str) -> Arrow:
+    """The position of a named point."""
+    known(point, subject.points, "point")
+    return subject.balances([{"ask": "equation", "bodies": [], "about": {"point": point}}])[0].place
+
+
+def known(name: str, names: Collection[str], what: str) -> None:
+    """Raises ``ValueError`` for a name that is none of these."""
+    if name not in names:
+        raise ValueError(f"no {what} is called {name!r}; there are {', '.join(names)}")

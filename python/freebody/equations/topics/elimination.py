@@ -1,0 +1,101 @@
+"""Coordinates eliminated by conserved momenta: fewer equations in fewer coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from freebody.equations.derivation import conserved
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.told import Subject
+from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words
+from freebody.equations.letters import Letter
+from freebody.equations.solve import linear_system, solve
+from freebody.equations.to_sympy import from_sympy, to_sympy
+from freebody.equations.topics.common import NotHere, brief, document, moving_names, rate, subject_of
+from freebody.equations.topics.lagrange import Lagrange, equations
+from freebody.equations.tree import ZERO, Sym, Tree, is_zero, replace, symbols
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+
+@dataclass(frozen=True)
+class Eliminated:
+    """``momenta[c]`` is conserved for each coordinate c that only its rate matters of; ``rates`` these rates by the others and
+    the constants; ``equations`` of the other coordinates, which vanish; ``energy`` in them, where it is conserved."""
+
+    momenta: Mapping[str, Tree]
+    constants: Mapping[str, Sym]
+    rates: Mapping[Sym, Tree]
+    equations: Mapping[str, Tree]
+    energy: Tree | None
+
+
+def eliminated(subject: Subject) -> Eliminated:
+    """What is left when conserved momenta are used. Raises ``NotHere`` where no momentum of a coordinate is conserved, ``TooLarge``."""
+    if subject.rows:
+        raise NotHere("the coordinates depend on each other, so no momentum is that of one alone")
+    kinetic, potential, found = equations(subject)
+    where = symbols(kinetic, potential)
+    gone = [each for each in found if _is_ignorable(each, where)]
+    if not gone:
+        raise NotHere("no momentum of a coordinate is conserved: every coordinate itself stands in the energies, or is driven")
+    constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}
+    rates = _rates(subject, gone, constants)
+    kept = [each for each in found if each not in gone]
+    names = moving_names(subject)
+    second = {Sym(x.name, 2): rate(tree, [n for n in names if n not in constants]) for x, tree in rates.items()}
+    left = {each.coordinate: _put(subject, each.residual, rates, second) for each in kept}
+    total = conserved.total(subject)
+    energy = None if total is None else _put(subject, total, rates, {})
+    return Eliminated({each.coordinate: each.momentum for each in gone}, constants, rates, left, energy)
+
+
+def elimination(mechanism: Builder, state: State) -> Document:
+    """Conserved momenta of coordinates, their rates by them, and what equations are left: often one, in one coordinate."""
+    subject = subject_of(mechanism, state)
+    found = eliminated(subject)
+    names = list(found.momenta)
+    made: list[Block] = [Heading("Conserved"), Paragraph(_why(names))]
+    made += [Equation(found.constants[name], momentum) for name, momentum in found.momenta.items()]
+    made += [Heading("Rates by the conserved quantities")]
+    made += [Equation(x, tree) for x, tree in found.rates.items()]
+    made += [Heading("What is left"), Paragraph(_left(list(found.equations)))]
+    made += [Equation(tree, ZERO, ["For ", Sym(name)]) for name, tree in found.equations.items()]
+    if found.energy is not None:
+        made.append(Equation(Sym("E"), found.energy, "Its first integral, the energy, which is constant"))
+    more = [Letter(x.name, "constant", "", f"conserved momentum of {name}") for name, x in found.constants.items()]
+    return document(subject, "elimination by what is conserved", made, [*more, Letter("E", "constant", "J", "energy")])
+
+
+def _is_ignorable(each: Lagrange, where: set[Sym]) -> bool:
+    return Sym(each.coordinate) not in where and is_zero(each.force) and not is_zero(each.momentum) and Sym("t") not in where
+
+
+def _rates(subject: Subject, gone: Sequence[Lagrange], constants: Mapping[str, Sym]) -> dict[Sym, Tree]:
+    unknowns = [Sym(each.coordinate, 1) for each in gone]
+    matrix, right = linear_system([(each.momentum, constants[each.coordinate]) for each in gone], unknowns)
+    return dict(zip(unknowns, solve(matrix, right, subject.letters), strict=True))
+
+
+def _put(subject: Subject, tree: Tree, first: Mapping[Sym, Tree], second: Mapping[Sym, Tree]) -> Tree:
+    for new in (second, first):
+        tree = from_sympy(to_sympy(replace(tree, new)))
+    return brief(tree, subject.letters)
+
+
+def _why(names: Sequence[str]) -> Words:
+    if len(names) == 1:
+        return [Sym(names[0]), " stands in no energy, only its rate, and no force without a potential works on it. So its momentum "
+                "∂E_k/∂q̇ is constant:"]  # fmt: skip
+    return f"{joined(names)} stand in no energy, only their rates, and no force without a potential works on them. So the momenta are constant:"
+
+
+def _left(names: Sequence[str]) -> Words:
+    if not names:
+        return "Nothing: the rates above are the whole motion."
+    count = "one equation" if len(names) == 1 else f"{len(names)} equations"
+    return f"With these rates, and their derivatives, Lagrange's equations of the other coordinates are {count} in {joined(list(names))} alone:"

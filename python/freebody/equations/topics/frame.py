@@ -1,0 +1,97 @@
+"""A point seen from a moving body: transport, relative and Coriolis parts, and the same by direct differentiation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from freebody.equations.derivation.directions import Directions
+from freebody.equations.derivation.told import Arrow, Subject
+from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.simplify import equal
+from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
+from freebody.equations.tree import Sym, is_zero, read
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+_WORDS = ("v", "v_transport", "v_relative", "a", "a_transport", "a_relative", "a_coriolis")
+
+
+def frame(mechanism: Builder, state: State, *, point: str | None = None, body: str | None = None) -> Document:
+    """Velocity and acceleration of a ``point`` through a moving ``body``, each part named, and by direct differentiation.
+
+    Without a choice it is the first mass centre that has a Coriolis acceleration through a body. Raises ``ValueError``."""
+    subject = subject_of(mechanism, state)
+    bodies = [motion.body for motion in subject.motions]
+    if body is not None:
+        known(body, bodies, "body")
+    if point is not None:
+        known(point, subject.points, "point")
+    point, body, told = _chosen(subject, [point] if point else [f"{b}.G" for b in bodies], [body] if body else bodies)
+    return document(subject, f"{point} seen from {body}", _blocks(subject, point, body, told))
+
+
+def _chosen(subject: Subject, points: list[str], bodies: list[str]) -> tuple[str, str, Mapping[str, Any]]:
+    pairs = [(p, b) for b in bodies for p in points if p in subject.points and subject.points[p][0] != b]
+    if not pairs:
+        raise NotHere(f"{points[0]} is a point of {bodies[0]} itself; take a point of another body, or another frame")
+    told = subject.ask([{"ask": "frame", "point": p, "body": b} for p, b in pairs])
+    ranked = sorted(zip(pairs, told, strict=True), key=lambda found: _dull(found[1]))
+    (point, body), answer = ranked[0]
+    return point, body, answer
+
+
+def _dull(answer: Mapping[str, Any]) -> tuple[bool, bool]:
+    coriolis, omega = answer["a_coriolis"]["xy"], answer["omega"]
+    return all(is_zero(read(part)) for part in coriolis), is_zero(read(omega))
+
+
+def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) -> list[Block]:
+    arrows = {word: Arrow.read(told[word]) for word in _WORDS}
+    place, names = place_of(subject, point), moving_names(subject)
+    directions = Directions.of(subject.motions, [place, *arrows.values()], [*names, "t"])
+    made: list[Block] = [Heading("The frame")]
+    made.append(
+        Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"])
+    )
+    made += [Equation(Sym("omega"), read(told["omega"])), Equation(Sym("alpha"), read(told["alpha"]))]
+    made += [Paragraph(pair.sentence()) for pair in directions.pairs]
+
+    def told_as(name: str, word: str, what: str) -> Equation:
+        return Equation(_vector(name), directions.vector(arrows[word]), what)
+
+    made += [
+        Heading("Velocity"),
+        told_as("v_transport", "v_transport", f"Transport: of the place on {body} where {point} is, v of its origin + ω × r"),
+        told_as("v_relative", "v_relative", f"Relative: as {body} sees {point} move"),
+        told_as("v", "v", "Together, v = v_transport + v_relative"),
+        Heading("Acceleration"),
+        told_as("a_transport", "a_transport", f"Transport: of that place on {body}, a of its origin + α × r − ω² r"),
+        told_as("a_relative", "a_relative", f"Relative: as {body} sees it"),
+        told_as("a_coriolis", "a_coriolis", "Coriolis: 2 ω × v_relative"),
+        told_as("a", "a", "Together, a = a_transport + a_relative + a_coriolis"),
+    ]
+    return made + _directly(subject, place, arrows, point)
+
+
+def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
+    names = moving_names(subject)
+    v = rates(place.xy, names)
+    a = rates(v, names)
+    gap = [axis for axis in (0, 1) for found, word in ((v, "v"), (a, "a")) if not equal(found[axis], arrows[word].xy[axis])]
+    if gap:
+        raise ArithmeticError(f"direct differentiation of the position of {point} does not give what the frame gives")
+    made: list[Block] = [Heading("By direct differentiation")]
+    for what, pair in (("r", place.xy), ("v", v), ("a", a)):
+        made += [
+            Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), spread(tree)) for axis, tree in zip("xy", pair, strict=True)
+        ]
+    made.append(Paragraph("Both ways give the same, for all values of the letters; it was checked at random ones."))
+    return made
+
+
+def _vector(name: str) -> Written:
+    stem, _, below = name.partition("_")
+    return Written(name, rf"\mathbf{{{stem}}}_{{\text{{{below}}}}}" if below else rf"\mathbf{{{stem}}}")

@@ -1,0 +1,130 @@
+"""Lagrange's equations, and how they are made of the balances."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from freebody.equations.derivation.balancing import Stated
+from freebody.equations.derivation.coordinates import stated
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.told import Subject
+from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, Written
+from freebody.equations.simplify import equal
+from freebody.equations.solve import Singular, TooLarge, solve
+from freebody.equations.topics.common import document, moving_names, subject_of
+from freebody.equations.tree import ZERO, Num, Sym, Tree, add, is_zero, minus, mul, negative, read
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+_KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
+
+
+@dataclass(frozen=True)
+class Lagrange:
+    """d/dt ∂E_k/∂q̇ − ∂E_k/∂q + ∂E_p/∂q = Q of one coordinate: ``left`` = ``force``; ``momentum`` is ∂E_k/∂q̇."""
+
+    coordinate: str
+    momentum: Tree
+    left: Tree
+    force: Tree
+
+    @property
+    def residual(self) -> Tree:
+        """left − force."""
+        return minus(self.left, self.force)
+
+
+def equations(subject: Subject) -> tuple[Tree, Tree, list[Lagrange]]:
+    """Kinetic and potential energy, and the equation of every coordinate."""
+    told = subject.ask([{"ask": "lagrange"}])[0]
+    trees = ("momentum", "left", "force")
+    made = [Lagrange(each["coordinate"], *(read(each[word]) for word in trees)) for each in told["equations"]]
+    return read(told["kinetic"]), read(told["potential"]), made
+
+
+def combination(subject: Subject, of: Sequence[Lagrange], balances: Sequence[Stated]) -> list[list[Tree]] | None:
+    """Factors S such that equation i is Σ S[i][j] balance j, confirmed at random values; None where none are found in letters."""
+    accelerations = [Sym(name, 2) for name in moving_names(subject)]
+    inertia = [[balance.balance.linear.coefficients.get(x, ZERO) for x in accelerations] for balance in balances]
+    made: list[list[Tree]] = []
+    for each in of:
+        own = _coefficients(each.residual, accelerations)
+        try:
+            made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.letters))
+        except (TooLarge, Singular, ArithmeticError):
+            return None
+        sides = (mul(factor, balance.balance.residual) for factor, balance in zip(made[-1], balances, strict=True))
+        if not equal(each.residual, add(*sides)):
+            return None
+    return made
+
+
+def lagrange(mechanism: Builder, state: State) -> Document:
+    """Energies, Lagrange's equations with generalised forces, and how each is made of balance equations."""
+    subject = subject_of(mechanism, state)
+    kinetic, potential, found = equations(subject)
+    made: list[Block] = [Heading("Energies"), Equation(_KINETIC, kinetic), Equation(_POTENTIAL, potential)]
+    made += [Heading("Lagrange's equations"), Paragraph(_introduction(subject))]
+    for each in found:
+        name = ["For ", Sym(each.coordinate)]
+        made.append(Equation(_momentum(each.coordinate), each.momentum, name))
+        made.append(Equation(each.left, each.force))
+    return document(subject, "Lagrange's equations", made + _equality(subject, found))
+
+
+def _introduction(subject: Subject) -> Words:
+    said = "d/dt ∂E_k/∂q̇ − ∂E_k/∂q + ∂E_p/∂q = Q for every coordinate q, where Q is the power of all that has no potential for a unit of q̇."
+    if not subject.rows:
+        return f"{said} No reaction is in Q: none does work in any motion of the coordinates."
+    holding = list(dict.fromkeys(row.name for row in subject.rows))
+    return f"{said} The coordinates are not free: what {joined(holding)} exerts is in Q, and unknown."
+
+
+def _momentum(coordinate: str) -> Written:
+    from freebody.equations.names import latex_name, unicode_name
+
+    return Written(f"∂E_k/∂{unicode_name(coordinate, 1)}", rf"\partial E_\mathrm{{k}}/\partial {latex_name(coordinate, 1)}")
+
+
+def _equality(subject: Subject, found: Sequence[Lagrange]) -> list[Block]:
+    balances = stated(subject)
+    factors = combination(subject, found, balances)
+    made: list[Block] = [Heading("The same as the balance equations")]
+    if factors is None:
+        return [*made, Paragraph(_at_state(subject, found))]
+    for each, row in zip(found, factors, strict=True):
+        made.append(Paragraph(_sentence(each, row, balances)))
+    return [*made, Paragraph("This holds for all values of the letters; it was checked at random ones.")]
+
+
+def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated]) -> Words:
+    said: list[str | Sym | Tree] = ["The equation of ", Sym(each.coordinate), " is "]
+    terms = [(factor, balance) for factor, balance in zip(factors, balances, strict=True) if not is_zero(factor)]
+    for place, (factor, balance) in enumerate(terms):
+        minus_sign = isinstance(factor, Num) and factor.value < 0
+        size = negative(factor) if minus_sign else factor
+        said.append((" − " if minus_sign else " + ") if place else "− " if minus_sign else "")
+        said += [] if size == Num(1) else [size, " × "]
+        said.append(balance.title)
+    return [*said, "."]
+
+
+def _at_state(subject: Subject, found: Sequence[Lagrange]) -> str:
+    from freebody.equations.tree import evaluate
+
+    values, tables = subject.values, subject.tables
+    largest = max(abs(float(evaluate(each.residual, values, tables))) for each in found)
+    return (
+        "How they are made of balance equations is too long to be told in letters. The accelerations and loads of the balances "
+        f"satisfy them at this state to {largest:.1e} N or N·m."
+    )
+
+
+def _coefficients(tree: Tree, unknowns: Sequence[Sym]) -> list[Tree]:
+    from freebody.equations.solve import coefficients
+
+    return coefficients(tree, unknowns)[0]

@@ -1,0 +1,118 @@
+"""Moment balance about a fixed point, about a moving one, and about the fixed point where the moving one is at the instant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.simplify import equal
+from freebody.equations.topics.common import (
+    NotHere,
+    cross,
+    document,
+    known,
+    moving_names,
+    place_of,
+    rate,
+    rates,
+    spread,
+    subject_of,
+)
+from freebody.equations.tree import Tree, add, is_zero
+from freebody.free_body import GROUND
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+Pair = tuple[Tree, Tree]
+
+
+def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies: Sequence[str] | str = ()) -> Document:
+    """The balance of moments of some ``bodies`` (all by default) ``about`` a point, by default the first that moves: Σ M about it
+    by accelerations, and by the rate of angular momentum about it, with what a moving point adds."""
+    subject = subject_of(mechanism, state)
+    group = [bodies] if isinstance(bodies, str) else list(bodies)
+    for name in group:
+        known(name, subject.free.bodies, "body")
+    if about is not None:
+        known(about, subject.points, "point")
+    point = about or _first_moving(subject)
+    return document(subject, f"moments about {point}", _blocks(subject, group, point))
+
+
+def _first_moving(subject: Subject) -> str:
+    names = moving_names(subject)
+    for name, (body, _, _) in subject.points.items():
+        if body != GROUND and not all(is_zero(part) for part in rates(place_of(subject, name).xy, names)):
+            return name
+    raise NotHere("no named point moves; give one")
+
+
+def _blocks(subject: Subject, group: list[str], point: str) -> list[Block]:
+    names = moving_names(subject)
+    questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
+    of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])
+    v = rates(of.place.xy, names)
+    momentum = (along_x.momentum, along_y.momentum)
+    changing = rate(of.momentum, names)
+    whole = " + ".join(group or subject.free.bodies)
+    made: list[Block] = [
+        Heading("What acts"),
+        Equation(_written("Σ M", point, r"\sum M"), of.left, f"Moments about {point} on {whole}"),
+    ]
+    if all(is_zero(part) for part in v):
+        return [*made, *_fixed(of, point, changing)]
+    return [*made, *_moving(of, point, changing, (v, momentum))]
+
+
+def _fixed(of: Balance, point: str, changing: Tree) -> list[Block]:
+    _agree(of.right, changing)
+    return [
+        Heading(f"{point} is fixed"),
+        Equation(_written("H", point), of.momentum, "The angular momentum, Σ r × m v + I ω"),
+        Equation(_written("Ḣ", point, r"\dot H"), of.right, "Its rate, which is Σ r × m a + I α"),
+        Equation(of.left, of.right, "So Σ M = Ḣ is"),
+    ]
+
+
+def _moving(of: Balance, point: str, changing: Tree, moves: tuple[Pair, Pair]) -> list[Block]:
+    v, momentum = moves
+    extra = cross(v, momentum)
+    _agree(of.right, add(changing, extra))
+    relative = spread(extra)
+    made: list[Block] = [
+        Heading(f"By accelerations, about {point} or the fixed point where it is at the instant"),
+        Paragraph("Forces and accelerations are those of the instant, so it does not matter whether the point moves: "
+                  f"r is from where {point} is now to the mass centres, a are their accelerations in the fixed frame."),
+        Equation(_written("Σ r × m a + I α", "", r"\sum \mathbf{r} \times m\mathbf{a} + I\alpha"), of.right),
+        Equation(of.left, of.right, "So the balance is"),
+        Heading(f"By the angular momentum about {point}, which moves"),
+        Equation(_written("H", point), spread(of.momentum), f"Σ r × m v + I ω with r from {point}, v in the fixed frame"),
+        Equation(Written("dH/dt", r"\mathrm{d}H/\mathrm{d}t"), spread(changing), "Its derivative, r changing also because the point moves"),
+        Equation(Written("v × L", r"\mathbf{v} \times \mathbf{L}"), relative, f"v of {point} × L, the momentum of the bodies"),
+    ]  # fmt: skip
+    return made + [Paragraph(_verdict(point, relative))]
+
+
+def _verdict(point: str, extra: Tree) -> str:
+    if is_zero(extra):
+        return f"Σ M = dH/dt + v × L. Here {point} moves along with the momentum, so that v × L = 0 and Σ M = dH/dt holds."
+    return (
+        "Σ M = dH/dt + v × L, for all values of the letters (checked at random ones). To write Σ M = dH/dt about the moving point "
+        f"would be wrong by v × L; about the fixed point where {point} is at the instant H has the same value, but its rate is "
+        "dH/dt + v × L."
+    )
+
+
+def _agree(one: Tree, other: Tree) -> None:
+    if not equal(one, other):
+        raise ArithmeticError("the rate of angular momentum is not what the accelerations give")
+
+
+def _written(stem: str, point: str, latex: str = "") -> Written:
+    from freebody.equations.names import latex_name
+
+    return Written(f"{stem}/{point}" if point else stem, f"{latex or stem}_{{/{latex_name(point)}}}" if point else latex or stem)

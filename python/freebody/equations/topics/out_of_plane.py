@@ -1,0 +1,55 @@
+"""Out of the plane: what the plane exerts on bodies that it keeps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.given import given_quantity
+from freebody.equations.letters import Letter
+from freebody.equations.topics.common import document, subject_of
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, mul
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+_ACROSS = "g_z"
+
+
+def out_of_plane(mechanism: Builder, state: State, *, gravity: Any = None) -> Document:
+    """The force of the plane, normal to it. ``gravity``: its part into the plane, m/s² (``"9.81 m/s^2"``), where the model is one
+    on a table or a slope; without it the model's own gravity is all there is."""
+    subject = subject_of(mechanism, state)
+    masses = [(motion.body, motion.mass) for motion in subject.motions if not is_zero(motion.mass)]
+    made: list[Block] = [Heading("Balance normal to the plane")]
+    made.append(Paragraph("Nothing moves out of the plane, so along k = i × j what acts on each body adds up to 0."))
+    made += _without(masses) if gravity is None else _with(masses, given_quantity(gravity, "m/s^2"))
+    made += [Heading("Couples about axes in the plane"), Paragraph(_COUPLES)]
+    return document(subject, "out of the plane", made, [Letter(_ACROSS, "constant", "m/s^2", "gravity into the plane")])
+
+
+_COUPLES = (
+    "The plane also holds the bodies against tipping. In the model all forces act in one plane through the mass centres, and bodies "
+    "are alike on both of its sides; then these couples are 0. If forces act at another height h than the mass centre, the plane takes "
+    "their moment, force × h; a body that is not alike on both sides takes couples with its products of inertia, in ω² and α."
+)
+
+
+def _without(masses: list[tuple[str, Tree]]) -> list[Block]:
+    said = "The model has no force out of the plane: gravity acts in it or not at all. So the plane exerts none, N = 0 on each of"
+    return [Paragraph(f"{said} {', '.join(name for name, _ in masses)}.")]
+
+
+def _with(masses: list[tuple[str, Tree]], value: float) -> list[Block]:
+    across = Sym(_ACROSS)
+    each = [[f"{name}: N = ", mul(mass, across)] for name, mass in masses]
+    total = Written("Σ N", r"\sum N")
+    return [
+        Paragraph(
+            ["Gravity into the plane is ", across, f" = {value:g} m/s². Each body that lies on the plane by itself is carried by"]
+        ),
+        Bullets(each),
+        Equation(total, mul(add(*(mass for _, mass in masses)) if masses else ZERO, across), "All together"),
+        Paragraph("It acts below the common mass centre. How joined bodies share it depends on how the joints take such forces."),
+    ]

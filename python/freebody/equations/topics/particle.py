@@ -1,0 +1,97 @@
+"""The equations of a particle, or of a mass centre, along i and j, and in polar coordinates about a fixed point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from freebody.equations.derivation.meaning import load_words
+from freebody.equations.derivation.told import Arrow, Balance, Subject
+from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Words
+from freebody.equations.letters import Letter
+from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
+from freebody.equations.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
+from freebody.free_body import GROUND
+
+if TYPE_CHECKING:
+    from freebody.instant import State
+    from freebody.model.builder import Builder
+
+_R, _PHI = "r", "phi"
+
+
+def particle(mechanism: Builder, state: State, *, body: str | None = None, about: str = f"{GROUND}.origin") -> Document:
+    """Newton's law for a ``body`` (the first particle by default), its components along i, j and along e_r, e_φ ``about`` a
+    fixed point."""
+    subject = subject_of(mechanism, state)
+    motions = subject.motions
+    if body is None:
+        body = next((motion.body for motion in motions if motion.particle), motions[0].body)
+    known(body, [motion.body for motion in motions], "body")
+    known(about, subject.points, "point")
+    if subject.points[about][0] != GROUND:
+        raise NotHere(f"{about} moves; polar coordinates are about a point of the ground")
+    balances = subject.balances([{"ask": "equation", "bodies": [body], "along": axis} for axis in "xy"])
+    made, more = _polar(subject, body, about, balances)
+    return document(subject, f"the equations of {body}", _cartesian(subject, body, balances) + made, more)
+
+
+def _cartesian(subject: Subject, body: str, balances: list[Balance]) -> list[Block]:
+    made: list[Block] = [Heading("Along i and j"), Paragraph(f"What acts on {body}, components along i and j:")]
+    acting: list[Words] = []
+    for along_x, along_y in zip(*(balance.contributions for balance in balances), strict=True):
+        load = subject.free.loads[along_x.load]
+        acting.append([f"{load_words(load)}: (", along_x.tree, ") i + (", along_y.tree, ") j"])
+    made.append(Bullets(acting or ["nothing"]))
+    names = ("Σ F·i = m a_x", "Σ F·j = m a_y")
+    return made + [Equation(b.right, b.left, name) for b, name in zip(balances, names, strict=True)]
+
+
+def _polar(subject: Subject, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[Letter]]:
+    place, motion = place_of(subject, about).xy, next(m for m in subject.motions if m.body == body)
+    taken = set(subject.letters)
+    r, phi = (name if name not in taken else f"{name}_polar" for name in (_R, _PHI))
+    (x, y), forces = motion.r.xy, [b.left for b in balances]
+    arm = (minus(x, place[0]), minus(y, place[1]))
+    made: list[Block] = [Heading(f"Along e_r and e_φ about {about}")]
+    made.append(Paragraph([Sym(r), f" is the distance of {body} from {about}, ", Sym(phi), " the angle of that line from i; "
+                           "e_r points outward along it, e_φ a right angle further."]))  # fmt: skip
+    letters = [
+        Letter(r, "coordinate", "m", f"distance from {about}"),
+        Letter(phi, "coordinate", "rad", "angle of that line from i"),
+    ]
+    if turned := _turned(motion.r, place):
+        length, angle = turned
+        made += [Equation(Sym(r), length, "Here"), Equation(Sym(phi), angle)]
+        unit = (Fn("cos", (angle,)), Fn("sin", (angle,)))
+    elif isinstance(x, Sym) and isinstance(y, Sym):
+        new = _replaced(x, y, place, r, phi)
+        made += [Equation(s, new[s], "Here" if s == x else "") for s in (x, y)]
+        forces, unit = [replace(f, new) for f in forces], (Fn("cos", (Sym(phi),)), Fn("sin", (Sym(phi),)))
+    else:
+        made.append(Equation(power(Sym(r), 2), brief(add(power(arm[0], 2), power(arm[1], 2)), subject.letters), "Here"))
+        unit = (over(arm[0], Sym(r)), over(arm[1], Sym(r)))
+    radial = add(mul(forces[0], unit[0]), mul(forces[1], unit[1]))
+    across = add(mul(forces[1], unit[0]), negative(mul(forces[0], unit[1])))
+    m, (dr, ddr), (w, alpha) = motion.mass, (Sym(r, 1), Sym(r, 2)), (Sym(phi, 1), Sym(phi, 2))
+    outward = minus(ddr, mul(Sym(r), power(w, 2)))
+    around = add(mul(Sym(r), alpha), mul(number(2), dr, w))
+    made.append(Equation(mul(m, outward), brief(radial, subject.letters), "Σ F·e_r = m (r̈ − r φ̇²)"))
+    made.append(Equation(mul(m, around), brief(across, subject.letters), "Σ F·e_φ = m (r φ̈ + 2 ṙ φ̇)"))
+    return made, letters
+
+
+def _turned(r: Arrow, place: tuple[Tree, Tree]) -> tuple[Tree, Tree] | None:
+    """Length and angle, where the position from the place is along one direction that turns."""
+    if len(r.parts) != 1 or not is_zero(r.parts[0].across) or (r.i, r.j) != place:
+        return None
+    return r.parts[0].along, r.parts[0].angle
+
+
+def _replaced(x: Sym, y: Sym, place: tuple[Tree, Tree], r: str, phi: str) -> dict[Sym, Tree]:
+    """Coordinates and their rates by polar ones."""
+    cos, sin = (Fn(f, (Sym(phi),)) for f in ("cos", "sin"))
+    length, w, out = Sym(r), Sym(phi, 1), Sym(r, 1)
+    return {
+        x: add(place[0], mul(length, cos)), y: add(place[1], mul(length, sin)),
+        Sym(x.name, 1): minus(mul(out, cos), mul(length, w, sin)), Sym(y.name, 1): add(mul(out, sin), mul(length, w, cos)),
+    }  # fmt: skip
