@@ -38,7 +38,7 @@ class System:
     @property
     def statements(self) -> Path:
         """The file of what is stated about it, which not every system has."""
-        return self.folder / "statements.yaml"
+        return self.folder / STATEMENTS
 
     def questions(self) -> list[Question]:
         """Its questions, in the order in which they stand in the file."""
