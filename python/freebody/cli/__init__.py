@@ -188,6 +188,8 @@ def systems(
         pictured(chosen(identity), output)
         return
     if stated:
+        from freebody.cli.statements import judged
+
         judged(chosen(identity), as_json)
         return
     if identity is None and not everything:
@@ -206,6 +208,8 @@ def systems(
     elif everything:
         show.show_summary(results)
     else:
+        from freebody.cli.statements import verdicts
+
         verdicts(chosen(identity))
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(BAD_END)
@@ -342,38 +346,6 @@ def pictured(systems: list[System], page: Path) -> None:
 
     models = [(f"{system.id}, {path.stem}: {system.title}", path) for system in systems for path in system.models]
     show.written([write_gallery(models, page)])
-
-
-def judged(systems: list[System], as_json: bool) -> None:
-    """The verdicts about what is stated, in tables or as JSON. Ends with an error where one is not as expected."""
-    from freebody.catalogue import show
-    from freebody.catalogue.statements import statements, statements_json
-    from freebody.model.errors import Complaint
-
-    results = []
-    try:
-        for system, found in statements(systems):
-            results.append((system, found))
-            if not as_json:
-                show.show_statements(system, found)
-    except Complaint as complaint:
-        raise Mistake(complaint.what, complaint.hint) from None
-    every = [one for _, found in results for one in found]
-    if as_json:
-        typer.echo(json.dumps(statements_json(results), ensure_ascii=False, indent=1))
-    else:
-        show.show_totals(every)
-    if any(one.as_expected is False for one in every):
-        raise typer.Exit(BAD_END)
-
-
-def verdicts(systems: list[System]) -> None:
-    """In short, which of the statements about systems are true."""
-    from freebody.catalogue import show
-    from freebody.catalogue.statements import statements
-
-    for system, found in statements(systems):
-        show.show_verdicts(system, found)
 
 
 def answered(system: System, silent: bool) -> list[Asked]:
