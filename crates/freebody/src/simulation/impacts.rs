@@ -229,14 +229,9 @@ fn decide(strike: &Strike, rule: Rule, names: &str) -> Result<(complementarity::
 }
 
 /// The impulses of a strike without restitution, on limits that yield by a share of themselves.
-fn yielding(
-    strike: &Strike,
-    share: f64,
-    names: &str,
-) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
-    let impulses = complementarity::yielding(strike, share).map_err(|e| {
-        Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}"))
-    })?;
+fn yielding(strike: &Strike, share: f64, names: &str) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+    let impulses = complementarity::yielding(strike, share)
+        .map_err(|e| Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))?;
     let note = format!("Taken as plastic, e = 0, at touches that yield by {share:.0e} of themselves: of rigid ones no impulses were found that create no energy.");
     Ok((impulses, Some(note)))
 }

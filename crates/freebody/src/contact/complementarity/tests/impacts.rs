@@ -18,6 +18,27 @@ fn after(w: &Matrix, masses: &[f64], velocities: &[f64], p: &Impulses) -> Vec<f6
     (0..masses.len()).map(|i| velocities[i] + push[i] / masses[i]).collect()
 }
 
+/// A disk wedged between walls a hair from parallel, that rub: touches that yield leave over their share of the speeds that
+/// they take away, and lose energy whatever the hair.
+#[test]
+fn what_yields_loses_energy() {
+    for (hair, share) in [0.0, 1e-9, 1e-7, 1e-3].into_iter().flat_map(|hair| [1e-10, 1e-6].map(|share| (hair, share))) {
+        let w = rows(&[touch(-0.1, 0.0, 0.0), touch(0.1, 0.0, std::f64::consts::PI - hair)]);
+        let g = delassus(&w, &[1.0, 1.0, 200.0]);
+        let before = w.mul_vec(&[-1.0, 0.3, 2.0]);
+        let s = Strike { g: &g, before: &before, restitution: &[0.3; 2], friction: &[0.8; 2] };
+        let p = yielding(&s, share).unwrap();
+        let p = [&p.normal[..], &p.tangent[..]].concat();
+        let changes = g.mul_vec(&p);
+        let work: f64 = (0..4).map(|i| (before[i] + 0.5 * changes[i]) * p[i]).sum();
+        assert!(work < -0.1 && p[0] > 0.0, "hair {hair}: {work}");
+        for i in (0..2).filter(|&i| p[i] > 0.0) {
+            let left = before[i] + changes[i] + share * g[(i, i)] * p[i];
+            assert!(left.abs() < 1e-14 * (1.0 + p[i]), "hair {hair}: {left}");
+        }
+    }
+}
+
 #[test]
 fn cradle() {
     let (masses, velocities) = ([1.0; 3], [1.0, 0.0, 0.0]);
