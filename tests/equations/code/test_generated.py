@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from generated import FUNCTIONS, ROOT, State, in_c, in_python, model, needs_compiler, run, states
+from programs import FUNCTIONS, ROOT, State, in_c, in_python, model, needs_compiler, run, states
 
 import freebody as fb
 

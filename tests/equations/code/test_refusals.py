@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from generated import ROOT
+from programs import ROOT
 
 import freebody as fb
 from freebody.equations.program import CannotGenerate
