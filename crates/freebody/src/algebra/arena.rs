@@ -50,8 +50,8 @@ pub(crate) struct Arena {
     spent: usize,
 }
 
-/// Terms that a session may write; a ten-link chain takes a twentieth. Beyond, everything is undefined.
-const BUDGET: usize = 40_000_000;
+/// Terms that a session may write; the equations of a ten-link chain take 1.4 million. Beyond, everything is undefined.
+const BUDGET: usize = 5_000_000;
 
 thread_local! {
     static ARENA: RefCell<Arena> = RefCell::new(Arena::new());
