@@ -33,6 +33,15 @@ def collected(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     return add(*made, *rest)
 
 
+def quotient(above: Tree, below: Tree) -> Tree:
+    """``above / below`` without the factors that both have: (m g l)/(m l²) is g/l. It holds where these factors are not 0."""
+    (size, top), (divisor, bottom) = _split(factored(above)), _split(factored(below))
+    powers = dict(top)
+    for factor, exponent in bottom.items():
+        powers[factor] = powers.get(factor, Fraction(0)) - exponent
+    return _joined((size / divisor, {factor: exponent for factor, exponent in powers.items() if exponent}))
+
+
 def _linear(tree: Add, unknowns: set[Sym]) -> tuple[Mapping[Sym, list[Tree]], list[Tree]] | None:
     coefficients: dict[Sym, list[Tree]] = {}
     rest: list[Tree] = []

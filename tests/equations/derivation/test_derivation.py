@@ -9,10 +9,10 @@ from typer.testing import CliRunner
 
 import freebody as fb
 from freebody.cli import app
-from freebody.equations.collect import collected, factored
+from freebody.equations.collect import collected, factored, quotient
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Sym, evaluate, read, symbols
+from freebody.equations.tree import Sym, evaluate, mul, power, read, symbols
 
 GUN = "examples/new_gun.yaml"
 
@@ -129,3 +129,13 @@ def test_factors_in_front_leave_the_value(data):
     values = {letter: rng.uniform(0.5, 2) for letter in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
     for made in (factored(tree), collected(tree, [Sym("x", 2)])):
         assert evaluate(made, values) == pytest.approx(evaluate(tree, values), rel=1e-14)
+
+
+@pytest.mark.parametrize("data", SUMS)
+def test_what_stands_above_and_below_cancels(data):
+    tree, rng = read(data), np.random.default_rng(1)
+    values = {letter: rng.uniform(0.5, 2) for letter in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
+    below = mul(Sym("a"), power(Sym("l"), 2))
+    made = quotient(mul(Sym("a"), tree), below)
+    assert evaluate(made, values) == pytest.approx(evaluate(tree, values) / evaluate(Sym("l"), values) ** 2, rel=1e-14)
+    assert Sym("a") not in symbols(quotient(below, mul(Sym("a"), Sym("b"))))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from freebody.equations.collect import quotient
 from freebody.equations.derivation.result import Form
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph, Words, Written
 from freebody.equations.letters import Letters
-from freebody.equations.tree import Sym, over
+from freebody.equations.tree import Sym
 
 _NAMES = {
     "minimal": "The equations together",
@@ -59,7 +60,7 @@ def _first_order(content: Form, moving: list[Sym], letters: Letters) -> list[Blo
     rest = ", of which the first half is in the state and the second solves the equations above at each instant"
     said: Words = [*state, *_row(moving, 1), ", ", *_row(moving, 0), ")", rest, "."]
     if len(system.unknowns) == 1 and len(system.matrix) == 1:
-        made = over(system.right[0], system.matrix[0][0])
+        made = quotient(system.right[0], system.matrix[0][0])
         return [Paragraph(said), Equation(moving[0], made, "Here this is")]
     return [Paragraph(said)]
 
