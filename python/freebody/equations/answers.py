@@ -14,10 +14,11 @@ from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
-from freebody.equations.derivation.told import Linear, Subject
+from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
+from freebody.equations.linear import Linear
 from freebody.equations.simplify import PATIENCE
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.to_sympy import to_sympy

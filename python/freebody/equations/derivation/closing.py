@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Printed
 from freebody.equations.derivation.system import System
-from freebody.equations.derivation.told import Row, linear_in
+from freebody.equations.derivation.told import Row
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph
+from freebody.equations.linear import linear_in
 from freebody.equations.tree import ZERO, Sym, add, mul
 
 _WHAT = {

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from freebody.equations.derivation import closing
 from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.told import Row, Subject, linear_in
+from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph
 from freebody.equations.letters import Letter, Letters
-from freebody.equations.tree import Sym, minus, read
+from freebody.equations.linear import Linear
+from freebody.equations.tree import read
 
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
 
@@ -17,9 +16,9 @@ _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass cen
 def constrained(subject: Subject) -> tuple[Form, Letters]:
     """The form of a subject, and its letters: the places of the bodies are the coordinates here."""
     told = subject.ask([{"ask": "constraints"}])[0]
-    names, unknowns = told["coordinates"], [read(tree) for tree in told["unknowns"]]
-    rows = [_row(Row.read(each), unknowns) for each in told["rows"]]
-    equations = [_balance(each, unknowns) for each in told["balances"]]
+    names = told["coordinates"]
+    rows = [Row.read(each) for each in told["rows"]]
+    equations = [_balance(each) for each in told["balances"]]
     made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names))]
     if rows:
         made += closing.section(rows, names, everywhere=True)
@@ -30,15 +29,10 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
     return form, letters
 
 
-def _balance(data: dict, unknowns: list[Sym]) -> Printed:
+def _balance(data: dict) -> Printed:
     left, right = read(data["right"]), read(data["left"])
     where = data["kind"].replace("about G", "about its mass centre")
-    return Printed(f"{where} for {data['body']}", left, right, linear_in(minus(left, right), unknowns))
-
-
-def _row(row: Row, unknowns: list[Sym]) -> Row:
-    """The row, linear in the accelerations of the places of the bodies."""
-    return replace(row, linear=linear_in(row.acceleration, unknowns))
+    return Printed(f"{where} for {data['body']}", left, right, Linear.read(data["linear"]))
 
 
 def _letters(names: list[str], known: Letters) -> Letters:

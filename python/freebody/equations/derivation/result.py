@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from freebody.equations.derivation.system import System
-from freebody.equations.derivation.told import Linear
 from freebody.equations.document import Block
 from freebody.equations.letters import Letters
+from freebody.equations.linear import Linear
 from freebody.equations.tree import Tree, minus
 
 

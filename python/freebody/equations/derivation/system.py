@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from freebody.equations.derivation.told import Linear
+from freebody.equations.linear import Linear
 from freebody.equations.tree import ZERO, Sym, Tree, add, mul, negative
 
 

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from freebody.equations.letters import Letters
+from freebody.equations.linear import Linear
 from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, read
 from freebody.free_body import FreeBodies
 from freebody.instant import State
@@ -57,19 +58,6 @@ class Motion:
     r: Arrow
     v: Arrow
     a: Arrow
-
-
-@dataclass(frozen=True)
-class Linear:
-    """An expression as Σ ``coefficients[x]`` x + ``rest`` of what is unknown."""
-
-    coefficients: Mapping[Sym, Tree]
-    rest: Tree
-
-    @classmethod
-    def read(cls, data: Mapping[str, Any]) -> Linear:
-        """From an answer."""
-        return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
 
 
 @dataclass(frozen=True)
@@ -236,25 +224,3 @@ class Subject:
         setting = {"at_rest": self.at_rest, "numbers": dict(self.numbers or {})}
         s = self.state
         return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, json.dumps(setting), json.dumps(questions)))
-
-
-def linear_in(tree: Tree, unknowns: Sequence[Sym]) -> Linear:
-    """An expression that is linear in some letters, by its coefficients; ``ValueError`` if it is not."""
-    from freebody.equations.tree import Add, Mul, mul, symbols
-
-    wanted = set(unknowns)
-    if not symbols(tree) & wanted:
-        return Linear({}, tree)
-    if tree in wanted:
-        return Linear({tree: mul()}, ZERO)
-    if isinstance(tree, Add):
-        parts = [linear_in(term, unknowns) for term in tree.terms]
-        found = dict.fromkeys(x for part in parts for x in part.coefficients)
-        sums = {x: add(*(part.coefficients[x] for part in parts if x in part.coefficients)) for x in found}
-        return Linear(sums, add(*(part.rest for part in parts)))
-    if isinstance(tree, Mul):
-        holding = [factor for factor in tree.factors if symbols(factor) & wanted]
-        if len(holding) == 1:
-            inner, others = linear_in(holding[0], unknowns), [f for f in tree.factors if f is not holding[0]]
-            return Linear({x: mul(*others, c) for x, c in inner.coefficients.items()}, mul(*others, inner.rest))
-    raise ValueError(f"the expression is not linear in {', '.join(x.name for x in unknowns)}")

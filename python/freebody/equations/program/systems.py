@@ -8,45 +8,17 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from freebody.equations.letters import Letter, Letters
-from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read
+from freebody.equations.linear import Linear, linear_in
+from freebody.equations.tree import ZERO, Sym, Tree, negative, read
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.source import Source
 
 _COMPONENTS = {"x": "force along x", "y": "force along y"}
 _NUMBERS = {"m": "mass", "I": "inertia about the mass centre"}
-_NOT_ZERO = 1e-6
 Matrix = tuple[tuple[Tree, ...], ...]
 Row = tuple[Tree, ...]
-
-
-@dataclass(frozen=True)
-class Linear:
-    """An expression that vanishes: Σ ``factors[x]`` x + ``rest`` over what is unknown."""
-
-    factors: Mapping[Sym, Tree]
-    rest: Tree
-
-    @classmethod
-    def read(cls, data: Mapping[str, Any]) -> Linear:
-        """From an answer of the core."""
-        return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
-
-    @classmethod
-    def collected(cls, tree: Tree, unknowns: Collection[Sym]) -> Linear:
-        """Of a sum that has one term for every unknown."""
-        factors: dict[Sym, Tree] = {}
-        rest = []
-        for term in tree.terms if isinstance(tree, Add) else (tree,):
-            parts = term.factors if isinstance(term, Mul) else (term,)
-            if found := [part for part in parts if part in unknowns]:
-                factors[found[0]] = mul(*(part for part in parts if part != found[0]))
-            else:
-                rest.append(term)
-        return cls(factors, add(*rest))
 
 
 @dataclass(frozen=True)
@@ -76,7 +48,7 @@ class Systems:
     @property
     def multipliers(self) -> tuple[str, ...]:
         """The loads that are in the equations of the coordinates: those of what closes loops, and of motions."""
-        return tuple(name for name in self.loads if any(Sym(name) in equation.factors for equation in self.moving))
+        return tuple(name for name in self.loads if any(Sym(name) in equation.coefficients for equation in self.moving))
 
     @property
     def is_square(self) -> bool:
@@ -104,12 +76,10 @@ class Systems:
 
 def systems(source: Source, state: State) -> Systems:
     """The equations of a mechanism near a state. Raises ``_core.MotionError``."""
-    # The core leaves out what a parameter makes 0, like a weight without g; in code the parameter is free.
-    p = np.where(state.p == 0.0, _NOT_ZERO, state.p)
-    free = FreeBodies.read(source.core.free_bodies(p, state.t, state.q, state.u))
+    free = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
     cut = [{"ask": "equation", "bodies": [body.name], **how} for body in free.bodies.values() for how in _ways(body.particle)]
     asked = json.dumps([{"ask": "rows"}, {"ask": "lagrange"}, *cut])
-    told = json.loads(source.core.letters(p, state.t, state.q, state.u, "{}", asked))
+    told = json.loads(source.core.letters(state.p, state.t, state.q, state.u, "{}", asked))
     rows, lagrange, *balances = told["answers"]
     letters = _letters(source, free, told["letters"])
     unknowns = {*(Sym(name, 2) for name in letters.of_kind("coordinate")), *map(Sym, letters.of_kind("unknown"))}
@@ -118,7 +88,7 @@ def systems(source: Source, state: State) -> Systems:
         source.name,
         letters,
         values | dict(zip((each["name"] for each in source.about["parameters"]), state.p.tolist(), strict=True)),
-        tuple(Linear.collected(read(each["residual"]), unknowns) for each in lagrange["equations"]),
+        tuple(linear_in(read(each["residual"]), unknowns) for each in lagrange["equations"]),
         tuple(Linear.read(row["linear"]) for row in rows),
         tuple(Linear.read(each["linear"]) for each in balances),
     )
@@ -129,7 +99,7 @@ def _ways(particle: bool) -> list[dict[str, str]]:
 
 
 def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
-    return tuple(tuple(equation.factors.get(letter, ZERO) for letter in unknowns) for equation in equations)
+    return tuple(tuple(equation.coefficients.get(letter, ZERO) for letter in unknowns) for equation in equations)
 
 
 def _letters(source: Source, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
