@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 from freebody.equations.letters import Letters
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
+from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,23 @@ class MatrixEquation:
     label: str = ""
     note: Words = ""
     letter: str = "A"
+
+    def rows(self) -> list[tuple[Tree, Tree]]:
+        """Row by row as equations: the sum of its products, and its right-hand side."""
+        sums = [
+            add(*(mul(entry, x) for entry, x in zip(row, self.unknowns, strict=True) if not is_zero(entry)))
+            for row in self.matrix
+        ]
+        return list(zip(sums, self.right, strict=True))
+
+    def entries(self) -> dict[Tree, list[tuple[int, int]]]:
+        """The entries that are not 0, equal ones once, and where they stand, counted from 1."""
+        found: dict[Tree, list[tuple[int, int]]] = {}
+        for i, row in enumerate(self.matrix, 1):
+            for j, entry in enumerate(row, 1):
+                if not is_zero(entry):
+                    found.setdefault(entry, []).append((i, j))
+        return found
 
 
 @dataclass(frozen=True)

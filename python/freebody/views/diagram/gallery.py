@@ -38,13 +38,13 @@ def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
     for heading, model in models:
         place = re.sub(r"\W+", "-", heading).strip("-")
         links.append(f'<a href="#{place}">{escape(heading)}</a>')
-        pictures = _pictures(Mechanism.load(model))
+        pictures = _pictures(Mechanism.load(model), f"d{len(sections)}-")
         sections.append(f'<section id="{place}"><h2><a href="#{place}">{escape(heading)}</a></h2>\n{pictures}</section>')
     path.write_text(_PAGE.format(links="\n".join(links), sections="\n".join(sections)), encoding="utf-8")
     return path
 
 
-def _pictures(mechanism: Mechanism) -> str:
+def _pictures(mechanism: Mechanism, prefix: str) -> str:
     from freebody._core import MotionError
 
     try:
@@ -53,4 +53,4 @@ def _pictures(mechanism: Mechanism) -> str:
             drawn.append(mechanism.diagram("all"))
     except MotionError as error:
         return f"<p>{escape(error.args[2])}</p>"
-    return "\n".join(each.inline() for each in drawn)
+    return "\n".join(each.inline(f"{prefix}{i}") for i, each in enumerate(drawn))

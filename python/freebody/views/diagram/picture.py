@@ -63,10 +63,10 @@ class Picture(ABC):
         attributes, end, body = rest.partition(">")
         return f'{head}{opening}{attributes} role="img"{end}\n {told}{body}'
 
-    def inline(self) -> str:
-        """The SVG for a page with others: identifiers begin with letters that no other picture has."""
+    def inline(self, prefix: str = "") -> str:
+        """The SVG for a page with others: identifiers begin with a prefix, by default one that no different picture has."""
         svg = self.svg()
-        own = f"d{crc32(svg.encode()):08x}"
+        own = prefix or f"d{crc32(svg.encode()):08x}"
         return re.sub(r'(\bid="|xlink:href="#|url\(#)', rf"\g<1>{own}-", svg[svg.index("<svg") :])
 
     def _repr_svg_(self) -> str:
