@@ -32,6 +32,9 @@ from freebody.equations.rendering.plain import FEW, side_text
 from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
 
+_LINE = 75
+"""Signs of a formula that may be wider than a line: it is measured by TeX."""
+
 
 def side_latex(side: Side, letters: Letters) -> str:
     """One side of an equation, or mathematics in a sentence."""
@@ -223,6 +226,8 @@ class Latex(Markup):
 
     def display(self, math: str, label: str) -> str:
         tag = rf"\tag{{{label}}}" if label else r"\notag"
+        if max(map(_signs_of, math.split(r"\\"))) > _LINE:
+            math = _fitted(rf"$\displaystyle {math}$")
         return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
 
     def heading(self, title: str, level: int) -> str:
@@ -245,8 +250,7 @@ class Latex(Markup):
         if not self.beside:
             return self.paragraph(self.plain(f"[Figure: {figure.picture.description}]"))
         shown = rf"\includegraphics{{{self.beside}-{figure.name}.pdf}}"
-        frame = rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
-        return "\n".join([r"\begin{center}", frame, *([r"\par " + caption] if caption else []), r"\end{center}"])
+        return "\n".join([r"\begin{center}", _fitted(shown), *([r"\par " + caption] if caption else []), r"\end{center}"])
 
 
 class Html(Markup):
@@ -278,6 +282,16 @@ class Html(Markup):
 
     def figure(self, figure: Figure, caption: str) -> str:
         return f"<figure>{figure.picture.inline()}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
+
+
+def _fitted(shown: str) -> str:
+    """What is wider than the line made smaller."""
+    return rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
+
+
+def _signs_of(line: str) -> int:
+    """How many signs a line of a formula has, about."""
+    return len(re.sub(r"\\[a-zA-Z]+|[{}_^&\\\s]", "", line))
 
 
 def _across(block: MatrixEquation, letters: Letters) -> int:
