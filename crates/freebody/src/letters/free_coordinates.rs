@@ -6,7 +6,7 @@ use super::vectors::tree_by;
 use super::{sizes, Letters};
 use crate::algebra::{Letter, Tree};
 use crate::balance::{closing_rows, joint_rows, Row, Source};
-use crate::free_bodies::{loads, Load, Size};
+use crate::free_bodies::{follow_presses, loads, Load, Size};
 use crate::gauges::Placed;
 use crate::joints::Joint as _;
 use crate::kinematics::Kinematics;
@@ -62,8 +62,9 @@ impl Letters<'_> {
     pub(super) fn constraints(&self) -> Value {
         let free = self.free();
         let at = Placed { k: &free.k, ..self.at() };
-        let all = loads(at);
+        let mut all = loads(at);
         let values: Vec<f64> = self.sizes.iter().map(|s| s.value()).collect();
+        follow_presses(at, &mut all, &values);
         let sizes = sizes(&all, &values);
         let mut unknowns: Vec<Letter> = free.coordinates.iter().map(|c| Letter::new(c, 2)).collect();
         let open = all.iter().filter(|l| matches!(l.size, Size::Unknown | Size::ByLaw));
