@@ -247,6 +247,8 @@ class Moving:
         from freebody.model.start import evaluate
 
         t = evaluate(at, {})
+        if t < 0:
+            raise ValueError(f"the motion begins at 0 s: there is nothing at {t:g} s")
         run = self.simulate(t) if t > 0 else self.opening()
         if run is None:
             return self.solve()
