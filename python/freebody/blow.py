@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -17,6 +17,10 @@ from freebody.switched import Change
 
 if TYPE_CHECKING:
     from freebody.run import Run
+    from freebody.source import Source
+
+_ROUND_OFF = 1e-13
+"""Of the largest impulse, below which one is what is left of 0."""
 
 
 class NoBlow(ValueError):
@@ -40,6 +44,11 @@ class Blow:
         return State(p, self.change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
 
     @cached_property
+    def source(self) -> Source:
+        """The mechanism, to be drawn in the state of the blow."""
+        return replace(self.run.source, core=_Places(self.run))
+
+    @cached_property
     def free(self) -> FreeBodies:
         """All loads during the blow: those of what was struck for a unit of each."""
         return FreeBodies.read(self.run.motion.free_bodies_of_blow(self.place))
@@ -55,18 +64,24 @@ class Blow:
         return [load for load in self.free.loads if not _grows(load)]
 
     def absent(self, *group: str) -> list[str]:
-        """In sentences, what has no impulse on a group of bodies (all by default) and why."""
-        chosen = group or tuple(self.free.bodies)
-        words = [f"the weight of {load.of[-1]}" if load.kind == "weight" else load.name for load in self.finite
-                 if any(part.body in chosen for part in load.on) and not load.inside(chosen)]  # fmt: skip
-        told = [f"{', '.join(dict.fromkeys(words))}: finite, so the impulse in a time that goes to 0 is 0"] if words else []
+        """In sentences, what has no impulse on a group of bodies (all by default), and why."""
+        chosen = set(group or self.free.bodies)
+        told = (
+            [f"{', '.join(words)}: finite, so there is no impulse in a time that goes to 0"]
+            if (words := self._weak(chosen))
+            else []
+        )
         sides = {each["name"]: {each["first"], each["second"]} for each in self.run.about["joints"] + self.run.about["limits"]}
-        impulses, spec = self.change.impulses, json.loads(self.run.source.spec)
-        rubs = [joint["name"] for joint in spec["joints"] if joint["with"].get("friction")]
-        told += [f"{name} lets go: its impulse would have to be below 0"
-                 for name in (impulses.spared if impulses else ()) if sides[name] & set(chosen)]  # fmt: skip
-        return told + [f"friction of {name}: taken as 0, joints pass impulses on without it" for name in rubs
-                       if sides[name] & set(chosen)]  # fmt: skip
+        impulses, joints = self.change.impulses, json.loads(self.run.source.spec)["joints"]
+        here = [name for name in (impulses.spared if impulses else ()) if sides[name] & chosen]
+        rubs = [joint["name"] for joint in joints if joint.get("friction") and sides[joint["name"]] & chosen]
+        told += [f"{name}, which lets go: its impulse would have to be negative" for name in here]
+        return told + [f"friction of {name}: left out, joints pass impulses on without it" for name in rubs]
+
+    def _weak(self, group: Collection[str]) -> list[str]:
+        """The names of the finite loads on a group from outside."""
+        here = (x for x in self.finite if not x.inside(group) and any(part.body in group for part in x.on))
+        return list(dict.fromkeys(f"weight of {load.of[-1]}" if load.kind == "weight" else load.name for load in here))
 
     @cached_property
     def impulses(self) -> FreeBodies:
@@ -103,7 +118,27 @@ class Blow:
         for i, load in enumerate(loads):
             if load.follows:
                 sizes[i] = load.follows[1] * sizes[load.follows[0]]
+        sizes[np.abs(sizes) < _ROUND_OFF * np.abs(sizes).max(initial=0.0)] = 0.0
         return np.where([load.determinate for load in loads], sizes, np.nan)
+
+
+@dataclass(frozen=True)
+class _Places:
+    """What drawings read of the core, from the motion at the time: by itself a state that strikes may have no answer."""
+
+    run: Run
+
+    def describe(self) -> str:
+        """As ``_core.Mechanism.describe``."""
+        return self.run.source.core.describe()
+
+    def points(self, p: Array) -> str:
+        """As ``_core.Mechanism.points``."""
+        return self.run.source.core.points(p)
+
+    def evaluate(self, texts: list[str], p: Array, t: float, q: Array, u: Array) -> Array:
+        """As ``_core.Mechanism.evaluate``."""
+        return self.run.motion.evaluate(texts, np.array([t]))[0]
 
 
 def blows(run: Run) -> Iterator[Blow]:
@@ -118,7 +153,7 @@ def find(run: Run, number: int = 1, *, of: str | None = None, after: float | Non
         raise NoBlow("a run from a file does not know what acted during its blows; run it again")
     asked = [blow for blow in blows(run) if of in (None, *blow.change.of) and (after is None or blow.change.t >= after)]
     if not 1 <= number <= len(asked):
-        which = "".join([f" of {of}"] * (of is not None) + [f" from {after:g} s on"] * (after is not None))
+        which = (f" of {of}" if of else "") + (f" from {after:g} s on" if after is not None else "")
         raise NoBlow(f"the run has {len(asked)} blows{which}, none of number {number}; let it run longer, or start it otherwise")
     return asked[number - 1]
 

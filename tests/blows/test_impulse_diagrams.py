@@ -70,7 +70,7 @@ def test_the_other_side_is_the_jump_of_momentum(name):
 def test_what_is_absent_is_said_below(name):
     blow, diagram = drawn(name)
     for cut in diagram.cuts:
-        assert [f"No impulse of {sentence}." for sentence in blow.absent(*cut.group)] == list(cut.row.notes)
+        assert [f"Absent: {sentence}." for sentence in blow.absent(*cut.group)] == list(cut.row.notes)
 
 
 @every_model

@@ -11,9 +11,12 @@ from freebody.equations.solve import TooLarge
 from freebody.equations.topics import topic
 from freebody.equations.topics.blow import after, blow
 from freebody.equations.topics.impact import _values, impulses_of_joints, rates_after
+from freebody.equations.tree import replace
 
 LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
 """Too long to be solved in letters."""
+SLOW = {"19.3.30/model", "19.3.30/hinged", "19.3.30/slippery"}
+"""Solved in letters in a minute; tests/equations/topics does one of them."""
 REDUNDANT = {"plate"}
 """Friction on two feet at once is more than it takes."""
 
@@ -51,7 +54,7 @@ CLOSED = {
     "links": {
         Sym("knock.J_N"): "-(1 + e)*s_before/(1/n + 7/(2*m))",
         Sym("y_after", 1): "5/(4*m)*(1 + e)*s_before/(1/n + 7/(2*m))",
-        Sym("phi_after", 1): "-6/(m*l)*(1 + e)*s_before/(1/n + 7/(2*m))",
+        Sym("phi_after", 1): "6/(m*l)*(1 + e)*s_before/(1/n + 7/(2*m))",
     },
     # A disk that slides throughout: friction μ (1 + e) m v (Brach, Mechanical Impact Dynamics, ch. 2).
     "slides": {
@@ -61,29 +64,27 @@ CLOSED = {
 }
 
 
+PLACES = {
+    "links": {Sym("x"): from_sympy(sympy.Symbol("l") / 2)},
+    "slides": {Sym("disk.x", 1): Sym("x", 1), Sym("disk.y", 1): Sym("y", 1)},
+}
+"""Where the models are at the blow, and shorter names."""
+
+
 @pytest.mark.parametrize("name", CLOSED)
 def test_closed_forms(name):
     made = solved(name)
-    spelt = {"disk.x'": "x'", "disk.y'": "y'"}
     for letter, text in CLOSED[name].items():
-        known = letters(text)
-        found = from_sympy(sympy.sympify(0)) if letter not in made else made[letter]
-        for model, plain in spelt.items():
-            found = _renamed(found, model.rstrip("'"), plain.rstrip("'"))
-        assert equal(found, known), (letter, found)
-
-
-def _renamed(tree, old, new):
-    from freebody.equations.tree import replace
-
-    return replace(tree, {Sym(old, 1): Sym(new, 1)})
+        found = replace(made[letter], PLACES.get(name, {}))
+        assert equal(found, letters(text)), (letter, found)
 
 
 def test_a_rod_caught_at_its_end():
     """It turns about that end with 3 v/(2 l), its centre keeps ¾ v, and the string takes ¼ m v (Ruina & Pratap, on collisions of
     rods with what they hang on)."""
-    made, found = solved("caught"), blow(mechanism("caught"))
-    v = Sym("rod.y", 1)
+    found, v = blow(mechanism("caught")), Sym("rod.y", 1)
+    below = {Sym("rod.x"): from_sympy(sympy.Symbol("l") / 2)}  # the string is upright
+    made = {letter: replace(tree, below) for letter, tree in solved("caught").items()}
     m, l, u = (sympy.Symbol(x) for x in ("m", "l", "rod.y'"))
     known = {"rod.y_after": 3 * u / 4, "rod.angle_after": -3 * u / (2 * l)}
     for name, expression in known.items():
@@ -92,18 +93,17 @@ def test_a_rod_caught_at_its_end():
     assert equal(made[cord], from_sympy(-m * u / 4)) and size == pytest.approx(-2 * _values(found)[v] / 4, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", sorted(set(ALL) - LONG - REDUNDANT))
+@pytest.mark.parametrize("name", sorted(set(ALL) - LONG - SLOW - REDUNDANT))
 def test_in_letters_are_the_numbers_of_the_run(name):
-    for number in range(1, len(struck(name, 2)) + 1):
-        found = blow(mechanism(name), number)
-        made = rates_after(found)
-        values = _values(found)
-        for coordinate, u in found.change.after.u.items():
-            assert float(evaluate(made[Sym(after(coordinate), 1)], values)) == pytest.approx(u, abs=1e-7)
-        sizes, most = found.sizes(), max(map(abs, found.sizes().values()))
-        for letter, tree in (made | impulses_of_joints(found, made)).items():
-            if letter in sizes:
-                assert float(evaluate(tree, values)) == pytest.approx(sizes[letter], abs=1e-7 * most), letter
+    found = blow(mechanism(name))
+    made, values, sizes = rates_after(found), _values(found), found.sizes()
+    for coordinate, u in found.change.after.u.items():
+        assert float(evaluate(made[Sym(after(coordinate), 1)], values)) == pytest.approx(u, abs=1e-7)
+    if not any(map(np.isnan, sizes.values())):
+        made |= impulses_of_joints(found, made)
+    most = np.nanmax(np.abs(list(sizes.values())))
+    for letter in made.keys() & sizes.keys():
+        assert float(evaluate(made[letter], values)) == pytest.approx(sizes[letter], abs=1e-7 * most), letter
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -115,9 +115,9 @@ def test_every_equation_holds_in_the_run(name):
         if any(np.isnan(x) for x in found.sizes().values()):
             continue
         rounding = 1e-8 * max(1.0, *map(abs, found.sizes().values()))
-        for title, balance in [*found.of_coordinates(), *found.of_bodies()]:
-            gap = evaluate(found.acting(balance), values) - evaluate(found.jump(balance), values)
-            assert abs(float(gap)) < rounding, title
+        for each in [*found.of_coordinates(), *found.of_bodies()]:
+            gap = evaluate(found.acting(each.balance), values) - evaluate(found.jump(each.balance), values)
+            assert abs(float(gap)) < rounding, each.title
         for what, left, right in found.conditions():
             assert float(evaluate(left, values)) == pytest.approx(float(evaluate(right, values)), abs=1e-8), what
 
@@ -132,7 +132,7 @@ def test_what_is_too_long_is_refused(name):
 def test_friction_says_its_law():
     slides, rolls = (topic(mechanism(name), "impact").text() for name in ("slides", "rolls"))
     assert "slides throughout the blow" in slides and "Coulomb's law" in slides
-    assert "does not slide after the blow" in rolls
+    assert "does not slide any more after the blow" in rolls
 
 
 def test_slip_that_turns_is_refused_with_its_reason():

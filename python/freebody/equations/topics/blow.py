@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from freebody.balances.minimal import minimal_form
 from freebody.blow import Blow as Happened
 from freebody.blow import NoBlow
+from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Balance, Row, Subject
 from freebody.equations.names import Name
@@ -155,25 +156,23 @@ class Blow:
         found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
         return dict.fromkeys(found, add())
 
-    def of_coordinates(self) -> list[tuple[str, Balance]]:
-        """The balances of the coordinates, with their titles."""
-        return [(each.title, each.balance) for each in stated(self.subject)]
+    def of_coordinates(self) -> list[Stated]:
+        """The balances of the coordinates."""
+        return stated(self.subject)
 
-    def of_bodies(self) -> list[tuple[str, Balance]]:
-        """The three balances of every body (two of a particle), with their titles."""
-        asked, titles = [], []
+    def of_bodies(self) -> list[Stated]:
+        """The three balances of every body, two of a particle."""
+        made: list[tuple[dict[str, Any], str, str]] = []
         for name, body in self.subject.free.bodies.items():
-            ways: list[tuple[str, dict[str, Any]]] = [("along x", {"along": "x"}), ("along y", {"along": "y"})]
-            ways += [] if body.particle else [("about the mass centre", {"about": "centre"})]
-            asked += [{"ask": "equation", "bodies": [name], **way} for _, way in ways]
-            titles += [
-                f"{'Angular impulse' if 'about' in way else 'Impulse'} and momentum {word} for {name}" for word, way in ways
-            ]
-        return list(zip(titles, self.subject.balances(asked), strict=True))
+            plain = {"ask": "equation", "bodies": [name]}
+            made += [(plain | {"along": "x"}, "x", "along"), (plain | {"along": "y"}, "y", "along")]
+            made += [] if body.particle else [(plain | {"about": "centre"}, f"the mass centre of {name}", "about")]
+        balances = self.subject.balances([question for question, _, _ in made])
+        return [Stated(balance, where, word) for balance, (_, where, word) in zip(balances, made, strict=True)]
 
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""
-        return {Sym(impulse(load)): load.value for load in self.subject.blow.impulses.loads if not load.follows}
+        return {Sym(impulse(load)): load.value for load in self.subject.blow.impulses.loads}
 
     @cached_property
     def written(self) -> dict[str, Name]:

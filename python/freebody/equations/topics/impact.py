@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from freebody.balances.reasons import agree
 from freebody.equations.answers import AGREES, operations, with_positive_divisors
 from freebody.equations.collect import collected
+from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance
-from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Words
+from freebody.equations.document import Block, Bullets, Document, Equation, Figure, Heading, Paragraph, Words
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.blow import Blow, after, blow, impulse
@@ -45,13 +47,14 @@ def impact(
 def rates_after(found: Blow) -> dict[Sym, Tree]:
     """Rates after the blow and impulses of what acts, in letters, with what is 0 at the blow left out. Raises ``TooLarge``,
     ``Singular``; ``ArithmeticError`` where they are not those of the run."""
-    equations = [(found.acting(b), found.jump(b)) for _, b in found.of_coordinates()]
+    equations = [(found.acting(each.balance), found.jump(each.balance)) for each in found.of_coordinates()]
     conditions = [(left, right) for _, left, right in found.conditions()]
     if not all(_holds(found, *sides) for sides in conditions):
         raise ArithmeticError(_otherwise(found))
     equations += conditions
     equations = [(replace(left, found.zeros), replace(right, found.zeros)) for left, right in equations]
-    there = set().union(*(symbols(*pair) for pair in equations))
+    equations = [sides for sides in equations if symbols(*sides)]  # 0 = 0 is held whatever happens
+    there = set().union(*(symbols(*sides) for sides in equations))
     wanted = [Sym(after(name), 1) for name in moving_names(found.subject)]
     wanted += [x for x in found.impulses.values() if x in there]
     if len(wanted) != len(equations):
@@ -66,7 +69,7 @@ def impulses_of_joints(found: Blow, solved: Mapping[Sym, Tree]) -> dict[Sym, Tre
     what is ``solved`` already. Raises as ``rates_after``."""
     sizes = found.sizes()
     wanted = [x for x in found.impulses.values() if x not in solved]
-    balances = [(found.acting(b), found.jump(b)) for _, b in found.of_bodies()]
+    balances = [(found.acting(each.balance), found.jump(each.balance)) for each in found.of_bodies()]
     balances = [(replace(left, found.zeros), replace(right, found.zeros)) for left, right in balances]
     if any(np.isnan(sizes[x]) for x in wanted):
         raise Singular("the impulses in the joints are not determined: more is held than it takes")
@@ -107,7 +110,16 @@ def _what(found: Blow) -> list[Block]:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
         items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(load_words(load))}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
+    from freebody.views.diagram.impulses import Impulses
+
     missing = found.subject.blow.absent()
+    made.append(
+        Figure(
+            Impulses(f"blow of {found.subject.source.name}", found.subject.blow),
+            "Impulses, and the jumps of momentum.",
+            "impulses",
+        )
+    )
     return [*made, Paragraph("Absent:"), Bullets(missing)] if missing else made
 
 
@@ -127,29 +139,35 @@ def _equations(found: Blow) -> list[Block]:
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
     made.append(Paragraph("With the impulses in them, one for each coordinate, impulse = momentum after − momentum before:"))
     of_coordinates = found.of_coordinates()
-    made += [_with_impulses(found, title, b) for title, b in of_coordinates]
-    return made + _of_bodies(found, [b for _, b in of_coordinates])
+    made += [_with_impulses(found, each) for each in of_coordinates]
+    return made + _of_bodies(found, [each.balance for each in of_coordinates])
 
 
 def _of_bodies(found: Blow, balances: Sequence[Balance]) -> list[Block]:
     """The balances of the bodies on which impulses act that other balances do not have."""
-    there = {c.load for b in balances for c in b.contributions if not c.absent}
-    kept_out = {load.symbol for i, load in enumerate(found.subject.free.loads) if load in found.forces and i not in there}
-    bodies = [body for body in found.subject.free.bodies if any(load.symbol in kept_out for load in found.subject.free.on(body))]
+    free, there = found.subject.free, {c.load for b in balances for c in b.contributions if not c.absent}
+    kept_out = {load.symbol for i, load in enumerate(free.loads) if load in found.forces and i not in there}
+    bodies = [body for body in free.bodies if any(load.symbol in kept_out for load in free.on(body))]
     if not bodies:
         return []
-    told = [(title, b) for title, b in found.of_bodies() if b.bodies[0] in bodies]
-    words = Paragraph(f"Of {joined(bodies)} alone, on which the impulses of joints act that are not in those:")
-    return [words, *(_with_impulses(found, title, b) for title, b in told)]
+    words = Paragraph(f"Of {joined(bodies)} alone, on which impulses of joints act that are not in those:")
+    return [words, *(_with_impulses(found, each) for each in found.of_bodies() if each.balance.bodies[0] in bodies)]
 
 
-def _with_impulses(found: Blow, title: str, balance: Balance) -> Equation:
-    loads = found.subject.free.loads
-    absent = [impulse(loads[c.load]) for c in balance.contributions if c.absent and loads[c.load] in found.forces]
+def _with_impulses(found: Blow, each: Stated) -> Equation:
     unknown = [Sym(after(name), 1) for name in moving_names(found.subject)]
-    note = f"Not in it: {joined(absent)}." if absent else ""
-    return Equation(collected(found.acting(balance), list(found.impulses.values())), collected(found.jump(balance), unknown),
-                    _title(title), note=note)  # fmt: skip
+    left = collected(found.acting(each.balance), list(found.impulses.values()))
+    return Equation(left, collected(found.jump(each.balance), unknown), _title(each.title), note=_left_out(found, each))
+
+
+def _left_out(found: Blow, each: Stated) -> Words:
+    """Which impulses on the bodies are not in an equation, and why."""
+    said: list[str | Sym] = []
+    for why, loads in dropped(found.subject, each).items():
+        letters = [Sym(impulse(load)) for load in loads]
+        said += ["; " if said else "Not in it: ", letters[0], *(x for letter in letters[1:] for x in (", ", letter))]
+        said.append(f" ({agree(why, len(loads))})")
+    return [*said, "."] if said else ""
 
 
 def _title(title: str) -> str:

@@ -119,8 +119,8 @@ def to_scale(
         return [action for action in actions if action.size > least[action.turns]]
 
     shown = {load.symbol for action in seen(forces) for load in action.loads}
-    unknown = [load.symbol for load in loads if not load.determinate]
-    none = [load.symbol for load in loads if load.determinate and load.symbol not in shown]
+    unknown = [labels.plain(load) for load in loads if not load.determinate]
+    none = [labels.plain(load) for load in loads if load.determinate and load.symbol not in shown]
     notes = [f"not determined: {', '.join(unknown)}"] * bool(unknown) + [f"{', '.join(none)} = 0"] * bool(none)
     return [_with_value(a, labels) for a in seen(forces)], [_with_value(a, labels) for a in seen(terms)], notes
 

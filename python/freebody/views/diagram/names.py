@@ -35,6 +35,10 @@ class Labels:
                 return f"{ratio.latex()}\\,{self.of(normal)}"
         return self.naming.loads[load.symbol].latex()
 
+    def plain(self, load: Load) -> str:
+        """Of a load, in a remark."""
+        return load.symbol
+
     def whole(self, load: Load) -> str:
         """Of a force of which a load is one component."""
         name = self.naming.loads.get(load.symbol)
