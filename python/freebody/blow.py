@@ -66,11 +66,7 @@ class Blow:
     def absent(self, *group: str) -> list[str]:
         """In sentences, what has no impulse on a group of bodies (all by default), and why."""
         chosen = set(group or self.free.bodies)
-        told = (
-            [f"{', '.join(words)}: finite, so there is no impulse in a time that goes to 0"]
-            if (words := self._weak(chosen))
-            else []
-        )
+        told = [f"{', '.join(words)}: finite, so no impulse in a time that goes to 0"] if (words := self._weak(chosen)) else []
         sides = {each["name"]: {each["first"], each["second"]} for each in self.run.about["joints"] + self.run.about["limits"]}
         impulses, joints = self.change.impulses, json.loads(self.run.source.spec)["joints"]
         here = [name for name in (impulses.spared if impulses else ()) if sides[name] & chosen]

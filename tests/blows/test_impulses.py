@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from struck import ALL, CATALOGUE, mechanism, struck
+from struck import ALL, CATALOGUE, TEXTS, mechanism, struck
 
 from freebody import catalogue
 from freebody.blow import NoBlow
@@ -108,3 +108,13 @@ def test_blows_are_chosen_by_number_name_and_time():
     assert wheel.blow(1, at=second.change.t + 1e-6).change.t == fourth.change.t
     with pytest.raises(NoBlow, match="1 blows of foot"):
         wheel.blow(2, of="foot[4]")
+
+
+def test_what_touches_and_approaches_at_the_start_strikes_then():
+    """So a blow is had at any place and with any velocities."""
+    from freebody import Mechanism
+
+    text = TEXTS["ball_on_bar"].replace("y: 0.3 m", "y: 0 m")
+    [later], now = struck("ball_on_bar"), Mechanism.loads(f"freebody: 1\n{text}", "now").blow()
+    assert now.change.t == 0.0
+    assert now.change.impulses.contacts["knock"] == pytest.approx(later.change.impulses.contacts["knock"], rel=1e-9)

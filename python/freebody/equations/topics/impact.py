@@ -61,7 +61,7 @@ def rates_after(found: Blow) -> dict[Sym, Tree]:
         raise TooLarge(f"{len(equations)} equations for {len(wanted)} unknowns: more is held than it takes")
     solved = _solved(found, equations, wanted)
     _check(found, solved)
-    return solved
+    return {x: solved[x] for x in wanted}
 
 
 def impulses_of_joints(found: Blow, solved: Mapping[Sym, Tree]) -> dict[Sym, Tree]:
@@ -93,6 +93,17 @@ def _enough(found: Blow, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> 
 
 
 def _solved(found: Blow, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> dict[Sym, Tree]:
+    """First each equation that has only one unknown left, then the rest together."""
+    for k, sides in enumerate(equations):
+        unknown = [x for x in wanted if x in symbols(*sides)]
+        if len(unknown) == 1 < len(wanted):
+            first = _together(found, [sides], unknown)
+            rest = [(replace(left, first), replace(right, first)) for left, right in (*equations[:k], *equations[k + 1 :])]
+            return first | _solved(found, rest, [x for x in wanted if x not in first])
+    return _together(found, equations, wanted) if wanted else {}
+
+
+def _together(found: Blow, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> dict[Sym, Tree]:
     if (size := sum(operations(side) for pair in equations for side in pair)) > MOST_OPERATIONS:
         raise TooLarge(f"{len(wanted)} equations with {size} operations are too long for an answer in letters")
     letters = Letters({**found.subject.letters.table, **{x.name: x for x in _letters(found)}})
@@ -178,6 +189,8 @@ def _title(title: str) -> str:
 def _restitution(found: Blow) -> list[Block]:
     made: list[Block] = [Heading("Restitution, and what holds")]
     for name, left, right in found.conditions():
+        if not symbols(left, right):
+            continue  # the mechanism holds it by itself
         if not _holds(found, left, right):
             made.append(Paragraph(f"At {name}: {_otherwise(found)}."))
             continue
