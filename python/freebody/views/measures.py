@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -15,6 +16,7 @@ from freebody.views.scene import Sketch, named_points
 from freebody.views.symbols import points_of_curve
 
 _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
+_SEEN = 0.2  # rad, the least angle whose arc can be seen
 _LEVELS = 5  # places further and further out where an arrow may keep off others
 _APART = 1.6  # sizes of symbols between two arrows
 _Marks: TypeAlias = tuple[Array, list[Array]]
@@ -25,7 +27,7 @@ _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 @dataclass(frozen=True)
 class Measure:
     """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guides`` (2, 2) to where it is 0 and, of an
-    angle, to where it ends, and its value in words. An arrow of fixed size shows the sense of a coordinate that is 0. ``place`` is the joint's point on the second
+    angle, to where it ends, and its value in words. An arrow of fixed size shows the sense of one that is nearly 0. ``place`` is the joint's point on the second
     body; an angle has its vertex there, or, of a direction from point to point, at the first of these."""
 
     coordinate: str
@@ -71,13 +73,15 @@ def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
 def _asked(sketch: Sketch) -> Iterator[_Asked]:
     told = {joint["name"]: joint for joint in sketch.spec["joints"]}
     about = {joint["name"]: joint for joint in sketch.about["joints"]}
-    for i, coordinate in enumerate(sketch.about["coordinates"]):
-        name, [first, second] = coordinate["name"], [about[coordinate["joint"]][end] for end in ("first", "second")]
+    count = Counter[str]()
+    for coordinate, value in zip(sketch.about["coordinates"], sketch.q[0], strict=True):
+        first, second = (about[coordinate["joint"]][end] for end in ("first", "second"))
         # A body that nothing joins to ground is free from its origin.
         joint = told.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
-        word = cards()[joint["type"]].coordinates[about[coordinate["joint"]]["coordinates"].index(name)].name
+        name, word = coordinate["name"], cards()[joint["type"]].coordinates[count[coordinate["joint"]]].name
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
-        yield _Asked(name, joint, first, second, word, coordinate["dimension"], given.get("sense", 1), float(sketch.q[0, i]))
+        count[coordinate["joint"]] += 1
+        yield _Asked(name, joint, first, second, word, coordinate["dimension"], given.get("sense", 1), float(value))
 
 
 def _clear(arrow: Array, taken: list[Array], gap: float) -> bool:
@@ -109,7 +113,7 @@ def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Marks
     turn = asked.sense * np.fmod(asked.value, 2 * np.pi)
     start = end - turn
     guides = [np.array([at, at + 1.25 * radius * np.array([np.cos(way), np.sin(way)])]) for way in (start, end)]
-    return shapes.arc(at, radius, start, start + (turn if abs(asked.value) > 0.1 else 0.35 * asked.sense)), guides
+    return shapes.arc(at, radius, start, start + (turn if abs(asked.value) > _SEEN else 0.35 * asked.sense)), guides
 
 
 def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Marks:

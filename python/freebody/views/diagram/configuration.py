@@ -16,8 +16,8 @@ from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.scenery import Scenery, whole
 from freebody.views.scene import sketch_of_state
 
-_TURNED = 0.15  # rad, below which an angle can hardly be seen
-_MORE = np.array([4.0, 2.5, 3.2])
+_TURNED = 0.2  # rad, below which an angle can hardly be seen
+_MORE = np.array([3.0, 1.9, 2.4])
 _FURTHER = np.array([12.0, 9.0, 15.0])  # sizes of symbols
 
 
