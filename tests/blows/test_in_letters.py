@@ -150,3 +150,8 @@ run: {until: 2 ms, impacts: poisson}
 """
     said = topic(Mechanism.loads(text, "stick"), "impact").text()
     assert "neither all the impulse" in said
+
+
+def test_a_document_has_its_drawings_even_where_the_state_alone_jams():
+    """A foot that strikes may jam by Coulomb's law if it stayed; the configuration and the impulses of every body are drawn."""
+    assert topic(mechanism("GEN-STEP/model"), "impact", of="other").html().count("<svg") == 2

@@ -187,7 +187,7 @@ def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | f
         found = mechanism.blow(number, of=of, at=at)
     except NoBlow as error:
         raise NotHere(str(error)) from None
-    return Blow(Struck(mechanism.source(), found.state, happened=found))
+    return Blow(Struck(found.source, found.state, happened=found))
 
 
 def impulse(load: Load) -> str:
