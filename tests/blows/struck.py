@@ -128,7 +128,8 @@ joints:
   C: {type: hinge, of: [coupler.end, rocker.end]}
   D: {type: hinge, of: [ground.E, rocker.start], coordinate: d}
 contacts: {knock: {of: [ball, coupler.back], restitution: e}}
-initial: {a: 90 deg, guess: {b: -70 deg, d: 80 deg}, ball.x: 0.4 m, ball.y: 1 m, rates: {ball.x: 0.3, ball.y: -v, a: 0}}
+initial:
+  {a: 90 deg, guess: {b: -70 deg, d: 80 deg}, ball.x: 0.4 m, ball.y: 1 m, rates: {ball.x: 0.3, ball.y: -v, a: 0}}
 run: {until: 0.4 s}
 """
 """A ball falls on the coupler of a four-bar."""
@@ -137,7 +138,9 @@ PLATE = """
 parameters: {m: 1 kg, e: 0}
 bodies: {plate: {shape: rectangle, width: 0.6 m, height: 0.1 m, mass: m, points: {A: [-0.3, -0.05], B: [0.3, -0.05]}}}
 ground: {lines: {floor: {through: ground.O, angle: 0}}}
-contacts: {left: {of: [plate.A, ground.floor], friction: 0.5, restitution: e}, right: {of: [plate.B, ground.floor], friction: 0.5, restitution: e}}
+contacts:
+  left: {of: [plate.A, ground.floor], friction: 0.5, restitution: e}
+  right: {of: [plate.B, ground.floor], friction: 0.5, restitution: e}
 initial: {plate.x: 0, plate.y: 0.3 m, plate.angle: 0, rates: {plate.x: 0.2 m/s, plate.y: 0, plate.angle: 0}}
 run: {until: 0.5 s, impacts: newton}
 """
