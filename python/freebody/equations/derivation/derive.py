@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from freebody.equations.code import generate
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import sympy
 
 FORMS = ("minimal", "brute", "constraints")
+_FUNCTIONS = {"py": "python", "c": "c"}
 _TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
 
 
@@ -92,6 +94,19 @@ class Equations:
     def markdown(self) -> str:
         """The derivation as Markdown with LaTeX between dollars."""
         return self.document.markdown()
+
+    def printed(self, kind: str) -> str:
+        """By the ending of a file: txt, tex, md, html or json; py or c for functions. Raises ``KeyError`` for any other."""
+        return self.code(_FUNCTIONS[kind]) if kind in _FUNCTIONS else self.document.printed(kind)
+
+    def save(self, path: str | Path, kind: str = "") -> list[Path]:
+        """Write a file by its ending or ``kind``, see ``printed``, and beside it the sketch for Markdown (.svg) and LaTeX (.pdf).
+        Returns all that is written."""
+        kind = kind or Path(path).suffix.removeprefix(".")
+        if kind not in _FUNCTIONS:
+            return self.document.save(path, kind)
+        Path(path).write_text(self.printed(kind), encoding="utf-8")
+        return [Path(path)]
 
     def json(self) -> str:
         """The derivation as JSON: letters, and blocks with trees."""
