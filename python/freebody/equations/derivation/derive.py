@@ -17,7 +17,7 @@ from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Subject
 from freebody.equations.derivation.wanted import wanted
-from freebody.equations.document import Block, Document, Heading
+from freebody.equations.document import Block, Document, Equation, Heading
 from freebody.equations.letters import Letters
 from freebody.equations.tree import Sym, Tree, symbols
 
@@ -167,7 +167,11 @@ class _Writer:
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)
-        return [*kinematics, *self.content.blocks, *matrices.section(self.form, self.content, self.letters)]
+        laws = [
+            Equation(*law, "The law of friction, as the joint slides now" if not i else "")
+            for i, law in enumerate(self.subject.laws)
+        ]
+        return [*kinematics, *self.content.blocks, *laws, *matrices.section(self.form, self.content, self.letters)]
 
 
 def used(blocks: Any) -> set[str]:

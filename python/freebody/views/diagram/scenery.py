@@ -241,7 +241,7 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
 
 
 def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bool, far: float) -> list[Dimension]:
-    """The coordinates that say where the group's bodies are; of what comes from far away, the end."""
+    """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
     found = []
     for measure in measures(sketch, _RADIUS):
         if measure.second not in group:
@@ -257,7 +257,8 @@ def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bo
             arrow = arrow + aside
         elif not measure.angle and length > far:
             arrow, guides = _end(arrow, _STUB), []
-        guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
+        elif not measure.angle:
+            guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
         found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle))
     return found
 
