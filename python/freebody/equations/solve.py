@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.equations.letters import Letters
+from freebody.equations.measured import is_measured, measured, rational
 from freebody.equations.simplify import PATIENCE, equal, shortest
 from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
@@ -37,7 +38,8 @@ def solve(
 
     a = sympy.Matrix([[to_sympy(entry) for entry in row] for row in matrix])
     b = sympy.Matrix([to_sympy(entry) for entry in right])
-    found = [shortest(entry, letters, patience) for entry in _solved(a, b)]
+    short = measured if is_measured(a) or is_measured(b) else lambda entry: shortest(entry, letters, patience)
+    found = [short(entry) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
             raise ArithmeticError(
@@ -115,7 +117,7 @@ def _solved(a: Any, b: Any) -> list[Any]:
 
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
         raise TooLarge("the equations are too long for an answer in letters; put numbers for some letters")
-    shared, (a, b) = _plain(a, b)
+    shared, (a, b) = _plain(a.applyfunc(rational), b.applyfunc(rational))
     joined = DomainMatrix.from_Matrix(a.row_join(b)).to_field()
     try:
         solution = joined[:, :-1].lu_solve(joined[:, -1:])

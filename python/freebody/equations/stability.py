@@ -107,8 +107,8 @@ def _reduced(condition: Any) -> Any:
 
     factored = sympy.factor(sympy.cancel(sympy.together(condition)))
     above, below = sympy.fraction(factored)
-    rest = sympy.Mul(*(f for f in sympy.Mul.make_args(above * below) if not _is_positive(f)))
-    rest = sympy.Mul(*(_odd(f) for f in sympy.Mul.make_args(rest)))
+    kept = [f for f in (*sympy.Mul.make_args(above), *sympy.Mul.make_args(below)) if not _is_positive(f)]
+    rest = sympy.Mul(*(sympy.sign(f) if f.is_number else _odd(f) for f in kept))
     return None if rest.is_positive else rest
 
 

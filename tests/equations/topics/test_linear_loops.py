@@ -1,0 +1,147 @@
+"""Linear equations where loops, motions and contacts hold: against slopes of the core's accelerations along the loops, against
+simulated swings, and against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from models import sliding_rod, system
+from numpy.testing import assert_allclose
+
+import freebody as fb
+from freebody.equations.departures import Held, held, linearised, numbers, place_of
+from freebody.equations.derivation.told import Subject
+from freebody.equations.equilibrium import rest_near
+from freebody.equations.topics import NotHere, topic
+from freebody.instant import State
+
+SWING = """
+freebody: 1
+name: platform on parallel links
+parameters: {l: 0.5 m, m: 2 kg, M: 3 kg, w: 0.8 m, g: 9.81 m/s^2}
+gravity: g
+ground: {points: {A: [0, 0], D: [w, 0]}}
+bodies:
+  left: {shape: rod, length: l, mass: m}
+  platform: {shape: rod, length: w, mass: M}
+  right: {shape: rod, length: l, mass: m}
+joints:
+  A: {type: hinge, of: [ground.A, left.start], coordinate: theta}
+  B: {type: hinge, of: [left.end, platform.start], coordinate: {name: beta, absolute: true}}
+  D: {type: hinge, of: [ground.D, right.start], coordinate: phi}
+  C: {type: hinge, of: [right.end, platform.end]}
+initial: {theta: -90 deg, at_rest: true, guess: {beta: 0, phi: -90 deg}}
+"""
+HELD = """
+freebody: 1
+name: a cart that is held, with a pendulum
+parameters: {l: 0.5 m, m: 2 kg, M: 3 kg}
+bodies:
+  cart: {mass: M}
+  bob: {mass: m, inertia: 0, points: {A: [0, l]}}
+joints:
+  rail: {type: slider, along: {through: ground.O, angle: 0}, line: {through: cart.origin, angle: 0}, coordinate: x}
+  pin: {type: hinge, of: [cart.origin, bob.A], coordinate: theta}
+motions:
+  hand: {of: x, is: HAND, level: position}
+initial: {theta: 0.2, at_rest: true}
+"""
+
+
+def slider_crank(**initial: object) -> tuple[fb.Mechanism, State]:
+    mechanism = system("GEN-SLIDER")
+    return mechanism, mechanism.start(at_rest=True, **initial)[0]
+
+
+def four_bar() -> tuple[fb.Mechanism, State]:
+    mechanism = system("S19.22")
+    return mechanism, mechanism.start(at_rest=True, theta="-60 deg")[0]
+
+
+def swing() -> tuple[fb.Mechanism, State]:
+    mechanism = fb.Mechanism.loads(SWING)
+    return mechanism, mechanism.start()[0]
+
+
+def leaning_rod() -> tuple[fb.Mechanism, State]:
+    """A rod on a wall and a floor, held by a spring at its foot."""
+    mechanism = sliding_rod()
+    mechanism.force("push", {"type": "spring"}) if False else None
+    return mechanism, mechanism.start()[0]
+
+
+CLOSED = {"slider-crank": lambda: slider_crank(theta="-80 deg"), "four-bar": four_bar, "platform on links": swing}
+
+
+def at_rest(make) -> tuple[fb.Mechanism, Subject, Held]:
+    mechanism, state = make()
+    rest = rest_near(mechanism.source(), state)
+    assert rest is not None
+    subject = Subject(mechanism.source(), rest, at_rest=True).with_numbers([p["name"] for p in mechanism.source().about["parameters"]])
+    put = place_of(subject)
+    return mechanism, subject, held(subject, linearised(subject, put), put)
+
+
+def frequency(subject: Subject, found: Held) -> float:
+    m, k = numbers(subject, found.equations.mass), numbers(subject, found.equations.stiffness)
+    return float(np.sqrt(np.linalg.eigvals(np.linalg.solve(m, k)).real.min()))
+
+
+@pytest.mark.parametrize("name", [*CLOSED, "upper dead point"])
+def test_stiffness_is_the_slope_of_accelerations_along_the_loop(name: str) -> None:
+    """M⁻¹ K of the free coordinate is the slope of its acceleration, in the core, where its neighbours close the loop."""
+    mechanism, subject, found = at_rest(CLOSED.get(name, lambda: slider_crank(theta="80 deg")))
+    m, k = numbers(subject, found.equations.mass), numbers(subject, found.equations.stiffness)
+    (free,) = found.equations.coordinates
+    names, s, h = [c["name"] for c in subject.coordinates], subject.state, 1e-5
+    places = dict(zip(names, s.q.tolist(), strict=True))
+    core = mechanism.compile()
+
+    def beside(step: float) -> float:
+        q = core.assemble(s.p, s.t, fixed={free: places[free] + step}, guess={n: x for n, x in places.items() if n != free})[0]
+        return core.instant(s.p, s.t, q, 0 * q).accelerations[names.index(free)]
+
+    slope = (beside(h) - beside(-h)) / (2 * h)
+    assert_allclose(-np.linalg.solve(m, k), [[slope]], rtol=1e-7)
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_a_small_swing_has_the_period_of_the_eigenvalue(name: str) -> None:
+    """Released beside the lowest place, it is there again after half a period, to the square of the amplitude."""
+    mechanism, subject, found = at_rest(CLOSED[name])
+    (free,) = found.equations.coordinates
+    lowest = float(subject.state.q[[c["name"] for c in subject.coordinates].index(free)])
+    half, beside = np.pi / frequency(subject, found), 1e-3
+    run = mechanism.simulate(2 * half, initial={free: lowest + beside, "at_rest": True, "guess": guess(subject, free)}, t_eval=[half, 2 * half])
+    there = run[free].values - lowest if hasattr(run[free], "values") else np.asarray(run[free]) - lowest
+    assert_allclose(there[-2:], [-beside, beside], atol=2 * beside**2)
+
+
+def guess(subject: Subject, free: str) -> dict[str, float]:
+    return {c["name"]: float(x) for c, x in zip(subject.coordinates, subject.state.q, strict=True) if c["name"] != free}
+
+
+def test_platform_on_parallel_links() -> None:
+    """It swings as (M + 2 m/3) l² θ̈ + (M + m) g l θ = 0, by energy."""
+    mechanism, _ = swing()
+    document = topic(mechanism, "linear")
+    expected = np.sqrt((3 + 2) * 9.81 / ((3 + 4 / 3) * 0.5))
+    assert f"± {expected:.5g} i" in document.text()
+    assert "ξ₃ = ξ₁" in document.text() and "ξ₂ = 0" in document.text()
+
+
+def test_a_motion_that_stands_still_holds_its_coordinate() -> None:
+    """A pendulum on a cart that is held swings as one on a fixed pin, √(g/l); where the cart is driven nothing rests."""
+    said = topic(fb.Mechanism.loads(HELD.replace("HAND", "0.3 m")), "linear").text()
+    assert "√(g/l)" in said and "ξ₁ = 0" in said
+    with pytest.raises(NotHere, match="hand prescribes a rate"):
+        topic(fb.Mechanism.loads(HELD.replace("HAND", "(0.3 m/s)*t")), "linear")
+
+
+def test_in_letters_or_with_lengths_in_numbers() -> None:
+    """A slider-crank at its dead point is short enough for letters; a four-bar keeps its mass and g."""
+    mechanism, state = slider_crank(theta="-90 deg")
+    assert "ξ₃ = r ξ₁" in topic(mechanism, "linear", state).text()
+    mechanism, state = four_bar()
+    said = topic(mechanism, "linear", state).text()
+    assert "are numbers, in SI" in said and " m g" in said
