@@ -5,7 +5,7 @@ from unicodedata import normalize
 
 import numpy as np
 import pytest
-from models import SYSTEMS, atwood, random_subjects, sliding_rod, spring_pendulum, system
+from models import SYSTEMS, atwood, random_subjects, spring_pendulum, system
 from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
@@ -13,6 +13,7 @@ import freebody as fb
 from freebody.cli import app
 from freebody.cli.equations import Form
 from freebody.equations import Sym, evaluate, symbols
+from freebody.equations.departures import linearised, numbers
 from freebody.equations.derivation import FORMS
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Subject
@@ -20,7 +21,6 @@ from freebody.equations.document import Equation
 from freebody.equations.simplify import equal
 from freebody.equations.topics import TOPICS, NotHere, topic
 from freebody.equations.topics.common import moving_names, place_of, rate, rates
-from freebody.equations.departures import linearised, numbers
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
 from freebody.equations.tree import ONE, ZERO, Tree, add, minus, mul, number, read

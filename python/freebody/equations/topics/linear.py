@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.equations.departures import Held, Linearised, Matrix, held, linearised, numbers, place_of
+from freebody.balances.states import nearby
+from freebody.equations.departures import Held, Linearised, Matrix, held, independent, linearised, numbers, place_of
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, MatrixEquation, Paragraph, Words
@@ -44,6 +45,7 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
         chosen = Given({name: tree for name, tree in chosen.trees.items() if name not in place_of(subject_of(mechanism, first))})
     subject = subject_of(mechanism, rest, at_rest=True)
     _require_stillness(subject)
+    _require_regular(subject)
     made, found = _departures(subject, chosen)
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
@@ -70,6 +72,21 @@ def _require_stillness(subject: Subject) -> None:
     for row in subject.rows:
         if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
             raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; set it to stand still")
+
+
+def _require_regular(subject: Subject) -> None:
+    """Raises ``NotHere`` where loops hold less than beside it."""
+    names = [c["name"] for c in subject.coordinates]
+    held = [
+        len(independent(np.array([[row.coefficients[name] for name in names] for row in free.rows])))
+        for free in nearby(subject.source, subject.state)
+        if free.rows
+    ]
+    if held and held[0] < max(held):
+        raise NotHere(
+            "in this place loops lose their independence: more can move for an instant than elsewhere, and what moves there is not "
+            "told by linear equations; give a place beside it"
+        )
 
 
 def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
@@ -140,7 +157,8 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     if not free:
         return [*made, Paragraph("Nothing is left free to move.")]
     if left.reactions:
-        made.append(Paragraph("The loads at rest:"))
+        undecided = len(left.reactions) > len(left.follow)
+        made.append(Paragraph(f"The loads at rest{', of which some are not determined and taken to be 0' * undecided}:"))
     made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
     made.append(
         Paragraph(["What they change by does no work there. What is left is M ẍ + C ẋ + K x = 0 of ", *_listed(free), ", with"])
