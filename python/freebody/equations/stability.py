@@ -106,8 +106,8 @@ def _reduced(condition: Any) -> Any:
     import sympy
 
     factored = sympy.factor(sympy.cancel(sympy.together(condition)))
-    above, below = sympy.fraction(factored)
-    kept = [f for f in (*sympy.Mul.make_args(above), *sympy.Mul.make_args(below)) if not _is_positive(f)]
+    parts = [f for part in sympy.fraction(factored) for f in sympy.Mul.make_args(sympy.factor(part))]
+    kept = [f for f in parts if not _is_positive(f)]
     rest = sympy.Mul(*(sympy.sign(f) if f.is_number else _odd(f) for f in kept))
     return None if rest.is_positive else rest
 

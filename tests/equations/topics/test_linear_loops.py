@@ -32,6 +32,27 @@ joints:
   C: {type: hinge, of: [right.end, platform.end]}
 initial: {theta: -90 deg, at_rest: true, guess: {beta: 0, phi: -90 deg}}
 """
+BOWL = """
+freebody: 1
+name: disk in a bowl
+parameters: {R: 1 m, r: 0.2 m, m: 2 kg, g: 9.81 m/s^2}
+gravity: g
+bodies:
+  disk: {shape: disk, radius: r, mass: m}
+"""
+ON_AN_ARM = """
+  arm: {shape: rod, length: "R - r", mass: 0 kg, inertia: 0}
+joints:
+  pivot: {type: hinge, of: [ground.O, arm.start], coordinate: {name: phi, zero: down}}
+  axle: {type: hinge, of: [arm.end, disk.origin], coordinate: {name: theta, absolute: true}}
+  roll: {type: rolling_circles, circle: {centre: disk.origin, radius: r}, on: {centre: ground.O, radius: R}, inside: true}
+initial: {phi: 0, theta: 0, at_rest: true}
+"""
+IN_CONTACT = """
+contacts:
+  bowl: {of: [disk, {centre: ground.O, radius: R, hollow: true}], friction: 0.5}
+initial: {disk.x: 0, disk.y: r - R, at_rest: true}
+"""
 HELD = """
 freebody: 1
 name: a cart that is held, with a pendulum
@@ -148,6 +169,13 @@ def test_where_loops_lose_their_independence_it_is_said() -> None:
     flat = SWING.replace("theta: -90 deg", "theta: 0").replace("phi: -90 deg", "phi: 0").replace("gravity: g", "gravity: none")
     with pytest.raises(NotHere, match="lose their independence"):
         topic(fb.Mechanism.loads(flat), "linear")
+
+
+@pytest.mark.parametrize("held_by", [ON_AN_ARM, IN_CONTACT])
+def test_a_disk_rolls_in_a_bowl(held_by: str) -> None:
+    """ω² = 2 g/(3 (R − r)), whether a joint or friction keeps it from sliding. Den Hartog, Mechanical Vibrations, ch. 2."""
+    said = topic(fb.Mechanism.loads(BOWL.rstrip() + held_by), "linear").text()
+    assert f"± {np.sqrt(2 * 9.81 / (3 * 0.8)):.5g} i" in said
 
 
 def test_a_motion_that_stands_still_holds_its_coordinate() -> None:

@@ -20,7 +20,7 @@ from freebody.equations.measured import shown
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
 from freebody.equations.topics.common import NotHere, document, subject_of
-from freebody.equations.tree import ZERO, Num, Sym, Tree, add, evaluate, is_zero, mul
+from freebody.equations.tree import PI, ZERO, Sym, Tree, add, evaluate, is_zero, mul, symbols
 from freebody.instant import Instant
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _require_regular(subject: Subject) -> None:
 def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
     """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
     place = place_of(subject)
-    put = {name: tree for name, tree in place.items() if not _is_measured(tree)} | dict(chosen.trees)
+    put = {name: tree for name, tree in place.items() if _is_natural(tree)} | dict(chosen.trees)
     whole = linearised(subject, put)
     made = _equations(subject, whole)
     if not subject.rows:
@@ -110,7 +110,7 @@ def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearise
 def _letters_of(subject: Subject) -> dict[str, Letter]:
     """The letters of departures by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
     coordinates = subject.coordinates
-    if not subject.rows and not any(map(_is_measured, place_of(subject).values())):
+    if not subject.rows and all(map(_is_natural, place_of(subject).values())):
         return {c["name"]: subject.letters[c["name"]] for c in coordinates}
     stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
     return {
@@ -173,8 +173,9 @@ def _listed(trees: Iterable[Tree]) -> list[str | Tree]:
     return words
 
 
-def _is_measured(tree: Tree) -> bool:
-    return isinstance(tree, Num) and isinstance(tree.value, float)
+def _is_natural(place: Tree) -> bool:
+    """Whether a place is one whatever the lengths are: 0, or a part of a turn."""
+    return is_zero(place) or Sym(PI) in symbols(place)
 
 
 def _place(subject: Subject, chosen: Given, near: bool) -> Words:
