@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.equations.derivation.told import Subject
-from freebody.equations.measured import exact, with_exact_numbers
+from freebody.equations.measured import exact, shown, with_exact_numbers
 from freebody.equations.tree import PI, Sym, Tree, evaluate, mul, number, replace, symbols
 from freebody.instant import State
 
@@ -26,9 +26,10 @@ _NEAR = 0.15
 
 @dataclass(frozen=True)
 class Given:
-    """Letters with what they are set to."""
+    """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages."""
 
     trees: Mapping[str, Tree]
+    measured: bool = False
 
     def put(self, tree: Tree) -> Tree:
         """An expression with the letters replaced, and plain numbers exact."""
@@ -37,6 +38,10 @@ class Given:
         new = {Sym(name): value for name, value in self.trees.items()}
         made = with_exact_numbers(tree)
         return from_sympy(to_sympy(replace(made, new))) if symbols(made) & new.keys() else made
+
+    def and_numbers(self, numbers: Mapping[str, float]) -> Given:
+        """With more letters set, to measured numbers."""
+        return Given({name: exact(value) for name, value in numbers.items()} | dict(self.trees), True)
 
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
         """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
@@ -87,7 +92,7 @@ class Given:
         """As words: ``theta = π/4``."""
         from freebody.equations.text import text
 
-        return [f"{text(Sym(name))} = {text(tree)}" for name, tree in self.trees.items()]
+        return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
 
     def _numbers(self, parameters: Mapping[str, float]) -> dict[str, Any]:
         values = {Sym(name): value for name, value in parameters.items()}

@@ -8,7 +8,7 @@ from typing import Any
 
 from freebody.equations.collect import factored
 from freebody.equations.to_sympy import from_sympy
-from freebody.equations.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number, over
+from freebody.equations.tree import ONE, PI, ZERO, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number, over
 
 _RATIONAL = 1e-12
 _DENOMINATORS = 1000
@@ -32,6 +32,8 @@ def measured(expression: Any) -> Tree:
 
     above, below = sympy.fraction(sympy.cancel(rational(expression)))
     tops, bottoms = _terms(above), _terms(below)
+    if not tops:
+        return ZERO
     largest = max((c for c, _ in bottoms), key=abs, default=1.0)
     top, bottom = _sum(tops, largest), _sum(bottoms, largest)
     return top if bottom == ONE else over(top, bottom)
@@ -41,7 +43,7 @@ def rational(expression: Any) -> Any:
     """A SymPy expression in which numbers are the fractions that they are as floats, so that algebra is exact."""
     import sympy
 
-    return sympy.nsimplify(sympy.N(expression, 17), rational=True) if is_measured(expression) else expression
+    return sympy.nsimplify(sympy.N(expression, 17), rational=True)
 
 
 def _terms(expression: Any) -> list[tuple[float, Any]]:
@@ -54,7 +56,13 @@ def _terms(expression: Any) -> list[tuple[float, Any]]:
 
 
 def _sum(terms: list[tuple[float, Any]], unit: float) -> Tree:
-    return factored(add(*(mul(exact(c / unit), from_sympy(rest)) for c, rest in terms)))
+    """The sum; 2.3 m + 4.6 M is 2.3 (m + 2 M)."""
+    first = terms[0][0]
+    parts = [exact(c / first) for c, _ in terms]
+    alike = all(isinstance(part.value, Fraction) and part.value.denominator <= _PLAIN for part in parts)
+    sizes = parts if alike else [exact(c / unit) for c, _ in terms]
+    made = factored(add(*(mul(size, from_sympy(rest)) for size, (_, rest) in zip(sizes, terms, strict=True))))
+    return mul(exact(first / unit), made) if alike else made
 
 
 def with_exact_numbers(tree: Tree) -> Tree:

@@ -31,15 +31,20 @@ def solve(
 ) -> list[Tree]:
     """The solution x of A x = b in letters, each entry in the shortest form found.
 
-    ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``; a matrix that is singular for all
+    ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
     values of the letters is ``Singular``. The solution is held against the system at random values."""
-    _admit(matrix, right)
+    _require_square(matrix, right)
     import sympy
 
     a = sympy.Matrix([[to_sympy(entry) for entry in row] for row in matrix])
     b = sympy.Matrix([to_sympy(entry) for entry in right])
-    short = measured if is_measured(a) or is_measured(b) else lambda entry: shortest(entry, letters, patience)
-    found = [short(entry) for entry in _solved(a, b)]
+    numeric = is_measured(a) or is_measured(b)
+    if len(right) > MOST_UNKNOWNS and not numeric:
+        raise TooLarge(
+            f"{len(right)} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
+            "ask for numbers, or for a smaller set of equations"
+        )
+    found = [measured(entry) if numeric else shortest(entry, letters, patience) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
             raise ArithmeticError(
@@ -99,15 +104,10 @@ def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None =
     return shortest(to_sympy(tree).subs(chosen, simultaneous=True), letters)
 
 
-def _admit(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
+def _require_square(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
     n = len(right)
     if len(matrix) != n or any(len(row) != n for row in matrix):
         raise ValueError("A x = b needs as many equations as unknowns")
-    if n > MOST_UNKNOWNS:
-        raise TooLarge(
-            f"{n} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
-            "ask for numbers, or for a smaller set of equations"
-        )
 
 
 def _solved(a: Any, b: Any) -> list[Any]:
@@ -117,7 +117,9 @@ def _solved(a: Any, b: Any) -> list[Any]:
 
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
         raise TooLarge("the equations are too long for an answer in letters; put numbers for some letters")
-    shared, (a, b) = _plain(a.applyfunc(rational), b.applyfunc(rational))
+    if is_measured(a) or is_measured(b):
+        a, b = a.applyfunc(rational), b.applyfunc(rational)
+    shared, (a, b) = _plain(a, b)
     joined = DomainMatrix.from_Matrix(a.row_join(b)).to_field()
     try:
         solution = joined[:, :-1].lu_solve(joined[:, -1:])

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.code import generate
 from freebody.equations.derivation import conserved, matrices, opening
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
@@ -63,12 +62,6 @@ class Equations:
     def right_hand_side(self) -> tuple[Tree, ...]:
         """b of A x = b."""
         return self.content.system.right
-
-    def code(self, language: str = "python") -> str:
-        """Source of functions ``mass_matrix`` and ``right_hand_side`` of coordinates, rates, parameters and time, in ``python``
-        (NumPy) or ``c``."""
-        functions = {"mass_matrix": self.mass_matrix, "right_hand_side": self.right_hand_side}
-        return generate(functions, self.letters, {"python": "numpy"}.get(language, language))
 
     def sympy(self) -> tuple[sympy.Matrix, sympy.Matrix, sympy.Matrix]:
         """A, x and b of A x = b as matrices of SymPy, coordinates as functions of time."""
