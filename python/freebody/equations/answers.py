@@ -24,8 +24,9 @@ from freebody.equations.measured import shown
 from freebody.equations.simplify import PATIENCE
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, children, evaluate, mul, negative, power, walk
+from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power
 from freebody.free_body import FreeBodies
+from freebody.instant import Instant
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -34,6 +35,8 @@ MOST_EQUATIONS = 4
 """More equations together are not solved in letters."""
 MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 150}
 """Operations in all coefficients, by the number of equations, above which the answer would fill pages."""
+MOST_MEASURED = 8
+"""The same where lengths and angles are numbers."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
 _OTHERS = 3
@@ -200,6 +203,8 @@ def _solved(subject: Subject, system: _System, chosen: Given, patience: float) -
     unknowns = sorted(system.gives, key=lambda x: (x.dots == 0, letters.place(x.name)))
     matrix = [[chosen.put(each.coefficients.get(x, ZERO)) for x in unknowns] for each in system.linear]
     right = [chosen.put(negative(each.rest)) for each in system.linear]
+    if chosen.measured and len(right) > MOST_MEASURED:
+        raise TooLarge(f"it takes {len(right)} equations together even with lengths and angles as numbers; ask for numbers")
     if not chosen.measured:
         _require_short([*right, *(e for row in matrix for e in row)], len(right))
     solution = solve(matrix, right, letters, patience=patience)
@@ -212,11 +217,6 @@ def _require_short(entries: Sequence[Tree], equations: int) -> None:
         raise TooLarge(f"it takes {equations} equations together, too many for an answer in letters; ask for numbers")
     if size > MOST_OPERATIONS[equations]:
         raise TooLarge(f"{equations} equations with {size} operations are too long for an answer in letters; ask for numbers")
-
-
-def operations(tree: Tree) -> int:
-    """How many sums, products, powers and functions an expression has."""
-    return sum(max(1, len(children(node)) - 1) for node in walk(tree) if children(node))
 
 
 def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
@@ -264,7 +264,7 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
         numbers = there.values
         for x, tree in values.items():
             found, true = float(evaluate(tree, numbers, there.tables)), numbers[x]
-            if abs(found - true) > AGREES * max(abs(true), _scale(there.free, x)):
+            if abs(found - true) > AGREES * max(abs(true), _scale(there, x)):
                 raise ArithmeticError(f"the answer for {x.name} is {found:g} where the numbers are {true:g}; take the numbers")
         compared += 1
     return compared
@@ -281,9 +281,12 @@ def _like(subject: Subject, there: Subject) -> Subject | None:
     return there if same else None
 
 
-def _scale(free: FreeBodies, x: Sym) -> float:
+def _scale(there: Subject, x: Sym) -> float:
+    """The largest of its kind, or among the terms that balance where all of a kind vanish."""
+    free, state = there.free, there.state
     values = free.accelerations.values() if x.dots else [load.value for load in free.loads if load.unknown]
-    return max((abs(v) for v in values if np.isfinite(v)), default=1.0)
+    sizes = Instant(there.source.core, state, about=there.source.about).sizes
+    return max(sizes[1 if x.dots else 0], *(abs(v) for v in values if np.isfinite(v)))
 
 
 def _target(to: Any) -> float | Fraction:

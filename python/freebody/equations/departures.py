@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,14 +13,16 @@ from freebody.equations.measured import exact, exact_angle, is_measured, measure
 from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge, solve
 from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ONE, ZERO, Sym, Tree, evaluate, negative, read
+from freebody.equations.tree import ONE, ZERO, Sym, Tree, evaluate, negative, operations, read
 from freebody.results import Array
 
 Matrix = list[list[Tree]]
 PATIENCE = 1.0
 """Seconds for the shortest form of one entry."""
 MOST_OPERATIONS = 150
-"""Operations in an entry above which it fills lines and is left to numbers."""
+"""Operations in an entry above which no short form of it is looked for."""
+READABLE = 40
+"""Operations in the short form of an entry above which it is left to numbers."""
 _INDEPENDENT = (0.1, 1e-3, 1e-8)
 """What is left of a row beside those chosen before, in parts of the largest, to be chosen: as much as there is."""
 
@@ -57,7 +59,7 @@ class Held:
 
 def linearised(subject: Subject, put: Mapping[str, Tree]) -> Linearised:
     """The linear equations at the state of a subject, some letters being as ``put``. Loads of loops and motions stay letters."""
-    told = subject.ask([{"ask": "linear", "at": {}}])[0]
+    told = replace(subject, at_rest=False).ask([{"ask": "linear", "at": {}}])[0]  # rates must be letters for their slopes
     names = tuple(c["name"] for c in subject.coordinates)
     words = zip(*(told[word] for word in ("M", "C", "K", "left")), strict=True)
     rows = [[_put(read(entry), put) for entry in (*m, *c, *k, left)] for m, c, k, left in words]
@@ -150,6 +152,8 @@ def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: Subject) -> M
 
     a, m, b = (sympy.Matrix([[to_sympy(entry) for entry in row] for row in part]) for part in (left, matrix, right))
     product = a.T * m * b
-    if any(entry.count_ops() > MOST_OPERATIONS for entry in product):
-        raise TooLarge("the linear equations of what is left free are too long in letters")
-    return [[shortest(entry, subject.letters, PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
+    if all(entry.count_ops() <= MOST_OPERATIONS for entry in product):
+        made = [[shortest(entry, subject.letters, PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
+        if all(operations(entry) <= READABLE for row in made for entry in row):
+            return made
+    raise TooLarge("the linear equations of what is left free are too long in letters")

@@ -13,6 +13,8 @@ from freebody.equations.solve import TooLarge
 from freebody.equations.to_sympy import to_sympy
 from freebody.equations.tree import Mul, Num, Pow, Tree, is_zero, mul, number, power
 
+MOST_OPERATIONS = 80
+"""Operations in a characteristic polynomial above which its roots are not sought in letters."""
 _HALF = Fraction(1, 2)
 MOST_ROWS = 4
 """Roots of polynomials of higher order have no formula in letters."""
@@ -54,6 +56,8 @@ def eigenvalues(
     import sympy
 
     polynomial = _polynomial(matrix, positive)
+    if sum(factor.count_ops() for factor in polynomial.all_coeffs()) > MOST_OPERATIONS:
+        raise TooLarge("the characteristic polynomial is too long for its roots in letters; put numbers for some letters")
     found = sympy.roots(polynomial, cubics=False, quartics=False)
     if sum(found.values()) != polynomial.degree():
         raise TooLarge("these eigenvalues have no short form in letters; put numbers, or ask for the stability conditions")

@@ -13,8 +13,14 @@ from freebody.equations.departures import Held, held, linearised, numbers, place
 from freebody.equations.derivation.told import Subject
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.topics import NotHere, topic
+from freebody.equations.tree import evaluate
 from freebody.instant import State
 
+DAMPED = """
+forces:
+  bearing: {type: torsion_spring, on: left, stiffness: 0, damping: 0.3 N*m*s/rad}
+  wind: {type: damper, between: [ground.D, platform.start], damping: 2 N*s/m}
+"""
 SWING = """
 freebody: 1
 name: platform on parallel links
@@ -84,6 +90,13 @@ def swing() -> tuple[fb.Mechanism, State]:
     return mechanism, mechanism.start()[0]
 
 
+def leaning(more: str) -> tuple[fb.Mechanism, State]:
+    """The platform, its links of different length, so that it hangs askew."""
+    uneven = SWING.replace("right: {shape: rod, length: l,", "right: {shape: rod, length: 1.5*l,")
+    mechanism = fb.Mechanism.loads(uneven.rstrip() + more)
+    return mechanism, mechanism.start()[0]
+
+
 CLOSED = {"slider-crank": lambda: slider_crank(theta="-80 deg"), "four-bar": four_bar, "platform on links": swing}
 
 
@@ -119,6 +132,20 @@ def test_stiffness_is_the_slope_of_accelerations_along_the_loop(name: str) -> No
 
     slope = (beside(h) - beside(-h)) / (2 * h)
     assert_allclose(-np.linalg.solve(m, k), [[slope]], rtol=1e-7)
+
+
+def test_damping_is_the_slope_by_rates_along_the_loop() -> None:
+    """M⁻¹ C of the free coordinate is the slope of its acceleration by its rate, the others following."""
+    mechanism, subject, found = at_rest(lambda: leaning(DAMPED))
+    (free,) = found.equations.coordinates
+    names, s, h = [c["name"] for c in subject.coordinates], subject.state, 1e-5
+    ways = {free: 1.0} | {name: float(evaluate(way[0], {})) for name, way in found.follow.items()}
+    rates = np.array([ways[name] for name in names])
+    core = mechanism.compile()
+    ahead, behind = (core.instant(s.p, s.t, s.q, sign * h * rates).accelerations[names.index(free)] for sign in (1, -1))
+    m, c = numbers(subject, found.equations.mass), numbers(subject, found.equations.damping)
+    assert c[0, 0] > 0.3
+    assert_allclose(-np.linalg.solve(m, c), [[(ahead - behind) / (2 * h)]], rtol=1e-7)
 
 
 @pytest.mark.parametrize("name", CLOSED)
@@ -193,3 +220,72 @@ def test_in_letters_or_with_lengths_in_numbers() -> None:
     mechanism, state = four_bar()
     said = topic(mechanism, "linear", state).text()
     assert "are numbers, in SI" in said and " m g" in said
+
+
+GOVERNOR = """
+freebody: 1
+name: half of a governor, its plane turning at W
+parameters: {l: 0.3 m, m: 2 kg, Ms: 1.5 kg, W: 12 rad/s, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {axis: {through: O, angle: -90 deg}}}
+bodies:
+  arm: {shape: rod, length: l, mass: 0 kg, inertia: 0}
+  ball: {mass: m, inertia: 0}
+  link: {shape: rod, length: l, mass: 0 kg, inertia: 0}
+  sleeve: {mass: Ms, inertia: 0, lines: {base: {through: origin, angle: 0}}}
+joints:
+  top: {type: hinge, of: [ground.O, arm.start], coordinate: {name: theta, zero: down}}
+  weld: {type: weld, of: [arm.end, ball.origin]}
+  elbow: {type: hinge, of: [arm.end, link.start], coordinate: {name: beta, absolute: true}}
+  guide: {type: slider, along: ground.axis, line: sleeve.base, coordinate: s}
+  pin: {type: hinge, of: [link.end, sleeve.origin]}
+forces:
+  away: {type: force, at: ball.origin, x: "m*W^2*l*sin(theta)"}
+initial: {theta: 50 deg, at_rest: true, guess: {beta: -130 deg, s: l}}
+"""
+
+
+def test_a_governor() -> None:
+    """cos θ = (m + 2 Mₛ) g/(m W² l), about which ω² = (m + 2 Mₛ) g sin²θ/(l cos θ (m + 4 Mₛ sin²θ)), Mₛ being half of the sleeve.
+
+    From the potential −m g l cos θ − 2 Mₛ g l cos θ − ½ m W² l² sin²θ and the inertia m l² + 4 Mₛ l² sin²θ; the equilibrium is that of
+    Pontryagin, Ordinary Differential Equations, §27."""
+    mechanism = fb.Mechanism.loads(GOVERNOR)
+    for l, m, sleeve, spin in ((0.3, 2.0, 1.5, 12.0), (0.4, 1.0, 0.6, 12.0)):
+        said = topic(mechanism, "linear", l=l, m=m, Ms=sleeve, W=spin).text()
+        cosine = (m + 2 * sleeve) * 9.81 / (m * spin**2 * l)
+        sine = np.sqrt(1 - cosine**2)
+        own = np.sqrt((m + 2 * sleeve) * 9.81 * sine**2 / (l * cosine * (m + 4 * sleeve * sine**2)))
+        assert f"± {own:.5g} i" in said and f"θ = {np.arccos(cosine):.5g}" in said
+
+
+def test_a_governor_hangs_down_while_it_turns_slowly() -> None:
+    """A pendulum in a plane that turns: it hangs straight down while W² < g/l. Pontryagin, as above, without a sleeve."""
+    text = """
+freebody: 1
+name: pendulum, its plane turning at W
+parameters: {l: 0.3 m, m: 2 kg, W: 2 rad/s, g: 9.81 m/s^2}
+gravity: g
+bodies: {bob: {mass: m, inertia: 0, points: {A: [0, l]}}}
+joints: {pin: {type: hinge, of: [ground.O, bob.A], coordinate: theta}}
+forces: {away: {type: force, at: bob.origin, x: "m*W^2*l*sin(theta)"}}
+initial: {theta: 0, at_rest: true}
+"""
+    said = topic(fb.Mechanism.loads(text), "linear").text()
+    assert "g − l W² > 0" in said or "g − W² l > 0" in said, said
+
+
+def test_a_damped_inverted_pendulum_needs_a_stiff_spring() -> None:
+    """m l² θ̈ + c θ̇ + (k − m g l) θ = 0 comes to rest upright if k > m g l, by Routh and Hurwitz."""
+    text = """
+freebody: 1
+name: inverted pendulum
+parameters: {l: 0.5 m, m: 2 kg, k: 30 N*m/rad, c: 0.4 N*m*s/rad, g: 9.81 m/s^2}
+gravity: g
+bodies: {rod: {mass: m, inertia: 0, points: {A: [0, "-l"]}}}
+joints: {pin: {type: hinge, of: [ground.O, rod.A], coordinate: {name: theta, sense: clockwise}}}
+forces: {spring: {type: torsion_spring, on: rod, stiffness: k, damping: c}}
+initial: {theta: 0, at_rest: true}
+"""
+    said = topic(fb.Mechanism.loads(text), "linear").text()
+    assert "Small departures die out if" in said and "k − m g l > 0" in said and "C = c" in said

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from freebody.equations.answers import AGREES, operations, with_positive_divisors
+from freebody.equations.answers import AGREES, with_positive_divisors
 from freebody.equations.collect import collected
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance
@@ -14,7 +14,7 @@ from freebody.equations.letters import Letter, Letters
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.blow import Blow, after, blow, coefficient, impulse
 from freebody.equations.topics.common import document, moving_names
-from freebody.equations.tree import Sym, Tree, evaluate, is_zero, replace, symbols
+from freebody.equations.tree import Sym, Tree, evaluate, is_zero, operations, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State
