@@ -36,7 +36,9 @@ MOST_EQUATIONS = 4
 MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 150}
 """Operations in all coefficients, by the number of equations, above which the answer would fill pages."""
 MOST_MEASURED = 8
-"""The same where lengths and angles are numbers."""
+"""More where lengths and angles are numbers."""
+MOST_OPERATIONS_MEASURED = 250
+"""The same there."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
 _OTHERS = 3
@@ -203,20 +205,17 @@ def _solved(subject: Subject, system: _System, chosen: Given, patience: float) -
     unknowns = sorted(system.gives, key=lambda x: (x.dots == 0, letters.place(x.name)))
     matrix = [[chosen.put(each.coefficients.get(x, ZERO)) for x in unknowns] for each in system.linear]
     right = [chosen.put(negative(each.rest)) for each in system.linear]
-    if chosen.measured and len(right) > MOST_MEASURED:
-        raise TooLarge(f"it takes {len(right)} equations together even with lengths and angles as numbers; ask for numbers")
-    if not chosen.measured:
-        _require_short([*right, *(e for row in matrix for e in row)], len(right))
+    _require_short(matrix, right, chosen.measured)
     solution = solve(matrix, right, letters, patience=patience)
     return {x: with_positive_divisors(tree, subject.values) for x, tree in zip(unknowns, solution, strict=True)}
 
 
-def _require_short(entries: Sequence[Tree], equations: int) -> None:
-    size = sum(map(operations, entries))
-    if equations > MOST_EQUATIONS:
-        raise TooLarge(f"it takes {equations} equations together, too many for an answer in letters; ask for numbers")
-    if size > MOST_OPERATIONS[equations]:
-        raise TooLarge(f"{equations} equations with {size} operations are too long for an answer in letters; ask for numbers")
+def _require_short(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], measured: bool) -> None:
+    n, size = len(right), sum(operations(entry) for row in (*matrix, right) for entry in row)
+    if n > (MOST_MEASURED if measured else MOST_EQUATIONS):
+        raise TooLarge(f"it takes {n} equations together, too many for an answer in letters; ask for numbers")
+    if size > (MOST_OPERATIONS_MEASURED if measured else MOST_OPERATIONS[n]):
+        raise TooLarge(f"{n} equations with {size} operations are too long for an answer in letters; ask for numbers")
 
 
 def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:

@@ -6,9 +6,9 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from freebody.equations.collect import factored
+from freebody.equations.collect import factored, quotient
 from freebody.equations.to_sympy import from_sympy
-from freebody.equations.tree import ONE, PI, ZERO, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number, over
+from freebody.equations.tree import PI, ZERO, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number
 
 _RATIONAL = 1e-12
 _DENOMINATORS = 1000
@@ -30,13 +30,16 @@ def measured(expression: Any) -> Tree:
     """One sum over another, the largest number below being 1."""
     import sympy
 
-    above, below = sympy.fraction(sympy.cancel(rational(expression)))
+    return ratio(*sympy.fraction(sympy.cancel(rational(expression))))
+
+
+def ratio(above: Any, below: Any) -> Tree:
+    """One polynomial over another, both of SymPy, without the letters that all terms of both have."""
     tops, bottoms = _terms(above), _terms(below)
     if not tops:
         return ZERO
-    largest = max((c for c, _ in bottoms), key=abs, default=1.0)
-    top, bottom = _sum(tops, largest), _sum(bottoms, largest)
-    return top if bottom == ONE else over(top, bottom)
+    largest = max((c for c, _ in bottoms), key=abs)
+    return quotient(_sum(tops, largest), _sum(bottoms, largest))
 
 
 def rational(expression: Any) -> Any:

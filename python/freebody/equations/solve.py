@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.equations.letters import Letters
-from freebody.equations.measured import is_measured, measured, rational
+from freebody.equations.measured import is_measured, ratio, rational
 from freebody.equations.simplify import PATIENCE, equal, shortest
 from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
@@ -16,6 +16,9 @@ MOST_UNKNOWNS = 6
 """Above it an answer in letters is too long to be read."""
 MOST_OPERATIONS = 1500
 """Operations in all coefficients above which no answer in letters is sought."""
+
+
+_UNDETERMINED = "the equations do not determine the unknowns, whatever the letters are"
 
 
 class TooLarge(ValueError):
@@ -44,7 +47,7 @@ def solve(
             f"{len(right)} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
             "ask for numbers, or for a smaller set of equations"
         )
-    found = [measured(entry) if numeric else shortest(entry, letters, patience) for entry in _solved(a, b)]
+    found = _solved_measured(a, b) if numeric else [shortest(entry, letters, patience) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
             raise ArithmeticError(
@@ -117,16 +120,31 @@ def _solved(a: Any, b: Any) -> list[Any]:
 
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
         raise TooLarge("the equations are too long for an answer in letters; put numbers for some letters")
-    if is_measured(a) or is_measured(b):
-        a, b = a.applyfunc(rational), b.applyfunc(rational)
     shared, (a, b) = _plain(a, b)
     joined = DomainMatrix.from_Matrix(a.row_join(b)).to_field()
     try:
         solution = joined[:, :-1].lu_solve(joined[:, -1:])
     except DMNonInvertibleMatrixError:
-        raise Singular("the equations do not determine the unknowns, whatever the letters are") from None
+        raise Singular(_UNDETERMINED) from None
     back = {new: old for old, new in shared.items()}
     return [entry.subs(back) for entry in solution.to_Matrix()]
+
+
+def _solved_measured(a: Any, b: Any) -> list[Tree]:
+    """The same with measured numbers: determinants, whose common factors are not looked for, as round-off hides them."""
+    from sympy.polys.matrices import DomainMatrix
+
+    shared, (a, b) = _plain(a.applyfunc(rational), b.applyfunc(rational))
+    joined = DomainMatrix.from_Matrix(a.row_join(b)).to_dense()
+    n, back = a.rows, {new: old for old, new in shared.items()}
+
+    def determinant(columns: list[int]) -> Any:
+        return joined.domain.to_sympy(joined.extract(list(range(n)), columns).charpoly()[-1] * (-1) ** n).subs(back)
+
+    below = determinant(list(range(n)))
+    if below == 0:
+        raise Singular(_UNDETERMINED)
+    return [ratio(determinant([n if j == i else j for j in range(n)]), below) for i in range(n)]
 
 
 def _plain(*matrices: Any) -> tuple[dict, list[Any]]:
