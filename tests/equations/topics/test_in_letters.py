@@ -84,11 +84,9 @@ def test_limits() -> None:
 
 def test_what_is_too_long_is_refused() -> None:
     """Where lengths are asked to stay letters, there is no shorter way."""
-    mechanism = system("S19.21")
-    lengths = {name: name for name in ("l1", "l2", "l3", "d", "side")}
-    places = dict.fromkeys(("theta",), 1.1)
+    letters = ("l1", "l2", "l3", "d", "side", "beta", "phi")
     with pytest.raises(TooLarge, match="ask for numbers"):
-        mechanism.solve_in_letters(["theta"], at_rest=True, set=places, limits=dict.fromkeys([*lengths, "beta", "phi"], 0))
+        system("S19.21").solve_in_letters(["theta"], at_rest=True, set={"theta": 1.1}, limits=dict.fromkeys(letters, 0))
 
 
 def test_what_is_driven_follows_from_its_motion() -> None:
