@@ -77,12 +77,12 @@ def _require_stillness(subject: Subject) -> None:
 def _require_regular(subject: Subject) -> None:
     """Raises ``NotHere`` where loops hold less than beside it."""
     names = [c["name"] for c in subject.coordinates]
-    held = [
+    ranks = [
         len(independent(np.array([[row.coefficients[name] for name in names] for row in free.rows])))
         for free in nearby(subject.source, subject.state)
         if free.rows
     ]
-    if held and held[0] < max(held):
+    if ranks and ranks[0] < max(ranks):
         raise NotHere(
             "in this place loops lose their independence: more can move for an instant than elsewhere, and what moves there is not "
             "told by linear equations; give a place beside it"
