@@ -73,14 +73,13 @@ def equations(
     if len(asked) > 1:
         raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json")
     kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
-    text = printed(found, kind)
+    _refuse(kind)
     if output:
         from freebody.cli import show
 
-        output.write_text(text, encoding="utf-8")
-        show.written([output])
+        show.written(found.save(output, kind))
     else:
-        typer.echo(text.rstrip("\n"))
+        typer.echo(found.printed(kind).rstrip("\n"))
 
 
 def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str]) -> Equations | Document:
@@ -106,11 +105,10 @@ def solved(mechanism: Mechanism, want: str | None, at_rest: bool, fixed: dict[st
         raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
 
-def printed(found: Equations | Document, kind: str) -> str:
-    """The equations by the ending of a file."""
-    ways = {"txt": found.text, "tex": found.latex, "md": found.markdown, "html": found.html, "json": found.json}
+def _refuse(kind: str) -> None:
+    """Raises ``Mistake`` for a way of printing that there is not, by the ending of its file."""
+    ways = ("txt", "tex", "md", "html", "json")
     if kind in ("py", "c"):
         raise Mistake("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")
     if kind not in ways:
         raise Mistake(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")
-    return ways[kind]()
