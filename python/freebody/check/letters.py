@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
@@ -20,6 +21,7 @@ from .language.errors import StatementError
 from .language.nodes import Letter, Program, walk
 from .language.parser import parse
 from .language.tokens import Names
+from .printed import printed
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -69,6 +71,7 @@ class Letters:
     def __init__(
         self, mechanism: Builder, declared: Mapping[str, str | Sequence[str | float]] | None = None, gravity: str | None = None
     ) -> None:
+        self.mechanism = mechanism
         lowered = mechanism.lowered()
         self.spec = lowered.spec
         self.named = meanings.meanings(lowered.root)
@@ -108,7 +111,22 @@ class Letters:
             name = "".join(found[0].split())
             if name not in self.meanings and (meaning := self._reading(name)) is not None:
                 self._put(name, meaning)
-        return parse(text, self.names)
+        program = parse(text, self.names)
+        return parse(text, self.names) if self._strange(program) and self._learn_printed() else program
+
+    def _strange(self, program: Program) -> bool:
+        """Whether some letter has no meaning."""
+        given = {line.name for line in program.assignments}
+        return any(isinstance(n, Letter) and n.name not in self.meanings and n not in given for n in walk(program))
+
+    def _learn_printed(self) -> bool:
+        """Those of printed equations join the others, which go before them; whether there are any that did not before."""
+        taken = {folded(name) for name in self.meanings}
+        new = {name: said for name, said in printed(self.mechanism).items() if folded(name) not in taken}
+        for name, said in new.items():
+            with suppress(Complaint):
+                self._declare(name, said)
+        return bool(new)
 
     def _reading(self, text: str) -> Meaning | None:
         try:

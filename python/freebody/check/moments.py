@@ -136,7 +136,7 @@ def _printed_again(equation: Equation, figures: tuple[Number, ...], values: Mapp
 def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:
     """A statement with the values of its letters at a moment, and its time."""
     known = checker.letters(declared)
-    program = parse(statement, known.names)
+    program = known.read(statement)
     meaning = StatementLetters(known, program, checker.truth)
     run, t = checker.moment(moment)
     return Case(program, meaning, checker.truth), meaning.values(_OnRun(run, t, checker)), t

@@ -87,6 +87,8 @@ _NOTHING = {
     "Bigl",
     "Bigr",
     "displaystyle",
+    "notag",
+    "nonumber",
     "limits",
 }
 _FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "log", "arcsin", "arccos", "arctan"}
@@ -94,11 +96,11 @@ _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
-_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)")
+_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
 
 
 def glyphs(text: str) -> list[Glyph]:
-    """All glyphs of a statement. Comments and labels in front of a colon read as blanks. Raises ``StatementError``."""
+    """All glyphs of a statement. Comments, labels in front of a colon and numbers of equations at the end read as blanks. Raises ``StatementError``."""
     bare = _LABEL.sub(_blank, _COMMENT.sub(_blank, text))
     try:
         return _Reader(bare).all()
