@@ -69,8 +69,8 @@ class Fits:
 
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
-        found = _constant(need.needed) if isinstance(need.node, Number) else None
-        if found is not None and found != -need.node.value and (number := recognised(found)) is not None:
+        found = _constant(need.needed) if _is_figure(need.node) else None
+        if found is not None and found != -need.value[0] and (number := recognised(found)) is not None:
             yield Edit("factor", need.node, number, replace(equation, need.node, number))
         if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
             for letter in self._letters:
@@ -214,6 +214,12 @@ class Fits:
 def _arguments(equation: Equation) -> Iterator[Node]:
     """What sines and cosines are taken of."""
     return (n.arguments[0] for n in walk(equation) if isinstance(n, Call) and n.function in ("sin", "cos"))
+
+
+def _is_figure(node: Node) -> bool:
+    """Whether it is a number, or a fraction of two."""
+    parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
+    return all(isinstance(part, Number) for part in parts)
 
 
 def _constant(values: Array) -> float | None:

@@ -21,7 +21,6 @@ from .language.errors import StatementError
 from .language.nodes import Letter, Program, walk
 from .language.parser import parse
 from .language.tokens import Names
-from .printed import printed
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -121,6 +120,8 @@ class Letters:
 
     def _learn_printed(self) -> bool:
         """Those of printed equations join the others, which go before them; whether there are any that did not before."""
+        from .printed import printed
+
         taken = {folded(name) for name in self.meanings}
         new = {name: said for name, said in printed(self.mechanism).items() if folded(name) not in taken}
         for name, said in new.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,10 @@ from freebody.model.names import spell
 if TYPE_CHECKING:
     from freebody.equations.derivation.told import Subject
     from freebody.model.builder import Builder
+
+
+_ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
+"""The force at one place of a contact that holds at several, which the model language does not read."""
 
 
 def printed(mechanism: Builder) -> Mapping[str, str]:
@@ -33,7 +38,7 @@ def _loads(subject: Subject) -> Iterator[tuple[str, str]]:
 
     names = load_names(subject.free.loads, subject.source)
     for load in subject.free.loads:
-        if load.symbol in names:
+        if load.symbol in names and not _ONE_OF_SEVERAL.search(load.symbol):
             yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else load.symbol
 
 
@@ -45,7 +50,11 @@ def _numbers(subject: Subject) -> Iterator[tuple[str, str]]:
 
 
 def _bodies(subject: Subject) -> Iterator[tuple[str, str]]:
-    """Places, velocities and accelerations of mass centres, and angles."""
+    """Places, velocities and accelerations of mass centres, and angles; coordinates of a body, ``lower.angle`` as ``angle_lower``."""
+    for coordinate in subject.coordinates:
+        owner, _, stem = coordinate["name"].rpartition(".")
+        if owner:
+            yield f"{stem}_{owner}", spell(coordinate["name"])
     for body in subject.source.about["bodies"]:
         said, name = spell(body["name"]), body["name"]
         yield from ((unicode_name(f"{letter}_{name}"), f"{letter}({said}.G)") for letter in "xy")

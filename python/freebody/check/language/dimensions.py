@@ -64,7 +64,8 @@ def check_dimensions(program: Program, units_of_letters: Mapping[str, str | Dime
     """Raises ``DimensionError`` at the first two terms that do not go together.
 
     ``units_of_letters``: dimension or unit of each letter by its name, ``""`` for plain numbers and directions. A rate has that of its
-    letter by second; a letter that is not listed fits anything. ``figures``: so does every figure.
+    letter by second; a letter that is not listed fits anything. ``figures``: so does every
+    figure, every sum with one in it, and the time in seconds.
     """
     try:
         for line in inlined(program):
@@ -100,10 +101,12 @@ class _Reader:
             case Unit(text=text):
                 return unit(text).dimension
             case Letter():
-                return self.letter(node)
+                return None if self.figures and node.name == "t" else self.letter(node)
             case Negative(of=of):
                 return self.of(of)
             case Sum():
+                if self.figures and any(not letters(term) for _, term in addends(node)):
+                    return None
                 return self.agreed([(term, self.term(term)) for _, term in addends(node)])
             case Product(factors=factors):
                 return self.product(factors)
