@@ -68,4 +68,4 @@ def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: 
 
 def test_a_printed_letter_does_not_hide_one_of_the_model() -> None:
     model = fb.Mechanism.loads(WORDS.replace("{k: 30 N/m}", "{k: 30 N/m, r_tip: 2 N}"))
-    assert Checker(model).check("r_tip = 2 N/m k/k m").kind is not Kind.DIMENSIONS
+    assert Checker(model).check("r_tip = 2 N").kind is not Kind.DIMENSIONS

@@ -176,6 +176,9 @@ class Letters:
         for coordinate in self.about["coordinates"]:
             name = coordinate["name"]
             out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
+            owner, _, stem = name.rpartition(".")
+            if owner:
+                out.setdefault(f"{stem}_{owner}", out[name])  # as LaTeX prints it
         out.setdefault("t", Meaning("time", ("t",), TIME))
         if (text := gravity or self._gravity()) is not None:
             out.setdefault("g", Meaning("gravity", (text,), LENGTH.times(TIME, -2)))

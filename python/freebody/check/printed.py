@@ -50,16 +50,12 @@ def _numbers(subject: Subject) -> Iterator[tuple[str, str]]:
 
 
 def _bodies(subject: Subject) -> Iterator[tuple[str, str]]:
-    """Places, velocities and accelerations of mass centres, and angles; coordinates of a body, ``lower.angle`` as ``angle_lower``."""
-    for coordinate in subject.coordinates:
-        owner, _, stem = coordinate["name"].rpartition(".")
-        if owner:
-            yield f"{stem}_{owner}", spell(coordinate["name"])
+    """Places, velocities and accelerations of mass centres, and angles."""
     for body in subject.source.about["bodies"]:
         said, name = spell(body["name"]), body["name"]
         yield from ((unicode_name(f"{letter}_{name}"), f"{letter}({said}.G)") for letter in "xy")
-        for letter, what in (("r", "position"), ("v", "velocity"), ("a", "acceleration")):
-            yield unicode_name(f"{letter}_{name}"), f"{what} of {said}.G"
+        for letter, read in (("r", ""), ("v", "v"), ("a", "a")):
+            yield unicode_name(f"{letter}_{name}"), f"[{read}x({said}.G), {read}y({said}.G)]"
         if not body["particle"]:
             yield unicode_name(f"phi_{name}"), f"angle({said})"
             yield unicode_name(f"alpha_{name}"), f"alpha({said})"
@@ -85,21 +81,22 @@ def _directions(subject: Subject) -> Iterator[tuple[str, str]]:
     """Unit directions that turn, λ along the x axis of a body and n across it."""
     from freebody.equations.derivation.opening import directions
 
+    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
     for pair in directions(subject).pairs:
-        if (angle := _said(pair.angle)) is not None:
+        if (angle := _said(pair.angle, turning)) is not None:
             yield pair.along, f"[cos({angle}), sin({angle})]"
             yield pair.across, f"[-sin({angle}), cos({angle})]"
 
 
-def _said(tree: Tree) -> str | None:
-    """An angle in the model language: sums of letters with numbers; None for any other."""
+def _said(tree: Tree, turning: Mapping[str, str]) -> str | None:
+    """An angle in the model language: sums of letters with numbers; None for any other. ``turning``: how angles of bodies are said."""
     match tree:
         case Num(value):
             return f"({value})"
         case Sym(name, 0):
-            return spell(name)
+            return turning.get(name) or spell(name)
         case Add(parts) | Mul(parts):
-            said = [_said(part) for part in parts]
+            said = [_said(part, turning) for part in parts]
             sign = " + " if isinstance(tree, Add) else "*"
             return None if None in said else f"({sign.join(filter(None, said))})"
     return None

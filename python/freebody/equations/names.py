@@ -77,7 +77,8 @@ def unicode_name(text: str, dots: int = 0) -> str:
 
 def ascii_name(text: str, dots: int = 0) -> str:
     """The name with Greek spelt and a prime for each dot: ``theta1''``."""
-    return "".join(SPELT.get(sign, sign) for sign in text.translate(_FROM_SUBSCRIPTS)) + "'" * dots
+    plain = re.sub(r"\[(\d+)\]", r"\1", text.translate(_FROM_SUBSCRIPTS)).replace(" ", "_")
+    return "".join(SPELT.get(sign, sign) for sign in plain) + "'" * dots
 
 
 def latex_name(text: str, dots: int = 0, *, reaction: bool = False) -> str:

@@ -76,6 +76,8 @@ _CLOTHES = {
     ),
     *("widehat", "mathsf", "textbf", "overline", "tilde", "pmb"),
 }
+_WORDS = {"mathrm", "mathsf", "operatorname", "text", "textbf"}
+"""Clothes of names, which may have blanks in them."""
 _NOTHING = {
     *[",", "!", ";", ":", "(", ")", "[", "]", ">"],
     "left",
@@ -203,7 +205,8 @@ class _Reader:
         if word in _DOTS:
             return _dotted(self.group(), _DOTS[word])
         if word in _CLOTHES:
-            return self.group()
+            inside = self.group()
+            return inside if word not in _WORDS else [g for g in inside if g.kind is not Kind.SPACE]
         if word in LATEX_WORDS:
             greek = word not in ("ell", "imath", "jmath", "sum", "prime")
             return [Glyph(Kind.PRIME if word == "prime" else Kind.WORD, LATEX_WORDS[word], span, greek=greek)]
