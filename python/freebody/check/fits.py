@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -77,6 +78,17 @@ class Fits:
                 if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
                     new = Letter(letter.name, letter.dots, span=need.node.span)
                     yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+        if isinstance(need.node, Letter) and need.node in self.vocabulary.parameters:
+            yield from self._lengthened(equation, need, need.node)
+
+    def _lengthened(self, equation: Equation, need: Need, letter: Letter) -> Iterator[Edit]:
+        """A parameter that should be the sum or the difference of two, as an arm often is."""
+        for a, b in permutations((letter, *self.vocabulary.alike(letter)), 2):
+            one, two = self.values[a.key], self.values[b.key]
+            for part, whole in ((b, one + two), (Negative(b), one - two)):
+                if np.allclose(whole, need.needed, rtol=_SAME, atol=0):
+                    new = Sum((a, part), span=letter.span)
+                    yield Edit("letter", letter, new, replace(equation, letter, new), 0.2)
 
     @cached_property
     def _letters(self) -> list[Letter]:
