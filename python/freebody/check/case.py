@@ -77,10 +77,10 @@ class Case:
         """Values that are no true state, where only what is the same by itself is the same."""
         names = self.meaning.names()
         sizes = {key: np.where(np.any(value), value, 1.0) for key, value in values.items()}
-        rng, factors = np.random.default_rng(5), {}  # always the same places
+        rng, draws = np.random.default_rng(5), {}  # always the same places
         for key, value in sizes.items():
-            factors.setdefault(names.get(key, key), rng.uniform(0.7, 1.4, value.shape))
-        return {key: value * factors[names.get(key, key)] for key, value in sizes.items()}
+            draws.setdefault(names.get(key, key), value * rng.uniform(0.7, 1.4, value.shape))
+        return {key: draws[names.get(key, key)] for key in sizes}
 
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""

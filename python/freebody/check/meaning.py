@@ -72,18 +72,7 @@ class StatementLetters:
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
-        return {n.key: self._independent(_meant(self._one(n).needed(n.dots))) for n in self._valued}
-
-    def _independent(self, texts: tuple[str, ...]) -> tuple[str, ...]:
-        """For a parameter that follows from another one, that one."""
-        return self._made_of.get(texts[0], texts) if len(texts) == 1 else texts
-
-    @cached_property
-    def _made_of(self) -> dict[str, tuple[str, ...]]:
-        """The one parameter in the expression of each that has one."""
-        made = {p["name"]: _WORD.findall(p["value"]) for p in self.truth.spec["parameters"] if isinstance(p["value"], str)}
-        bases = {name: [word for word in words if word in self.truth.parameter_names] for name, words in made.items()}
-        return {name: (words[0],) for name, words in bases.items() if len(set(words)) == 1}
+        return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
     @cached_property
     def _valued(self) -> list[Letter]:
@@ -139,7 +128,7 @@ class StatementLetters:
     @cached_property
     def _parameters(self) -> list[Letter]:
         own = [Letter(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
-        own.sort(key=lambda n: n.name in self._made_of)
+        own.sort(key=lambda n: n.name not in self.truth.free_parameters)
         made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
         return self._once([*made, *(n for n in own if n in self.used), *own])
 
