@@ -204,8 +204,7 @@ class Letters:
                 text = f"{spell(owner)}.{part}"
                 meaning = Meaning("reaction", (text,), self.named.dimension(f"{owner}.{part}", self.writer.scope))
                 endings = [f".{part}", f"_{part}", *([f"_{_SHORT[part]}"] if part in _SHORT else [])]
-                plain = spell(owner) == owner
-                out |= {f"{owner}{end}": meaning for end in endings} if plain else {text: meaning}
+                out |= {text: meaning, **{f"{owner.replace(' ', '_')}{end}": meaning for end in endings}}
         return out
 
     def _joint_parts(self, name: str) -> list[str]:

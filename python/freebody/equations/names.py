@@ -44,7 +44,7 @@ class Name:
         stem = GREEK.get(self.stem, _word(self.stem))
         below = "".join(part.translate(_SUBSCRIPTS) if part.isdigit() else f"_{_word(part)}" for part in self.below)
         made = stem + _COMBINING[dots] + below if self.is_letter else stem + below + "′" * dots
-        return f"{self.owner}.{made}" if self.owner else made
+        return f"{self.owner.replace(' ', '_')}.{made}" if self.owner else made
 
     def ascii(self) -> str:
         """``N_track``, ``N_floor1``."""
