@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
+from freebody.equations.names import upright
 from freebody.equations.tree import Sym, Tree, add, is_zero, read, symbols
 from freebody.free_body import GROUND, Pair
 
@@ -70,9 +74,9 @@ def _momenta(subject: Subject) -> list[Block]:
     asked = [(question, where) for question, where, likely in found if likely]
     balances = subject.balances([{"ask": "equation", "bodies": [], **question} for question, _ in asked])
     made: list[Block] = []
-    for balance, (_, where) in zip(balances, asked, strict=True):
+    for balance, (question, where) in zip(balances, asked, strict=True):
         if is_zero(balance.left) and not is_zero(balance.momentum):
-            made += _constant(balance, where)
+            made += _constant(balance, where, _letter(question))
     return made
 
 
@@ -88,13 +92,20 @@ def _fixed_points(subject: Subject) -> list[tuple[str, float, float]]:
     return [(name, x, y) for name, (body, x, y) in points if body == GROUND and not name.endswith(".origin")]
 
 
-def _constant(balance: Balance, where: str) -> list[Block]:
+def _letter(question: Mapping[str, Any]) -> Written:
+    """``L_x``, ``H/ground.O``, about the mass centre of the whole ``H/G``."""
+    if axis := question.get("along"):
+        return Written(f"L_{axis}", f"L_{axis}")
+    point = question["about"]["point"] if question["about"] != "centre" else "G"
+    return Written(f"H/{point}", rf"H_{{/{upright(point)}}}")
+
+
+def _constant(balance: Balance, where: str, letter: Written) -> list[Block]:
     if balance.turns:
         why = f"The angular momentum {where} is conserved: nothing from outside has a moment about that point."
     else:
         why = f"The momentum {where} is conserved: nothing from outside acts on the whole in that direction."
-    written = Written(f"H {where}", r"H") if balance.turns else Written("L", "L")
-    return [Paragraph(why), Equation(written, balance.momentum)]
+    return [Paragraph(why), Equation(letter, balance.momentum)]
 
 
 def total(subject: Subject) -> Tree | None:
