@@ -7,7 +7,7 @@ of all groups give together is a rank, so that what it is short of is short of i
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -54,16 +54,12 @@ def _rank(sums: Array, wanted: Sequence[int], more: Iterable[int], rest: Sequenc
     gone = [i for i in rest if i not in more]
     if not kept:
         return 0
-    rows = np.vstack([motions @ of[kept].T for of, motions in zip(sums, _still(sums[:, gone]), strict=True)])
-    return int(np.linalg.matrix_rank(rows, tol=DEPENDENT)) if rows.size else 0
+    rows = np.einsum("gmd,gkd->gmk", _still(sums[:, gone]), sums[:, kept]).reshape(-1, len(kept))
+    return int(np.linalg.matrix_rank(rows, tol=DEPENDENT))
 
 
-def _still(tables: Array) -> Iterator[Array]:
-    """For each table (ng, nu, nd) the motions (…, nd) that none of its rows works in."""
-    for sizes, turn in zip(*np.linalg.svd(_padded(tables))[1:], strict=True):
-        yield turn[int((sizes > DEPENDENT).sum()) :]
-
-
-def _padded(tables: Array) -> Array:
-    """With rows of zeros, so that there are as many rows as columns."""
-    return np.pad(tables, ((0, 0), (0, max(0, tables.shape[2] - tables.shape[1])), (0, 0)))
+def _still(tables: Array) -> Array:
+    """For each table (ng, nu, nd) the motions (ng, nd, nd) that none of its rows works in, and zeros."""
+    _, sizes, turn = np.linalg.svd(np.pad(tables, ((0, 0), (0, max(0, tables.shape[2] - tables.shape[1])), (0, 0))))
+    works = np.arange(turn.shape[1]) < (sizes > DEPENDENT).sum(axis=1)[:, None]
+    return np.where(works[:, :, None], 0.0, turn)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from freebody.balances.candidates import WORTH, Candidate, bits, candidates
 from freebody.balances.equation import BalanceEquation, equation
 from freebody.balances.exact import fewest, without_reactions
 from freebody.balances.groups import groups
 from freebody.balances.search import Supports, plainest, set_cost, unions, within
-from freebody.balances.system import Problem, problem
+from freebody.balances.system import DEPENDENT, Problem, problem
 from freebody.balances.twists import NamedPoints
 from freebody.free_body import FreeBodies
 
@@ -53,8 +55,8 @@ class MinimalForm:
 
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None, forces: bool = False) -> MinimalForm:
     """The minimal form at ``states[0]``; ``states`` and ``points`` are those of ``smallest_set``. ``forces``: equations for the
-    forces of prescribed motions are wanted as well."""
-    given = problem(states)
+    forces of prescribed motions are wanted as well. Where the loops are singular at ``states[0]``, the numbers are those of the next."""
+    given = problem(_regular(states))
     moving = [i for i, unknown in enumerate(given.unknowns) if unknown.coordinate]
     driving = [i for i in range(len(given.unknowns)) if forces and i not in moving and _drives(given, i)]
     wanted = [*moving, *driving]
@@ -68,6 +70,17 @@ def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None
     chosen, stays = _best(given, points or {}, wanted, bits(moving), shown)
     names = tuple(unknown.name for i, unknown in enumerate(given.unknowns) if stays >> i & 1)
     return MinimalForm(coordinates, tuple(equation(given, candidate) for candidate in chosen), names, *told)
+
+
+def _regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
+    """Without the first where its loops hold less than they do near by, and so do not tell which coordinates are free."""
+    ranks = [_rank(state) for state in states]
+    return states[1:] if len(states) > 1 and ranks[0] < ranks[1] else states
+
+
+def _rank(state: FreeBodies) -> int:
+    table = np.array([list(row.coefficients.values()) for row in state.rows])
+    return int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max())) if table.size else 0
 
 
 def _drives(given: Problem, place: int) -> bool:

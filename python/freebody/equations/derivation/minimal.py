@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
 from freebody.balances.show import fewest_words
 from freebody.balances.states import nearby
-from freebody.balances.system import DEPENDENT
 from freebody.equations.derivation import closing, virtual
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
@@ -18,7 +15,6 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Heading, Paragraph
-from freebody.free_body import FreeBodies
 
 
 @dataclass(frozen=True)
@@ -70,20 +66,9 @@ def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) ->
 def _chosen(subject: Subject) -> _Chosen:
     if all(row.kind == "motion" for row in subject.rows):
         return _Chosen(of_coordinates(subject), None)
-    search = minimal_form(_regular(nearby(subject.source, subject.state)), subject.points, forces=True)
+    search = minimal_form(nearby(subject.source, subject.state), subject.points, forces=True)
     found = from_search(subject, list(search.equations))
     return _Chosen(found if found or not search.wanted else of_coordinates(subject), search)
-
-
-def _regular(states: list[FreeBodies]) -> list[FreeBodies]:
-    """Without the first where its loops hold less than they do near by: the letters are not for that place alone."""
-    ranks = [_rank(state) for state in states]
-    return states[1:] if len(states) > 1 and ranks[0] < ranks[1] else states
-
-
-def _rank(state: FreeBodies) -> int:
-    table = np.array([list(row.coefficients.values()) for row in state.rows])
-    return int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max())) if table.size else 0
 
 
 def _printed(stated: Stated) -> Printed:

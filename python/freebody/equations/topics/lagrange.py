@@ -6,20 +6,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from freebody.equations.collect import quotient
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, Written
+from freebody.equations.linear import linear_in
 from freebody.equations.simplify import equal
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
-from freebody.equations.tree import ZERO, Num, Sym, Tree, add, is_zero, minus, mul, negative, read
+from freebody.equations.tree import ZERO, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, walk
 
 if TYPE_CHECKING:
     from freebody.instant import State
     from freebody.model.builder import Builder
 
+_MOST_SIGNS = 400
+"""Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for in letters."""
 _KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
 
 
@@ -52,6 +56,11 @@ def combination(subject: Subject, of: Sequence[Lagrange], balances: Sequence[Sta
     inertia = [[balance.balance.linear.coefficients.get(x, ZERO) for x in accelerations] for balance in balances]
     made: list[list[Tree]] = []
     for each in of:
+        if row := _alone(each, balances, accelerations):
+            made.append(row)
+            continue
+        if sum(1 for entry in (each.residual, *(x for row in inertia for x in row)) for _ in walk(entry)) > _MOST_SIGNS:
+            return None
         own = _coefficients(each.residual, accelerations)
         try:
             made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.letters))
@@ -61,6 +70,21 @@ def combination(subject: Subject, of: Sequence[Lagrange], balances: Sequence[Sta
         if not equal(each.residual, add(*sides)):
             return None
     return made
+
+
+def _alone(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[Sym]) -> list[Tree] | None:
+    """The factors where the equation is one of the balances, times something; that is seen without solving anything."""
+    try:
+        own = linear_in(each.residual, accelerations).coefficients
+    except ValueError:
+        return None
+    for place, balance in enumerate(balances):
+        theirs = balance.balance.linear.coefficients
+        if x := next((x for x in own if x in theirs and not is_zero(own[x])), None):
+            factor = mul() if equal(own[x], theirs[x]) else quotient(own[x], theirs[x])
+            if equal(each.residual, mul(factor, balance.balance.residual)):
+                return [factor if i == place else ZERO for i in range(len(balances))]
+    return None
 
 
 def lagrange(mechanism: Builder, state: State) -> Document:
