@@ -64,7 +64,8 @@ def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) ->
 
 
 def _chosen(subject: Subject) -> _Chosen:
-    if all(row.kind == "motion" for row in subject.rows):
+    rubs = any(load.follows for load in subject.free.loads)
+    if all(row.kind == "motion" for row in subject.rows) and not rubs:
         return _Chosen(of_coordinates(subject), None)
     search = minimal_form(nearby(subject.source, subject.state), subject.points, forces=True)
     found = from_search(subject, list(search.equations))

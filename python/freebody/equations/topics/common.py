@@ -34,7 +34,8 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
-    made = (first, *opening.letters(letters, used(list(blocks))), *blocks)
+    sketch = [opening.sketch(subject)] if subject.coordinates else []
+    made = (first, *sketch, *opening.letters(letters, used(list(blocks))), *blocks)
     return Document(tuple(lettered(block, letters) for block in made), letters)
 
 
