@@ -7,6 +7,7 @@ mod energy;
 mod equation;
 mod free_coordinates;
 mod motion;
+mod power;
 mod question;
 mod vectors;
 
