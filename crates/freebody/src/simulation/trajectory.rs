@@ -113,7 +113,10 @@ impl Trajectory {
         let mut y = vec![0.0; self.run.y.len()];
         let mut last = None;
         for &t in times {
-            if !self.run.trajectory.at(t, &mut y) {
+            if t == self.run.t {
+                // After what happened there.
+                y.copy_from_slice(&self.run.y);
+            } else if !self.run.trajectory.at(t, &mut y) {
                 let (first, end) = (self.steps[0], self.run.t);
                 return Err(Trouble::new(
                     "out_of_range",
