@@ -327,7 +327,14 @@ pub enum Deed {
     /// Put a part in place; what does not fit at once comes together with a plastic impact.
     Engage(Part),
     /// Give a gauge a rate at once, with the least change of momentum.
-    Reset(Law, Law),
+    Reset {
+        /// The gauge in its user's words.
+        gauge: String,
+        /// The gauge.
+        of: Law,
+        /// Its rate.
+        rate: Law,
+    },
 }
 
 impl Mechanism {

@@ -74,7 +74,8 @@ impl Compiler<'_> {
                 Action::Reset(rates) => {
                     for (gauge, rate) in rates {
                         let of = self.law(path, gauge, Reach::Configuration)?;
-                        deeds.push(Deed::Reset(of, self.law(path, rate, Reach::Instant)?));
+                        let rate = self.law(path, rate, Reach::Instant)?;
+                        deeds.push(Deed::Reset { gauge: gauge.clone(), of, rate });
                     }
                 }
             }

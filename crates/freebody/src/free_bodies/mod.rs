@@ -3,13 +3,11 @@
 //! A load is one thing that pushes, pulls or turns: a weight, a spring, one component of the reaction of a joint. On two bodies
 //! it acts in equal and opposite ways. What is not known before the balance is solved is told for a unit of it.
 
-mod accelerations;
 mod given;
 mod limits;
 mod numbers;
 mod reactions;
 
-pub use accelerations::accelerations;
 pub use numbers::free_bodies;
 
 use crate::balance::Source;

@@ -1,6 +1,6 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
-use super::{accelerations, loads, mass_centre, Load, Origin, Part, Size};
+use super::{loads, mass_centre, Load, Origin, Part, Size};
 use crate::balance::{closing_rows, Balance, Labels, Source, Trouble};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
@@ -23,11 +23,12 @@ pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
     let all = loads(at);
     let told: Vec<Value> = all.iter().map(|load| tell(balance, load, sizes.of_load(balance, load, &all))).collect();
     let still = vec![0.0; m.freedom()];
-    let drift = accelerations(at, &still);
+    let spread = |of_coordinates: &[f64]| at.k.spread_user(m, at.n, of_coordinates);
+    let drift = spread(&still);
     let unit = |j: usize| -> Vec<Twist> {
         let mut one = still.clone();
         one[j] = 1.0;
-        accelerations(at, &one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
+        spread(&one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
     };
     let units: Vec<Vec<Twist>> = (0..m.freedom()).map(unit).collect();
     let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(balance, i, &drift, &units)).collect();

@@ -14,7 +14,7 @@ pub use question::{answer, Question, Setting};
 
 use crate::algebra::Letter;
 use crate::balance::{Balance, Trouble};
-use crate::free_bodies::{accelerations, loads, Load, Size};
+use crate::free_bodies::{loads, Load, Size};
 use crate::gauges::Placed;
 use crate::kinematics::Kinematics;
 use crate::mechanism::Mechanism;
@@ -72,7 +72,7 @@ impl<'m> Letters<'m> {
         k.sweep(m, &n, &q, &u);
         let t = named("t", 0, at.t);
         let placed = Placed { m, n: &n, k: &k, q: &q, u: &u, t, mode: &balance.mode };
-        let bodies = accelerations(placed, &a);
+        let bodies = k.spread_user(m, &n, &a);
         let loads = loads(placed);
         let sizes = sizes(&loads, values);
         Letters { m, mode: &balance.mode, n, k, t, q, u, a, bodies, loads, sizes, named: numbers }

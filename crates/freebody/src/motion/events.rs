@@ -25,6 +25,8 @@ pub enum Kind {
     Crossing,
     /// It has an extremum that is zero; nothing was done about it.
     Touch,
+    /// None: it happened at the start, before anything moved.
+    Opening,
 }
 
 /// A zero of a switching function on a segment.

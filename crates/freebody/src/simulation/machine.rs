@@ -7,7 +7,7 @@ use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
 use crate::mechanism::{Deed, Kink};
 use crate::mode::Mode;
-use crate::motion::{After, Canonical, System, Watch};
+use crate::motion::{After, Canonical, Happening, System, Watch};
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
 const DELICATE: f64 = 0.5;
@@ -44,6 +44,8 @@ pub struct Machine<'m> {
     pub(super) jams_strike: bool,
     /// What has switched.
     pub(super) changes: Vec<Change>,
+    /// The events of the start.
+    pub(super) openings: Vec<Happening>,
     /// After the last bounce: what struck and what comes back first, and how long its flight lasts, s.
     pub(super) flight: Option<(Vec<usize>, f64)>,
     /// Sizes of forces, N, and of speeds, m/s.
@@ -82,6 +84,7 @@ impl<'m> Machine<'m> {
             rule: Rule::Stop,
             jams_strike: false,
             changes: vec![],
+            openings: vec![],
             flight: None,
             strength: 1.0,
             speed: 1.0,

@@ -4,7 +4,7 @@ use super::impacts::Rule;
 use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
 use crate::mode::Hold;
-use crate::motion::System;
+use crate::motion::{Happening, Kind, System};
 
 /// Gap, over the characteristic length, below which a limit is reached.
 pub(super) const REACHED: f64 = 1e-10;
@@ -38,8 +38,11 @@ impl Machine<'_> {
             }
             self.settle(t, y)?;
         }
-        for event in m.events.iter().filter(|event| event.opening && start.mode.is_none()) {
-            self.happen(event, t, y)?;
+        for (i, event) in m.events.iter().enumerate().filter(|(_, e)| e.opening && start.mode.is_none()) {
+            if self.armed(i, t, y)? {
+                self.openings.push(Happening { t, y: y.to_vec(), index: i, kind: Kind::Opening, direction: 0 });
+                self.happen(event, t, y)?;
+            }
         }
         self.open();
         Ok(())
