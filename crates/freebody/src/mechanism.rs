@@ -256,20 +256,31 @@ pub struct Drive {
     pub feedback: bool,
 }
 
-/// Coulomb friction along a coordinate of a joint: at most a coefficient times the size of the force that the joint
-/// carries (times the radius of its bearing).
+/// Coulomb friction that is known once the force that presses is: at most a coefficient times its size.
 #[derive(Clone, Debug)]
 pub struct Rub {
-    /// The joint.
-    pub joint: usize,
-    /// The coordinate along which it rubs.
-    pub along: Law,
+    /// What rubs.
+    pub of: Rubbing,
     /// Coefficient at rest.
     pub fixed: Slot,
     /// Coefficient of sliding.
     pub kinetic: Slot,
-    /// Radius of the bearing of a hinge.
-    pub radius: Option<Slot>,
+}
+
+/// What rubs.
+#[derive(Clone, Debug)]
+pub enum Rubbing {
+    /// A joint, by the force that it carries (times the radius of its bearing).
+    Joint {
+        /// The joint.
+        joint: usize,
+        /// The coordinate along which it rubs.
+        along: Law,
+        /// Radius of the bearing of a hinge.
+        radius: Option<Slot>,
+    },
+    /// A limit for which a spring stands, by the force of the spring and its damper.
+    Limit(usize),
 }
 
 /// Something that can be released and engaged during a motion.
@@ -374,6 +385,10 @@ impl Mechanism {
         let switches = |deed: &Deed| matches!(deed, Deed::Release(_) | Deed::Engage(_));
         !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty())
             || self.events.iter().any(|e| e.then.iter().any(switches))
+    }
+    /// The friction of a limit for which a spring stands.
+    pub fn rub_of(&self, limit: usize) -> Option<usize> {
+        self.rubs.iter().position(|rub| matches!(rub.of, Rubbing::Limit(l) if l == limit))
     }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {

@@ -3,7 +3,7 @@
 use super::outline::Outline;
 use super::{twice, CompileError, Compiler, Reach, Result};
 use crate::contact::{Disk, Friction, Gap, Group, Limit, Profile, Touch};
-use crate::mechanism::{Marker, Slot};
+use crate::mechanism::{Marker, Rub, Rubbing, Slot};
 use crate::plane::Vec2;
 use crate::spec::{Contact, Number, Surface};
 
@@ -122,10 +122,19 @@ impl Compiler<'_> {
             let friction = self.friction(&path, contact)?;
             let restitution = self.restitution(&path, &contact.restitution)?;
             let soft = self.soft(&path, &contact.stiffness, &contact.damping)?;
-            if soft.is_some() && friction.is_some() {
-                let what = "a contact on a spring has no friction here";
-                return Err(CompileError::new(&path, what, "leave out the friction or the stiffness"));
-            }
+            let friction = match (friction, soft) {
+                (Some(Friction::Coulomb { fixed, kinetic }), Some(_)) => {
+                    let first = self.m.limits.len();
+                    let rub = |limit| Rub { of: Rubbing::Limit(limit), fixed, kinetic };
+                    self.m.rubs.extend((first..first + touches.len()).map(rub));
+                    None
+                }
+                (Some(Friction::Rough), Some(_)) => {
+                    let what = "a rough contact on a spring would jerk when it touches down";
+                    return Err(CompileError::new(&path, what, "give the coefficient of its friction"));
+                }
+                (friction, _) => friction,
+            };
             let limits = touches.into_iter().map(|touch| Limit {
                 bodies: touch.bodies(&self.m).into_iter().filter(|&body| body > 0).collect(),
                 gap: Gap::Touch(touch),

@@ -5,7 +5,7 @@ use super::{twice, CompileError, Compiler, Fields, Result};
 use crate::gauges::{Law, Leaf};
 use crate::graph::Branch as TreeBranch;
 use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
-use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker};
+use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker, Rub, Rubbing};
 use crate::spec::Coordinate as CoordinateSpec;
 
 /// What the fields of a joint give, side by side.
@@ -112,13 +112,8 @@ impl Compiler<'_> {
             None => kinetic,
         };
         let radius = friction.radius.as_ref().map(|r| self.number_slot(&path, r)).transpose()?;
-        self.m.rubs.push(crate::mechanism::Rub {
-            joint,
-            along: Law::leaf(Leaf::Coordinate(joint, 0)),
-            fixed,
-            kinetic,
-            radius,
-        });
+        let of = Rubbing::Joint { joint, along: Law::leaf(Leaf::Coordinate(joint, 0)), radius };
+        self.m.rubs.push(Rub { of, fixed, kinetic });
         Ok(())
     }
 

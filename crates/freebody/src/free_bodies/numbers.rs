@@ -126,11 +126,7 @@ fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, 
                 Source::Limit(limit) => (m.groups[m.limits[limit].group].word, None),
                 Source::Friction(_) | Source::Rub(_) => ("friction", None),
             };
-            let path = match source {
-                Source::Limit(l) | Source::Friction(l) => m.groups[m.limits[l].group].path(),
-                _ => source.path(m),
-            };
-            (kind, source.name(m), path, component)
+            (kind, source.name(m), source.path(m), component)
         }
         Origin::Sliding(limit) | Origin::Pressed(limit) => {
             let group = &m.groups[m.limits[limit].group];

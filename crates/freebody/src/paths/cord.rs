@@ -120,6 +120,14 @@ impl Cord {
         borders
     }
 
+    /// The shortest of the stretches between two points, m: none of them has a direction where it vanishes.
+    pub fn shortest(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: Piece) -> f64 {
+        let layout = Layout::new(self, m, poses, Winding::of(piece.index), piece.phase);
+        let between_points = layout.rounds.windows(2).map(|pair| pair.iter().all(|round| round.radius == 0.0));
+        let lengths = layout.free.iter().zip(between_points).filter(|(_, points)| *points).map(|(free, _)| free.length);
+        lengths.fold(f64::INFINITY, f64::min)
+    }
+
     /// The bodies on which its slack depends, ground left out, each once.
     pub fn bodies(&self, m: &Mechanism) -> Vec<usize> {
         let mut bodies: Vec<usize> = self.sites().map(|site| m.body_of(site)).filter(|&body| body > 0).collect();

@@ -3,6 +3,7 @@
 use super::impacts::Rule;
 use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
+use crate::contact::Gap;
 use crate::mode::Hold;
 use crate::motion::{Happening, Kind, System};
 
@@ -51,21 +52,36 @@ impl Machine<'_> {
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
-        if self.balance.m.limits[l].soft.is_some() {
-            let before = self.balance.mode.clone();
-            let held = &mut self.balance.mode.limits[l];
-            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
-            return self.take_mode(t, &before);
-        }
+        let limit = &self.balance.m.limits[l];
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
             held.piece.index = beyond;
-            if !self.balance.m.limits[l].gap.can_close(beyond) {
+            if !limit.gap.can_close(beyond) {
                 held.hold = Hold::Open;
             }
+        } else if limit.soft.is_some() {
+            let before = self.balance.mode.clone();
+            let held = &mut self.balance.mode.limits[l];
+            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
+            self.stick(t, y, &[], None)?;
+            return self.take_mode(t, &before);
+        } else if let (1, Gap::Cord(_)) = (guard, &limit.gap) {
+            return Err(self.vanished(l, t));
         }
         self.settle(t, y)
+    }
+
+    /// Says that a stretch of a taut string has come to its end.
+    fn vanished(&self, l: usize, t: f64) -> Trouble {
+        let group = &self.balance.m.groups[self.balance.m.limits[l].group];
+        let what = format!(
+            "the taut string `{}` is drawn in until two of its points meet, at t = {t:.12} s, and then has no direction there",
+            group.name
+        );
+        let why = "a little to one side it would swing round at once, and straight through it would jerk";
+        Trouble::new("string_drawn_in", format!("{what}: {why}; let it pass beside, or put a stop before"))
+            .about(group.path())
     }
 
     /// A guard of a joint that rubs fell to zero: it sticks no more, or stopped.

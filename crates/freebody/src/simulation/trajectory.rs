@@ -266,5 +266,4 @@ impl Trajectory {
     pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
         self.at(m, t, |balance| Ok((balance.instant(route)?, balance.freedom())))
     }
-
 }
