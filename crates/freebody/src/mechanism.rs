@@ -56,6 +56,8 @@ pub struct Mechanism {
     pub groups: Vec<Group>,
     /// Joints that rub.
     pub rubs: Vec<Rub>,
+    /// Joints along curves that can be released.
+    pub runners: Vec<Runner>,
     /// Parts that are not in place at the start.
     pub idle: Vec<Part>,
     /// What to watch for.
@@ -283,6 +285,18 @@ pub enum Rubbing {
     Limit(usize),
 }
 
+/// A massless particle that runs on a curve and carries a pin, in place of a joint along the curve that can be released:
+/// then the pin is, and the particle is held where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Runner {
+    /// The joint along the curve, which carries the particle.
+    pub joint: usize,
+    /// The joint by which the particle carries the second body.
+    pub pin: usize,
+    /// The row that holds the particle.
+    pub hold: usize,
+}
+
 /// Something that can be released and engaged during a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -373,6 +387,7 @@ impl Mechanism {
             limits: vec![],
             groups: vec![],
             rubs: vec![],
+            runners: vec![],
             idle: vec![],
             events: vec![],
             kinks: vec![],
@@ -385,6 +400,11 @@ impl Mechanism {
         let switches = |deed: &Deed| matches!(deed, Deed::Release(_) | Deed::Engage(_));
         !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty())
             || self.events.iter().any(|e| e.then.iter().any(switches))
+    }
+    /// The row that holds what runs on a curve once its pin, a part, is released.
+    pub fn held_without(&self, part: Part) -> Option<Part> {
+        let runner = self.runners.iter().find(|runner| part == Part::Joint(runner.pin))?;
+        Some(Part::Drive(runner.hold))
     }
     /// The friction of a limit for which a spring stands.
     pub fn rub_of(&self, limit: usize) -> Option<usize> {

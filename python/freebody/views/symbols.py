@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,22 @@ Fields = Mapping[str, Any]
 
 
 def draw_joints(sketch: Sketch) -> None:
-    """The symbol of every joint that has one."""
+    """The symbol of every joint that has one; what holds is drawn only as long as the joint is there."""
     for joint in sketch.spec["joints"]:
-        symbol = JOINTS.get(joint["type"])
+        symbol, there = JOINTS.get(joint["type"]), sketch.there(joint["name"], joint.get("engaged", True))
         if symbol:
+            known = {id(stroke) for figure in sketch.figures.values() for stroke in figure.strokes}
             symbol(sketch, joint["name"], joint["with"])
+            if not there.all():
+                _fade(sketch, known, there)
+
+
+def _fade(sketch: Sketch, known: set[int], there: Array) -> None:
+    """Pins and welds that are not among those ``known`` before are shown only at times (nt,) at which they are ``there``."""
+    for figure in sketch.figures.values():
+        for i, stroke in enumerate(figure.strokes):
+            if id(stroke) not in known and stroke.style in ("pin", "weld"):
+                figure.strokes[i] = replace(stroke, shown=there)
 
 
 def draw_forces(sketch: Sketch) -> None:
@@ -150,6 +162,15 @@ def _cam(sketch: Sketch, name: str, fields: Fields) -> None:
     _wheel(sketch, fields["follower"], "block")
 
 
+def _flat_follower(sketch: Sketch, name: str, fields: Fields) -> None:
+    _curve(sketch, name, fields["along"])
+    body, at, along = sketch.line(fields["face"])
+    about = next(j for j in sketch.about["joints"] if j["name"] == name)
+    slides = -np.array(sketch.travel(about["coordinates"][1])) if len(about["coordinates"]) > 1 else np.zeros(2)
+    ends = [slides.min() - 4 * sketch.size, slides.max() + 4 * sketch.size]
+    sketch.figures[body].add(at + np.outer(ends, along), "rail", closed=False)
+
+
 def _curve(sketch: Sketch, joint: str, name: str) -> None:
     """The stretch of a curve that the motion runs along, and a little more at both ends."""
     curve = next((c for c in sketch.spec.get("curves", []) if c["name"] == name), None)
@@ -231,6 +252,7 @@ JOINTS: dict[str, Callable[[Sketch, str, Fields], None]] = {
     "slot": _slot,
     "curved_slot": _curved_slot,
     "cam": _cam,
+    "flat_follower": _flat_follower,
     "link": _link,
     "rolling": _rolling,
     "rolling_circles": _rolling_circles,

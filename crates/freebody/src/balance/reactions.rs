@@ -117,7 +117,7 @@ impl Balance<'_> {
         let on_second = load.at_pin(at, second).parts();
         let mut rows = vec![];
         match at.m.joints[joint].curve {
-            Some(_) => rows.push(super::constraints::curve_row(at, joint)),
+            Some(_) => rows.push(super::constraints::curve_row(at, joint).0),
             None => super::rows::joint_rows(at, joint, None, &mut rows),
         }
         let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());

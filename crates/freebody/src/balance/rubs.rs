@@ -5,12 +5,14 @@
 //! long as friction does not jam the joint each turn brings them closer.
 
 use super::rows::rub_row;
-use super::{Balance, Route, Source, Trouble};
+use super::{Balance, Route, Scale, Source, Trouble};
 use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 
 /// Turns after which a joint counts as jammed.
 const TURNS: usize = 200;
+/// Part of the mechanism's own accelerations below which one brings nothing back.
+const NOTHING: f64 = 1e-9;
 /// Change of a friction force, over itself, that is round-off.
 const SETTLED: f64 = 1e-14;
 
@@ -94,34 +96,57 @@ impl Balance<'_> {
     /// Lets all that rubs go on as it is: what moves slides, the rest sticks, and what is not pressed does neither.
     pub fn start_rubs(&mut self, still: f64) {
         for rub in 0..self.m.rubs.len() {
-            let rate = self.rub_rate(rub);
-            let arm = match self.m.rubs[rub].of {
-                Rubbing::Joint { radius, .. } => radius.map_or(1.0, |_| self.length),
-                Rubbing::Limit(_) => 1.0,
-            };
             self.mode.rubs[rub] = match self.m.rubs[rub].of {
                 Rubbing::Limit(limit) if self.mode.limits[limit].hold != Hold::Pressed => Hold::Open,
-                _ if rate.abs() * arm <= still => Hold::Stuck,
-                _ => Hold::Sliding(rate.signum()),
+                _ if self.rests(rub, still) => Hold::Stuck,
+                _ => Hold::Sliding(self.rub_rate(rub).signum()),
             };
         }
     }
 
-    /// Of what sticks, lets that slide whose friction at rest does not suffice; answers whether there was any.
+    /// Lets the first slide that sticks and whose friction at rest does not suffice, or the first stick again that slides from
+    /// rest and would be brought back, but not the one just come `loose`; answers whether there was one (Murty 1974,
+    /// *Mathematical Programming* 7, 138: the first of them, so that it comes to an end).
     ///
     /// # Errors
     /// As [`Balance::solve`].
-    pub fn loosen_rubs(&mut self) -> Result<bool, Trouble> {
+    pub fn turn_rub(&mut self, scale: Scale, loose: Option<usize>) -> Result<bool, Trouble> {
         self.solve()?;
-        let mut loosened = false;
         for rub in 0..self.m.rubs.len() {
-            let [ahead, back] = self.rub_reserve(rub);
-            if self.mode.rubs[rub] == Hold::Stuck && ahead.min(back) < 0.0 {
-                // Friction that would have to push ahead cannot keep it from sliding back.
-                self.mode.rubs[rub] = Hold::Sliding(if ahead < back { -1.0 } else { 1.0 });
-                loosened = true;
+            match self.mode.rubs[rub] {
+                Hold::Stuck => {
+                    let [ahead, back] = self.rub_reserve(rub);
+                    if ahead.min(back) < 0.0 {
+                        // Friction that would have to push ahead cannot keep it from sliding back.
+                        self.mode.rubs[rub] = Hold::Sliding(if ahead < back { -1.0 } else { 1.0 });
+                        return Ok(true);
+                    }
+                }
+                Hold::Sliding(sense)
+                    if loose != Some(rub)
+                        && self.rests(rub, scale.still)
+                        && sense * self.rub_acceleration(rub) < -NOTHING * scale.pace =>
+                {
+                    self.mode.rubs[rub] = Hold::Stuck;
+                    return Ok(true);
+                }
+                _ => {}
             }
         }
-        Ok(loosened)
+        Ok(false)
+    }
+
+    /// Acceleration of sliding in the last solution, m/s², or rad/s² of a hinge.
+    fn rub_acceleration(&self, rub: usize) -> f64 {
+        rub_row(self.at(), rub, Some(&self.solved.bodies)).bias
+    }
+
+    /// Whether what rubs does not slide, at a speed that counts.
+    fn rests(&self, rub: usize, still: f64) -> bool {
+        let arm = match self.m.rubs[rub].of {
+            Rubbing::Joint { radius, .. } => radius.map_or(1.0, |_| self.length),
+            Rubbing::Limit(_) => 1.0,
+        };
+        self.rub_rate(rub).abs() * arm <= still
     }
 }

@@ -144,6 +144,7 @@ list! {
     slot::Slot,
     cam::CurvedSlot,
     cam::Cam,
+    cam::FlatFollower,
     link::Link,
     rolling::Rolling,
     rolling::RollingCircles,

@@ -6,16 +6,13 @@ use crate::balance::{Route, Trouble};
 use crate::contact::Gap;
 use crate::mode::Hold;
 
-/// Guards of each limit: gap or force, two for friction (of a string one for its shortest stretch), border.
+/// Guards of each limit: gap or force, two for friction, border.
 pub(super) const GUARDS: usize = 4;
 /// Guards of each joint that rubs: friction in either direction, or the speed.
 pub(super) const RUB_GUARDS: usize = 2;
 
 /// Speed, over the mechanism's own, from which what leaned on others slides: well above what counts as none.
 const LOOSE: f64 = 10.0 * STILL;
-
-/// Length of a stretch of a taut string, over the characteristic length, below which it has none.
-const VANISHED: f64 = 1e-9;
 
 impl Machine<'_> {
     /// The values of the guards of all limits: positive as long as the mode holds.
@@ -69,9 +66,6 @@ impl Machine<'_> {
                     _ => {}
                 }
             }
-        }
-        if let (true, Gap::Cord(cord)) = (held.hold.carries(), &limit.gap) {
-            values[1] = cord.shortest(self.balance.m, &self.balance.at(), held.piece) / self.balance.length - VANISHED;
         }
         // A string keeps count of its turns, slack or taut.
         if held.hold.touches() || matches!(limit.gap, Gap::Cord(_)) {

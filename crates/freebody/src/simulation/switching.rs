@@ -3,7 +3,6 @@
 use super::impacts::Rule;
 use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
-use crate::contact::Gap;
 use crate::mode::Hold;
 use crate::motion::{Happening, Kind, System};
 
@@ -15,6 +14,8 @@ pub(super) const STILL: f64 = 1e-10;
 const GAIN: f64 = 1e-9;
 /// The troubles in which friction lets no motion go on, or none that was found.
 const JAMS: [&str; 2] = ["painleve_inconsistent", "contact_unsolved"];
+/// Turns for each joint or soft contact that rubs, in which it is found which of them stick.
+const TURNS: usize = 8;
 /// Impacts that one instant may hold.
 const ROUNDS: usize = 100;
 
@@ -66,22 +67,8 @@ impl Machine<'_> {
             held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
             self.stick(t, y, &[], None)?;
             return self.take_mode(t, &before);
-        } else if let (1, Gap::Cord(_)) = (guard, &limit.gap) {
-            return Err(self.vanished(l, t));
         }
         self.settle(t, y)
-    }
-
-    /// Says that a stretch of a taut string has come to its end.
-    fn vanished(&self, l: usize, t: f64) -> Trouble {
-        let group = &self.balance.m.groups[self.balance.m.limits[l].group];
-        let what = format!(
-            "the taut string `{}` is drawn in until two of its points meet, at t = {t:.12} s, and then has no direction there",
-            group.name
-        );
-        let why = "a little to one side it would swing round at once, and straight through it would jerk";
-        Trouble::new("string_drawn_in", format!("{what}: {why}; let it pass beside, or put a stop before"))
-            .about(group.path())
     }
 
     /// A guard of a joint that rubs fell to zero: it sticks no more, or stopped.
@@ -162,11 +149,12 @@ impl Machine<'_> {
         if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }
-        for _ in 0..=self.balance.m.rubs.len() {
+        let scale = Scale { still: STILL * self.speed, ..self.judgement() };
+        for _ in 0..=TURNS * self.balance.m.rubs.len() {
             if !limits.is_empty() {
                 self.take_holds(t, y, limits)?;
             }
-            if self.balance.m.rubs.is_empty() || !self.balance.loosen_rubs()? {
+            if self.balance.m.rubs.is_empty() || !self.balance.turn_rub(scale, loose.map(|(rub, _)| rub))? {
                 break;
             }
         }
