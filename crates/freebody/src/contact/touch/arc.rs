@@ -27,6 +27,9 @@ pub struct Arc {
 
 const ARC: usize = 0;
 
+/// How far before its end, m, a point that slides has left the arc: it does not come back to it.
+const ON_BORDER: f64 = 1e-10;
+
 impl Arc {
     /// Direction of an end, 1 or 2, from the centre, fixed axes.
     fn towards<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: usize) -> Vec2<T> {
@@ -59,7 +62,7 @@ impl Arc {
         let (half, off) = self.seen(m, poses, disk);
         let beside = match disk.radius {
             Some(_) => off.abs() > half,
-            None => self.ahead(m, poses, disk, nearer(off), ARC) > 0.0,
+            None => self.ahead(m, poses, disk, nearer(off), ARC) > -ON_BORDER,
         };
         if beside {
             nearer(off)
