@@ -33,8 +33,9 @@ def test_what_passes_the_end_of_an_arc_falls_from_there(shape, r):
     """A bead flies off along the tangent. A disk goes on round the end, as round a pin, until nothing presses it: its centre then
     has the speed √(g r cos φ), or it has been faster than that when it came."""
     text = HILL.replace("ENDS", "60 deg, 120 deg").replace("shape: particle", f"shape: {shape}")
+    text += f"events: {{passes: {{when: bead.x - (R + {r})/2, direction: rising}}}}\n"
     run = motion(text.replace("bead.y: R", f"bead.y: R + {r}"), 1.3, {"rtol": 1e-11})
-    (off,) = changes(run, "lift-off")
+    (off,) = run.events
     high = 2 + r
     speed = math.sqrt(0.25 + 2 * G * high * (1 - math.cos(math.pi / 6)))
     assert speed**2 > G * r  # too fast for the pin

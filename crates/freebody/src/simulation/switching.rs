@@ -14,8 +14,6 @@ pub(super) const STILL: f64 = 1e-10;
 const GAIN: f64 = 1e-9;
 /// The troubles in which friction lets no motion go on, or none that was found.
 const JAMS: [&str; 2] = ["painleve_inconsistent", "contact_unsolved"];
-/// Turns for each joint or soft contact that rubs, in which it is found which of them stick.
-const TURNS: usize = 8;
 /// Impacts that one instant may hold.
 const ROUNDS: usize = 100;
 
@@ -150,7 +148,7 @@ impl Machine<'_> {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }
         let scale = Scale { still: STILL * self.speed, ..self.judgement() };
-        for _ in 0..=TURNS * self.balance.m.rubs.len() {
+        for _ in 0..=self.balance.most_turns() {
             if !limits.is_empty() {
                 self.take_holds(t, y, limits)?;
             }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import re
 from abc import ABC, abstractmethod
@@ -70,9 +69,10 @@ def latex_subscript(text: str) -> str:
 
 @dataclass(frozen=True)
 class Markup(ABC):
-    """What the three have in common."""
+    """What the three have in common. ``beside``: how the names of figures' files begin; empty where there are none."""
 
     letters: Letters
+    beside: str = ""
 
     def render(self, blocks: Sequence[Block]) -> str:
         """All blocks."""
@@ -181,8 +181,9 @@ class Markdown(Markup):
         return "\n".join(([caption, ""] if caption else []) + lines)
 
     def figure(self, figure: Figure, caption: str) -> str:
-        data = base64.b64encode(figure.svg.encode()).decode()
-        return f"![{caption}](data:image/svg+xml;base64,{data})"
+        if not self.beside:
+            return self.paragraph(self.plain(f"[Figure: {figure.picture.description}]"))
+        return f"![{self.plain(figure.picture.description)}](<{self.beside}-{figure.name}.svg>)\n\n{caption}"
 
 
 class Latex(Markup):
@@ -217,7 +218,10 @@ class Latex(Markup):
         )
 
     def figure(self, figure: Figure, caption: str) -> str:
-        frame = rf"\IfFileExists{{{figure.name}.pdf}}{{\includegraphics{{{figure.name}.pdf}}}}{{\fbox{{{escaped(figure.name)}}}}}"
+        if not self.beside:
+            return self.paragraph(self.plain(f"[Figure: {figure.picture.description}]"))
+        shown = rf"\includegraphics{{{self.beside}-{figure.name}.pdf}}"
+        frame = rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
         return "\n".join([r"\begin{center}", frame, *([r"\par " + caption] if caption else []), r"\end{center}"])
 
 
@@ -249,8 +253,7 @@ class Html(Markup):
         return "\n".join([f"<table>{top}", *(f"<tr>{line}</tr>" for line in lines), "</table>"])
 
     def figure(self, figure: Figure, caption: str) -> str:
-        picture = re.sub(r"^\s*(<\?xml.*?\?>|<!DOCTYPE.*?>|\s)*", "", figure.svg, flags=re.DOTALL)
-        return f"<figure>{picture}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
+        return f"<figure>{figure.picture.inline()}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
 
 
 def _signs(signs: str) -> str:

@@ -95,7 +95,7 @@ class _Writer:
             case Table():
                 return self.table(block)
             case Figure():
-                return self.filled(["[Figure: ", *pieces(block.caption or block.name), "]"])
+                return ""
 
     def words(self, words: Words) -> str:
         return "".join(
