@@ -162,15 +162,6 @@ def _cam(sketch: Sketch, name: str, fields: Fields) -> None:
     _wheel(sketch, fields["follower"], "block")
 
 
-def _flat_follower(sketch: Sketch, name: str, fields: Fields) -> None:
-    _curve(sketch, name, fields["along"])
-    body, at, along = sketch.line(fields["face"])
-    about = next(j for j in sketch.about["joints"] if j["name"] == name)
-    slides = -np.array(sketch.travel(about["coordinates"][1])) if len(about["coordinates"]) > 1 else np.zeros(2)
-    ends = [slides.min() - 4 * sketch.size, slides.max() + 4 * sketch.size]
-    sketch.figures[body].add(at + np.outer(ends, along), "rail", closed=False)
-
-
 def _curve(sketch: Sketch, joint: str, name: str) -> None:
     """The stretch of a curve that the motion runs along, and a little more at both ends."""
     curve = next((c for c in sketch.spec.get("curves", []) if c["name"] == name), None)
@@ -252,7 +243,6 @@ JOINTS: dict[str, Callable[[Sketch, str, Fields], None]] = {
     "slot": _slot,
     "curved_slot": _curved_slot,
     "cam": _cam,
-    "flat_follower": _flat_follower,
     "link": _link,
     "rolling": _rolling,
     "rolling_circles": _rolling_circles,

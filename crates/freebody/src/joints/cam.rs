@@ -1,4 +1,4 @@
-//! Joints along a curve of the first body: a pin in a curved slot, and a round or a flat follower on a cam.
+//! Joints along a curve of the first body: a pin in a curved slot, and a round follower on a cam.
 //!
 //! The curve parameter is a coordinate of its own, so that a curve may cross itself and no closest
 //! point is ever searched for. Such a joint has no residual: where it would close a loop, the
@@ -40,25 +40,5 @@ impl Joint for Cam {
         let (at, slope) = n.curve?.at(q[0]);
         let centre = at + slope.perp() * (n.of[0] / slope.norm());
         Some(Relative { x: centre.x, y: centre.y, angle: q[1] })
-    }
-}
-
-/// A straight face of the second body that touches a curve of the first, on the curve's left side.
-pub struct FlatFollower;
-
-impl Joint for FlatFollower {
-    fn card(&self) -> Card {
-        let what = "A straight face of the second body stays on a curve of the first that bends, on its left side.";
-        Card::new("flat_follower", what)
-            .needs("along", FieldKind::Curve, Role::First, "m", "the curve of the first body")
-            .needs("face", FieldKind::Line, Role::Second, "m", "the face of the second body; it runs as the curve does")
-            .coordinate("s", "")
-            .coordinate("slide", "m")
-            .force("force of the face")
-    }
-    fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
-        let (at, slope) = n.curve?.at(q[0]);
-        let point = at + slope * (q[1] / slope.norm());
-        Some(Relative { x: point.x, y: point.y, angle: slope.y.atan2(slope.x) })
     }
 }

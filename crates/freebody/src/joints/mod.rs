@@ -144,7 +144,6 @@ list! {
     slot::Slot,
     cam::CurvedSlot,
     cam::Cam,
-    cam::FlatFollower,
     link::Link,
     rolling::Rolling,
     rolling::RollingCircles,
