@@ -198,9 +198,10 @@ impl Balance<'_> {
         self.start_limits()?;
         let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
         self.start_rubs(still);
-        for _ in 0..=self.m.rubs.len() {
+        let scale = Scale { still, pace: self.n.gravity.norm().max(self.length), stay: false };
+        for _ in 0..=self.most_turns() {
             self.lean_on_reached(still)?;
-            if self.m.rubs.is_empty() || !self.loosen_rubs()? {
+            if self.m.rubs.is_empty() || !self.turn_rub(scale, None)? {
                 break;
             }
         }

@@ -5,7 +5,7 @@ use super::events::{Kind, Mark, Probe};
 use super::method::all_finite;
 use super::outcome::{Happening, Outcome};
 use super::run::{ending, Runner};
-use super::system::{After, Role};
+use super::system::{After, Role, System};
 
 impl Runner<'_> {
     /// The zeros on a segment that count, in order.
@@ -17,17 +17,30 @@ impl Runner<'_> {
         let marks = self.watcher.search(system, segment).map_err(Outcome::Trouble)?;
         let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
         for mark in marks {
-            let watch = system.switch(mark.index);
-            let is_passing = mark.kind == Kind::Touch && watch.role != Role::Event;
-            if is_passing || watch.direction * mark.direction < 0 {
-                continue;
-            }
             segment.at(mark.t, &mut y);
-            if system.armed(mark.index, mark.t, &y).map_err(Outcome::Trouble)? {
+            if counts(system, &mark, &y)? {
                 counting.push(mark);
             }
         }
         Ok(counting)
+    }
+
+    /// Lets the events act that fall on the end of the run: a run that goes on from there does not see them.
+    pub(super) fn act_at_end(&mut self) -> Result<(), Outcome> {
+        if self.watcher.is_idle() {
+            return Ok(());
+        }
+        let (values, h) = (self.switch_values(0.0)?, 1e-3 * self.pace.h);
+        let ahead = self.switch_values(h)?;
+        let (mut hits, system) = (Vec::new(), &mut *self.system.system);
+        for (index, side) in self.watcher.crossing_here(&values, &ahead) {
+            let direction = side * h.signum() as i8;
+            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction };
+            if system.switch(index).role == Role::Event && counts(system, &hit, &self.now.y)? {
+                hits.push(hit);
+            }
+        }
+        self.act(&hits).map(|_| ())
     }
 
     /// Steps to the first crossing of `marks`, lets it act and goes on from there.
@@ -149,6 +162,14 @@ impl Runner<'_> {
         system.switch_values(self.now.t + h, &y, &mut values).map_err(Outcome::Trouble)?;
         Ok(values)
     }
+}
+
+/// Whether the zero of a switching function counts, at the state there.
+fn counts(system: &mut dyn System, mark: &Mark, y: &[f64]) -> Result<bool, Outcome> {
+    let watch = system.switch(mark.index);
+    let is_passing = mark.kind == Kind::Touch && watch.role != Role::Event;
+    let other_way = watch.direction * mark.direction < 0;
+    Ok(!is_passing && !other_way && system.armed(mark.index, mark.t, y).map_err(Outcome::Trouble)?)
 }
 
 fn happening(mark: &Mark, t: f64, y: &[f64]) -> Happening {

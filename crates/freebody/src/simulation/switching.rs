@@ -4,7 +4,7 @@ use super::impacts::Rule;
 use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
 use crate::mode::Hold;
-use crate::motion::System;
+use crate::motion::{Happening, Kind, System};
 
 /// Gap, over the characteristic length, below which a limit is reached.
 pub(super) const REACHED: f64 = 1e-10;
@@ -38,8 +38,11 @@ impl Machine<'_> {
             }
             self.settle(t, y)?;
         }
-        for event in m.events.iter().filter(|event| event.opening && start.mode.is_none()) {
-            self.happen(event, t, y)?;
+        for (i, event) in m.events.iter().enumerate().filter(|(_, e)| e.opening && start.mode.is_none()) {
+            if self.armed(i, t, y)? {
+                self.openings.push(Happening { t, y: y.to_vec(), index: i, kind: Kind::Opening, direction: 0 });
+                self.happen(event, t, y)?;
+            }
         }
         self.open();
         Ok(())
@@ -48,19 +51,20 @@ impl Machine<'_> {
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
-        if self.balance.m.limits[l].soft.is_some() {
-            let before = self.balance.mode.clone();
-            let held = &mut self.balance.mode.limits[l];
-            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
-            return self.take_mode(t, &before);
-        }
+        let limit = &self.balance.m.limits[l];
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
             held.piece.index = beyond;
-            if !self.balance.m.limits[l].gap.can_close(beyond) {
+            if !limit.gap.can_close(beyond) {
                 held.hold = Hold::Open;
             }
+        } else if limit.soft.is_some() {
+            let before = self.balance.mode.clone();
+            let held = &mut self.balance.mode.limits[l];
+            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
+            self.stick(t, y, &[], None)?;
+            return self.take_mode(t, &before);
         }
         self.settle(t, y)
     }
@@ -143,11 +147,12 @@ impl Machine<'_> {
         if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }
-        for _ in 0..=self.balance.m.rubs.len() {
+        let scale = Scale { still: STILL * self.speed, ..self.judgement() };
+        for _ in 0..=self.balance.most_turns() {
             if !limits.is_empty() {
                 self.take_holds(t, y, limits)?;
             }
-            if self.balance.m.rubs.is_empty() || !self.balance.loosen_rubs()? {
+            if self.balance.m.rubs.is_empty() || !self.balance.turn_rub(scale, loose.map(|(rub, _)| rub))? {
                 break;
             }
         }
