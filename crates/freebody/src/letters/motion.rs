@@ -54,9 +54,14 @@ impl Letters<'_> {
 
     /// What loops, motions and closed limits ask, told of the coordinates.
     pub(super) fn rows(&self) -> Value {
+        Value::Array(self.closing().iter().map(|row| self.row(row)).collect())
+    }
+
+    /// What closes loops, prescribes motions and holds limits.
+    pub(super) fn closing(&self) -> Vec<Row<Symbol>> {
         let mut rows = closing_rows(self.at(), Some(&self.bodies));
         self.tell_pins(&self.k, &self.bodies, &mut rows);
-        Value::Array(rows.iter().map(|row| self.row(row)).collect())
+        rows
     }
 
     /// Tells the rows of pins along the fixed axes: from the first point to the second, with its rate and its acceleration.
