@@ -83,7 +83,7 @@ impl Machine<'_> {
 
     fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let (known, earlier) = ([self.changes.len(), self.stretches.len()], y.to_vec());
-        self.still = STILL * self.speed;
+        (self.still, self.rough) = (STILL * self.speed, false);
         let settled = self.settle_from(t, y, loose);
         if settled.is_err() {
             // The motion ends with the state before.
@@ -114,9 +114,11 @@ impl Machine<'_> {
             let staying: Vec<usize> = staying.iter().map(|&i| reached.limits[i]).collect();
             match self.stick(t, y, &staying, loose) {
                 Err(trouble) if self.jams_strike && JAMS.contains(&trouble.name) => {
-                    if !self.seize(t, y, &staying)? {
+                    if self.rough {
                         return Err(trouble);
                     }
+                    // Where nothing seizes there are forces, and what contradicts them is not told exactly enough.
+                    self.rough = !self.seize(t, y, &staying)?;
                     continue;
                 }
                 done => done?,
@@ -154,13 +156,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Brings the state exactly onto the limits that hold. What speed that takes away, where limits all but depend on each
-    /// other, is in the ledger.
+    /// Brings the state exactly onto the limits that hold. What speed, and what height, that takes away, where limits all but
+    /// depend on each other, is in the ledger.
     fn bring_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
-        self.place(t, y);
-        let before = self.balance.kinetic_energy();
+        let before: f64 = self.energy(t, y).iter().sum();
         self.put_onto(t, y, reached)?;
-        let lost = before - self.balance.kinetic_energy();
+        let lost = before - self.energy(t, y).iter().sum::<f64>();
         if lost < -GAIN * self.strength * self.balance.length {
             let names = self.balance.names_of(reached);
             let what = format!("to bring {names} to rest on each other would create the energy {:.6e} J", -lost);
@@ -238,7 +239,7 @@ impl Machine<'_> {
     /// What counts as slow, and what is done where nothing decides.
     pub(super) fn judgement(&self) -> Scale {
         let pace = self.speed * self.speed / self.balance.length;
-        Scale { still: self.still, pace, stay: self.rule != Rule::Stop }
+        Scale { still: self.still, pace, stay: self.rule != Rule::Stop, rough: self.rough }
     }
 
     /// A time that is short beside any of the motion, s.
