@@ -125,7 +125,7 @@ impl Machine<'_> {
             }
             // What bounces back does so from where it is: to shift it would turn its way.
             let at_rest: Vec<usize> = reached.limits.iter().copied().filter(|l| !struck.contains(l)).collect();
-            self.bring_onto(t, y, &at_rest)?;
+            self.bring_onto(t, y, &at_rest, &reached.limits)?;
             match parting.is_empty() {
                 true => self.flight = None,
                 false if self.capture(t, y, &reached, &parting, &struck)? => continue,
@@ -158,9 +158,9 @@ impl Machine<'_> {
 
     /// Brings the state exactly onto the limits that hold. What speed, and what height, that takes away, where limits all but
     /// depend on each other, is in the ledger.
-    fn bring_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
+    fn bring_onto(&mut self, t: f64, y: &mut [f64], at_rest: &[usize], reached: &[usize]) -> Result<(), Trouble> {
         let before: f64 = self.energy(t, y).iter().sum();
-        self.put_onto(t, y, reached)?;
+        self.put_onto(t, y, at_rest, reached)?;
         let lost = before - self.energy(t, y).iter().sum::<f64>();
         if lost < -GAIN * self.strength * self.balance.length {
             let names = self.balance.names_of(reached);
@@ -173,12 +173,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Brings the state exactly onto the limits that hold, and out of those that open.
-    fn put_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
+    /// Brings the state exactly onto the limits that hold, and out of those that open from rest.
+    fn put_onto(&mut self, t: f64, y: &mut [f64], at_rest: &[usize], reached: &[usize]) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
         self.place(t, y);
         let inside = |l: &&usize| self.balance.mode.limits[**l].hold == Hold::Open && self.balance.limit_gap(**l) < 0.0;
-        let opening: Vec<usize> = reached.iter().filter(inside).copied().collect();
+        let opening: Vec<usize> = at_rest.iter().filter(inside).copied().collect();
         let carries = self.balance.mode.limits.iter().any(|held| held.hold.carries());
         if opening.is_empty() && !carries && self.balance.m.rubs.is_empty() {
             return Ok(());
