@@ -32,6 +32,25 @@ from freebody.equations.tree import MINUS_ONE, ZERO, add, mul
 TH1, A1, A2 = sym("theta1"), sym("theta1", 2), sym("theta2", 2)
 M1, L = sym("m1"), sym("l")
 LONG = add(*(mul(sym(f"k{n}"), A2, sin(TH1)) for n in range(14)))
+
+
+class Shown:
+    description = "A box & nothing in it"
+
+    def inline(self):
+        return '<svg xmlns="http://www.w3.org/2000/svg"></svg>'
+
+    def save(self, path):
+        path.write_bytes(BOX if path.suffix == ".pdf" else self.inline().encode())
+        return path
+
+
+BOX = b"""%PDF-1.4
+1 0 obj <</Type /Catalog /Pages 2 0 R>> endobj
+2 0 obj <</Type /Pages /Kids [3 0 R] /Count 1>> endobj
+3 0 obj <</Type /Page /Parent 2 0 R /MediaBox [0 0 9 9] /Resources <<>> >> endobj
+trailer <</Root 1 0 R>>
+"""
 DOCUMENT = Document(
     [
         Heading("A pendulum & 100 % of it", 1),
@@ -44,7 +63,7 @@ DOCUMENT = Document(
         Bullets(["energy", ["the mass ", M1]]),
         Table(("a", "b"), [("1|2", [TH1])], "Some numbers"),
         letters_table(LETTERS),
-        Figure('<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg"></svg>', "A sketch", "sketch"),
+        Figure(Shown(), "A sketch", "sketch"),
     ],
     LETTERS,
 )  # fmt: skip
@@ -57,7 +76,7 @@ def test_text():
     assert "    a_G = l θ̈₁ cos θ₁ i + (m₁ + l) j − e_r\n" in shown
     assert re.search(r"AMB about the pivot:\n    m₁ l² θ̈₁ = −m₁ g l sin θ₁ +\(1\)\nThe pin has no moment\.", shown)
     assert "    ⎡ m₁  ½ m₁ l ⎤ ⎡ θ̈₁ ⎤ = ⎡ m₁ g ⎤\n" in shown
-    assert "- the mass m₁" in shown and "[Figure: A sketch]" in shown
+    assert "- the mass m₁" in shown and "sketch" not in shown
     assert max(map(columns, shown.split("\n"))) <= 100
     assert max(map(columns, DOCUMENT.text(width=72).split("\n"))) <= 72
 
@@ -86,8 +105,20 @@ def test_latex_is_balanced():
 @pytest.mark.skipif(not shutil.which("pdflatex"), reason="no LaTeX")
 def test_latex_compiles(tmp_path):
     head = r"\documentclass{article}\usepackage[utf8]{inputenc}\usepackage{amsmath,amssymb,graphicx}\begin{document}"
-    (tmp_path / "made.tex").write_text(head + DOCUMENT.latex() + r"\end{document}")
+    DOCUMENT.save(tmp_path / "part.tex")
+    (tmp_path / "made.tex").write_text(head + r"\input{part}\end{document}")
     subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "made.tex"], cwd=tmp_path, check=True)
+
+
+def test_figures_are_written_beside_and_words_stand_for_them_elsewhere(tmp_path):
+    assert DOCUMENT.save(tmp_path / "a b.md") == [tmp_path / "a b.md", tmp_path / "a b-sketch.svg"]
+    assert DOCUMENT.save(tmp_path / "made.tex") == [tmp_path / "made.tex", tmp_path / "made-sketch.pdf"]
+    assert DOCUMENT.save(tmp_path / "made.html") == [tmp_path / "made.html"]
+    assert "](<a b-sketch.svg>)\n\nA sketch" in (tmp_path / "a b.md").read_text()
+    assert r"\includegraphics{made-sketch.pdf}" in (tmp_path / "made.tex").read_text()
+    assert r"\[Figure: A box & nothing in it\]" in DOCUMENT.markdown()
+    assert r"[Figure: A box \& nothing in it]" in DOCUMENT.latex()
+    assert json.loads(DOCUMENT.json())["blocks"][-1]["shows"] == Shown.description
 
 
 def test_html_is_well_formed():

@@ -67,7 +67,9 @@ class FakeMechanism:
             "parameters": [{"name": n, "unit": "", "value": v} for n, v in self.numbers.items()],
             "coordinates": [{"name": self._coordinate(n), "joint": self._joint_of(n), "dimension": "rad", "absolute": True, "doc": ""} for n in self.names],
             "closure_coordinates": [],
-            "joints": [joint(j) for j in self.spec["joints"]],
+            "joints": [joint(j) for j in self.spec["joints"]]
+                      + [{"name": f"{n} free", "type": "free", "first": "ground", "second": n, "point": "", "cut": False,
+                          "coordinates": [], "reaction": []} for n in self.names if self._joint_of(n) == f"{n} free"],
             "limits": [],
             "forces": [{"name": f["name"], "type": f["type"], "conservative": f["type"] == "spring"} for f in self.spec.get("forces", [])],
             "motions": [],
@@ -85,7 +87,7 @@ class FakeMechanism:
         return (bodies * 2)[:2]
 
     def _joint_of(self, body):
-        return next((name for name, _, b in self.tree if self.points_[b][0] == body), "")
+        return next((name for name, _, b in self.tree if self.points_[b][0] == body), f"{body} free")
 
     def _coordinate(self, body):
         return self.spec.get("angles", {}).get(body, f"{body}.angle")

@@ -85,7 +85,7 @@ def show_totals(judged: Iterable[Judged], console: Console | None = None) -> Non
 
 
 def _headed(system: System) -> str:
-    return system.title if system.title.startswith(system.id) else f"{system.id}: {system.title}"
+    return f"{system.id}: {system.title}"
 
 
 def _unexpected(one: Judged) -> str:

@@ -23,8 +23,8 @@ class System:
 
     @property
     def title(self) -> str:
-        """First line of the questions' docstring."""
-        return (self._module().__doc__ or self.id).splitlines()[0].rstrip(".")
+        """First line of the questions' docstring, without the id."""
+        return (self._module().__doc__ or self.id).splitlines()[0].rstrip(".").removeprefix(f"{self.id}: ")
 
     @property
     def models(self) -> list[Path]:

@@ -70,14 +70,13 @@ def equations(
     if len(asked) > 1:
         raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json, --code")
     kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
-    text = printed(found, kind)
+    _refuse(found, kind)
     if output:
         from freebody.cli import show
 
-        output.write_text(text, encoding="utf-8")
-        show.written([output])
+        show.written(found.save(output, kind))
     else:
-        typer.echo(text.rstrip("\n"))
+        typer.echo(found.printed(kind).rstrip("\n"))
 
 
 def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str]) -> Equations | Document:
@@ -94,17 +93,13 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
         raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
 
-def printed(found: Equations | Document, kind: str) -> str:
-    """The equations by the ending of a file."""
-    if kind in ("py", "c") and not hasattr(found, "code"):
-        raise Mistake("functions are made of the forms minimal, brute and constraints", "take one of these, or print text")
-    ways = {
-        "txt": found.text, "tex": found.latex, "md": found.markdown, "html": found.html, "json": found.json,
-        "py": lambda: found.code("python"), "c": lambda: found.code("c"),
-    }  # fmt: skip
+def _refuse(found: Equations | Document, kind: str) -> None:
+    """Raises ``Mistake`` for what cannot be printed in a way, by the ending of its file."""
+    ways = ("txt", "tex", "md", "html", "json", "py", "c")
     if kind not in ways:
         raise Mistake(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")
-    return ways[kind]()
+    if kind in ("py", "c") and not hasattr(found, "code"):
+        raise Mistake("functions are made of the forms minimal, brute and constraints", "take one of these, or print text")
 
 
 def _ending(code: Language | None) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from pathlib import Path
+from typing import Any, Protocol, TypeAlias
 
 from freebody.equations.letters import Letters
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
+from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,23 @@ class MatrixEquation:
     note: Words = ""
     letter: str = "A"
 
+    def rows(self) -> list[tuple[Tree, Tree]]:
+        """Row by row as equations: the sum of its products, and its right-hand side."""
+        sums = [
+            add(*(mul(entry, x) for entry, x in zip(row, self.unknowns, strict=True) if not is_zero(entry)))
+            for row in self.matrix
+        ]
+        return list(zip(sums, self.right, strict=True))
+
+    def entries(self) -> dict[Tree, list[tuple[int, int]]]:
+        """The entries that are not 0, equal ones once, and where they stand, counted from 1."""
+        found: dict[Tree, list[tuple[int, int]]] = {}
+        for i, row in enumerate(self.matrix, 1):
+            for j, entry in enumerate(row, 1):
+                if not is_zero(entry):
+                    found.setdefault(entry, []).append((i, j))
+        return found
+
 
 @dataclass(frozen=True)
 class Table:
@@ -87,11 +105,26 @@ class Bullets:
     items: Sequence[Words]
 
 
+class Picture(Protocol):
+    """Something drawn when it is asked for."""
+
+    @property
+    def description(self) -> str:
+        """What is seen, in words."""
+
+    def inline(self) -> str:
+        """SVG for a page with others: its identifiers are its own."""
+
+    def save(self, path: Path) -> Path:
+        """Writes a file, .svg or .pdf."""
+
+
 @dataclass(frozen=True)
 class Figure:
-    """A picture as SVG. In text its caption stands for it, in LaTeX a frame with ``name``, a file that is to be put beside."""
+    """A picture. It is inside of HTML; for Markdown and LaTeX it is a file, where there is none its words stand for it. Text and
+    JSON have no pictures: the blocks about it tell the same."""
 
-    svg: str
+    picture: Picture
     caption: Words = ""
     name: str = "figure"
 
@@ -112,17 +145,35 @@ class Document:
 
         return render(self, ascii=ascii, width=width)
 
-    def markdown(self) -> str:
-        """Markdown with LaTeX between dollars."""
+    def markdown(self, beside: str = "") -> str:
+        """Markdown with LaTeX between dollars. Figures are files whose names begin with ``beside``; words where that is empty."""
         from freebody.equations.rendering.markup import Markdown
 
-        return Markdown(self.letters).render(self.blocks)
+        return Markdown(self.letters, beside).render(self.blocks)
 
-    def latex(self) -> str:
-        """A fragment of a LaTeX article; it needs amsmath, amssymb and graphicx."""
+    def latex(self, beside: str = "") -> str:
+        """A fragment of a LaTeX article; it needs amsmath, amssymb and graphicx. ``beside`` as in ``markdown``."""
         from freebody.equations.rendering.markup import Latex
 
-        return Latex(self.letters).render(self.blocks)
+        return Latex(self.letters, beside).render(self.blocks)
+
+    def printed(self, kind: str, beside: str = "") -> str:
+        """By the ending of a file: txt, tex, md, html or json. Raises ``KeyError`` for any other."""
+        ways: dict[str, Callable[[], str]] = {
+            "txt": self.text, "tex": lambda: self.latex(beside), "md": lambda: self.markdown(beside), "html": self.html,
+            "json": self.json,
+        }  # fmt: skip
+        return ways[kind]()
+
+    def save(self, path: str | Path, kind: str = "") -> list[Path]:
+        """Write a file by its ending or ``kind``, see ``printed``, and beside it the figures of Markdown (.svg) and LaTeX (.pdf).
+        Returns all that is written."""
+        path = Path(path)
+        kind = kind or path.suffix.removeprefix(".")
+        path.write_text(self.printed(kind, path.stem), encoding="utf-8")
+        ending = {"md": ".svg", "tex": ".pdf"}.get(kind)
+        figures = [block for block in self.blocks if isinstance(block, Figure) and ending]
+        return [path, *(each.picture.save(path.with_name(f"{path.stem}-{each.name}{ending}")) for each in figures)]
 
     def html(self) -> str:
         r"""A fragment of HTML with LaTeX in ``\(…\)`` and ``\[…\]``, for MathJax or KaTeX; figures are inside."""

@@ -138,7 +138,8 @@ def _draw_coordinates(sheet: _Drawing) -> None:
     """Every coordinate from its zero to its value."""
     for measure in measures(sheet.sketch):
         dashes: Any = (0, (4, 3)) if measure.angle else "-"
-        sheet.line(measure.guide, _MEASURE, lw=0.9 if measure.angle else 0.7, ls=dashes)
+        for guide in measure.guides:
+            sheet.line(guide, _MEASURE, lw=0.9 if measure.angle else 0.7, ls=dashes)
         sheet.line(measure.arrow, _MEASURE, arrow=True)
         middle = measure.arrow[len(measure.arrow) // 2] if measure.angle else measure.arrow.mean(axis=0)
         sheet.say(f"{plain(measure.coordinate)} = {measure.value}", middle, _MEASURE)

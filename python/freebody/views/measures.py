@@ -2,98 +2,154 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
+from freebody.model.cards import joints as cards
 from freebody.results import Array
 from freebody.views import shapes
-from freebody.views.scene import GROUND, Sketch, named_points
+from freebody.views.scene import Sketch, named_points
+from freebody.views.symbols import points_of_curve
 
-_POINT_TO_POINT = ("link", "rolling_circles", "polar")
 _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
+_SEEN = 0.2  # rad, the least angle whose arc can be seen
+_LEVELS = 5  # places further and further out where an arrow may keep off others
+_APART = 1.6  # sizes of symbols between two arrows
+_Marks: TypeAlias = tuple[Array, list[Array]]
+"""Arrow and guides."""
+_AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 
 
 @dataclass(frozen=True)
 class Measure:
-    """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guide`` (2, 2) to where it is 0, and its
-    value in words. An arrow of fixed size shows the sense of a coordinate that is 0. ``place`` is the joint's point on the second
-    body; an angle has its vertex there, or, of a link, at its other end."""
+    """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guides`` (2, 2) to where it is 0 and, of an
+    angle, to where it ends, and its value in words. An arrow of fixed size shows the sense of one that is nearly 0. ``place`` is the joint's point on the second
+    body; an angle has its vertex there, or, of a direction from point to point, at the first of these."""
 
     coordinate: str
     first: str
     second: str
     arrow: Array
-    guide: Array
+    guides: list[Array]
     place: Array
     angle: bool
     value: str
 
 
+@dataclass(frozen=True)
+class _Asked:
+    """A coordinate of a joint: ``word`` is what the joint's card calls it."""
+
+    name: str
+    joint: Mapping[str, Any]
+    first: str
+    second: str
+    word: str
+    dimension: str
+    sense: int
+    value: float
+
+
 def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
-    """Every coordinate that can be drawn at the sketched state; ``radius`` of the arcs in sizes of symbols."""
-    joints = {joint["name"]: joint for joint in sketch.spec["joints"]}
-    bodies = {joint["name"]: (joint["first"], joint["second"]) for joint in sketch.about["joints"]}
-    for i, coordinate in enumerate(sketch.about["coordinates"]):
-        joint, name = joints.get(coordinate["joint"]), coordinate["name"]
-        place = joint and place_of(sketch, joint)
-        if joint is None or place is None:
+    """Every coordinate that can be drawn at the sketched state, off each other; ``radius`` of the arcs in sizes of symbols."""
+    taken: list[Array] = []
+    for asked in _asked(sketch):
+        place = place_of(sketch, asked.joint)
+        if place is None:
             continue
-        value = float(sketch.q[0, i])
+        drawn = [_drawn(sketch, asked, place, radius, level) for level in range(_LEVELS)]
+        clear = (each for each in drawn if _clear(each[0], taken, _APART * sketch.size))
+        arrow, guides = next(clear, drawn[0])
+        taken.append(arrow)
+        angle = asked.dimension == "rad"
+        told = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
+        yield Measure(asked.name, asked.first, asked.second, arrow, guides, place, angle, told)
+
+
+def _asked(sketch: Sketch) -> Iterator[_Asked]:
+    told = {joint["name"]: joint for joint in sketch.spec["joints"]}
+    about = {joint["name"]: joint for joint in sketch.about["joints"]}
+    count = Counter[str]()
+    for coordinate, value in zip(sketch.about["coordinates"], sketch.q[0], strict=True):
+        first, second = (about[coordinate["joint"]][end] for end in ("first", "second"))
+        # A body that nothing joins to ground is free from its origin.
+        joint = told.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
+        name, word = coordinate["name"], cards()[joint["type"]].coordinates[count[coordinate["joint"]]].name
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
-        sense, angle = given.get("sense", 1), coordinate["dimension"] == "rad"
-        drawn = _angle(sketch, joint, value, sense, radius) if angle else _length(sketch, joint, value, sense)
-        if drawn is not None:
-            told = f"{digits(np.degrees(value))}°" if angle else f"{digits(value)} m"
-            yield Measure(name, *bodies[joint["name"]], *drawn, place, angle, told)
+        count[coordinate["joint"]] += 1
+        yield _Asked(name, joint, first, second, word, coordinate["dimension"], given.get("sense", 1), float(value))
 
 
-def _angle(sketch: Sketch, joint: Mapping[str, Any], value: float, sense: int, radius: float) -> tuple[Array, Array] | None:
-    at, end = _vertex(sketch, joint), _direction(sketch, joint)
-    if at is None or end is None:
-        return None
-    angle = np.fmod(value, 2 * np.pi) if abs(value) > 0.1 else 0.35
-    start, far = end - sense * np.fmod(value, 2 * np.pi), radius * sketch.size
-    guide = np.array([at, at + 1.25 * far * np.array([np.cos(start), np.sin(start)])])
-    return shapes.arc(at, far, start, start + sense * angle), guide
+def _clear(arrow: Array, taken: list[Array], gap: float) -> bool:
+    """Whether an arrow keeps off others."""
+    mine = _places(arrow, gap)
+    return all(np.hypot(*(mine[:, None] - _places(other, gap)).transpose(2, 0, 1)).min() > gap for other in taken)
 
 
-def _length(sketch: Sketch, joint: Mapping[str, Any], value: float, sense: int) -> tuple[Array, Array] | None:
-    at, along = place_of(sketch, joint), _way(sketch, joint)
-    if at is None or along is None:
-        return None
-    way = along * sense
-    aside = 2.6 * sketch.size * np.array([along[1], -along[0]])
-    shown = value if abs(value) > sketch.size else 3 * sketch.size
-    start = at - value * way
-    arrow = np.array([start, start + shown * way]) - aside
-    return arrow, np.array([start, arrow[0] - 0.2 * aside])
+def _places(arrow: Array, gap: float) -> Array:
+    """Places along an arrow, close enough to see what comes within a gap; of a long one not too many."""
+    return shapes.dense([arrow], max(gap / 2, float(np.hypot(*np.diff(arrow, axis=0).T).sum()) / 200))
+
+
+def _drawn(sketch: Sketch, asked: _Asked, place: Array, radius: float, level: int) -> _Marks:
+    """Those of a higher level lie further out."""
+    if asked.dimension == "rad":
+        return _angle(sketch, asked, place, (1 + 0.35 * level) * radius * sketch.size)
+    aside = (2.6 + 2.4 * level) * sketch.size
+    return _length(sketch, asked, place, aside) if asked.dimension else _along_curve(sketch, asked, aside)
+
+
+def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Marks:
+    """About the joint to the second body's x axis, or about the first of two points to the second."""
+    if asked.word == "direction":
+        at, second = (sketch.place(name) for name in _two_points(asked.joint))
+        end = float(np.arctan2(*(second - at)[::-1]))
+    else:
+        at, end = place, float(sketch.poses[0, sketch.names.index(asked.second), 2])
+    turn = asked.sense * np.fmod(asked.value, 2 * np.pi)
+    start = end - turn
+    guides = [np.array([at, at + 1.25 * radius * np.array([np.cos(way), np.sin(way)])]) for way in (start, end)]
+    return shapes.arc(at, radius, start, start + (turn if abs(asked.value) > _SEEN else 0.35 * asked.sense)), guides
+
+
+def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Marks:
+    """Beside the way from where the joint would be at 0."""
+    along = _way(sketch, asked)
+    zero = place - asked.value * asked.sense * along
+    shown = asked.value if abs(asked.value) > sketch.size else 3 * sketch.size
+    left = aside * np.array([-along[1], along[0]])
+    arrow = np.array([zero, zero + shown * asked.sense * along]) + left
+    foot = sketch.place(asked.joint["with"]["of"][0]) if asked.word in _AXES else zero
+    return arrow, [np.array([foot, arrow[0] + 0.2 * left])]
+
+
+def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Marks:
+    """Beside the curve from where its parameter is 0."""
+    curve = next(each for each in sketch.spec["curves"] if each["name"] == asked.joint["with"]["along"])
+    start = points_of_curve(sketch, curve, np.array([0.0, 1e-4]))
+    least = sketch.size * 1e-4 / float(np.hypot(*(start[1] - start[0])))
+    end = asked.value if abs(asked.value) > least else 3 * least
+    line = sketch.moved(curve["body"], points_of_curve(sketch, curve, np.linspace(0.0, end, 61)))
+    slopes = np.gradient(line, axis=0) * np.sign(end)
+    left = aside * np.column_stack([-slopes[:, 1], slopes[:, 0]]) / np.hypot(*slopes.T)[:, None]
+    return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])]
 
 
 def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
     """Where a joint is: at the point of its second body."""
     fields = joint["with"]
-    for key in ("point", "points", "circle", "follower", "line", "of"):
+    if "line" in fields:
+        body, point, _ = sketch.line(fields["line"])
+        return sketch.moved(body, point[None])[0]
+    for key in ("point", "points", "circle", "follower", "of"):
         names = [name for name in named_points(fields.get(key, [])) if name in sketch.at]
         if names:
             return sketch.place(names[-1] if key == "of" else names[0])
     return None
-
-
-def _vertex(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
-    """Where the joint's angle is measured: at the first of two points, else at the joint."""
-    return sketch.place(_two_points(joint)[0]) if joint["type"] in _POINT_TO_POINT else place_of(sketch, joint)
-
-
-def _direction(sketch: Sketch, joint: Mapping[str, Any]) -> float | None:
-    """Where the joint's angle points to: along the second body's x axis, or from point to point."""
-    if joint["type"] in _POINT_TO_POINT:
-        first, second = (sketch.place(name) for name in _two_points(joint))
-        return float(np.arctan2(*(second - first)[::-1]))
-    about = next(j for j in sketch.about["joints"] if j["name"] == joint["name"])
-    return None if about["second"] == GROUND else float(sketch.poses[0, sketch.names.index(about["second"]), 2])
 
 
 def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
@@ -101,16 +157,16 @@ def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
     return tuple(fields["of"]) if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
 
 
-def _way(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
-    """Unit direction in which a length grows: along the joint's line, or from the first point to the second."""
-    if joint["type"] == "polar":
-        first, second = (sketch.place(name) for name in _two_points(joint))
-        gap = float(np.hypot(*(second - first)))
-        return (second - first) / gap if gap else None
-    line = joint["with"].get("along") or joint["with"].get("on")
-    if not isinstance(line, Mapping) or "point" not in line:
-        return None
-    body, _, along = sketch.line(line)
+def _way(sketch: Sketch, asked: _Asked) -> Array:
+    """Unit direction in which a length grows: an axis of the first body, from the first point to the second, or the line's."""
+    fields = asked.joint["with"]
+    if asked.word == "r":
+        first, second = (sketch.place(name) for name in _two_points(asked.joint))
+        return (second - first) / (float(np.hypot(*(second - first))) or 1.0)
+    if asked.word in _AXES:
+        body, along = asked.first, _AXES[asked.word]
+    else:
+        body, _, along = sketch.line(fields.get("along") or fields["on"])
     return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
 
 

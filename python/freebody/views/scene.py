@@ -251,7 +251,7 @@ class Sketch:
 
     def _size(self) -> float:
         """A size for symbols that suits the mechanism: a small part of its extent at the start, larger where it travels far."""
-        seen = [self._moved(body, at) for body, at in self.at.values() if body != GROUND]
+        seen = [self.place(name) for name, (body, _) in self.at.items() if body != GROUND]
         for i, body in enumerate(self.spec["bodies"]):
             spans = [self.number(size) for piece in body["pieces"] for size in piece.get("sizes", {}).values()]
             half = max(spans, default=0.0) / 2
@@ -263,11 +263,13 @@ class Sketch:
 
     def place(self, point: str) -> Array:
         """Where a named point is at the start, in the fixed axes (2,)."""
-        return self._moved(*self.at[point])
+        body, at = self.at[point]
+        return self.moved(body, at[None])[0]
 
-    def _moved(self, body: str, at: Array) -> Array:
+    def moved(self, body: str, points: Array) -> Array:
+        """Points (k, 2) of a body in the fixed axes."""
         x, y, angle = self.poses[0, self.names.index(body)]
-        return shapes.turn(at[None], angle, (x, y))[0]
+        return shapes.turn(points, angle, (x, y))
 
 
 def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Sequence[str] | None = None) -> Scene:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from freebody.results import Array
 
-_ARC_STEP = np.pi / 18
+_ARC_STEP = np.pi / 60
 
 
 def turn(points: Array, angle: float, at: ArrayLike = (0.0, 0.0)) -> Array:
@@ -66,6 +66,16 @@ def rounded_hull(points: Array, radius: float) -> Array:
     normals = np.arctan2(edges[:, 1], edges[:, 0]) - np.pi / 2
     before = np.roll(normals, 1)
     return np.vstack([arc(p, radius, a, a + (b - a) % (2 * np.pi)) for p, a, b in zip(hull, before, normals, strict=True)])
+
+
+def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
+    """Places (k, 2) along polylines, at most a step apart."""
+    starts, ends = (np.vstack([line[piece] for line in lines] or [np.zeros((0, 2))]) for piece in (slice(-1), slice(1, None)))
+    counts = (np.hypot(*(ends - starts).T) / step).astype(int) + 2
+    side = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(side)) - np.repeat(np.cumsum(counts) - counts, counts)
+    found: Array = starts[side] + (place / (counts[side] - 1))[:, None] * (ends - starts)[side]
+    return found
 
 
 def piece_outlines(shape: str, sizes: Mapping[str, float], corners: Array, thickness: float) -> list[tuple[Array, str]]:

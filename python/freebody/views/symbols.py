@@ -157,13 +157,13 @@ def _curve(sketch: Sketch, joint: str, name: str) -> None:
     if curve is None or not about["coordinates"]:
         return
     start, end = sketch.travel(about["coordinates"][0])
-    near = _points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
+    near = points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
     margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
-    points = _points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
+    points = points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
     sketch.figures[curve["body"]].add(points, "rail", closed=False)
 
 
-def _points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) -> Array:
+def points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) -> Array:
     """Points (k, 2) of a curve in its body's frame."""
     texts = [[re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({float(s)!r})", curve[axis]) for axis in ("x", "y")] for s in parameter]
     return np.array([[sketch.value(text) for text in pair] for pair in texts])

@@ -189,16 +189,28 @@ impl Balance<'_> {
         }
     }
 
-    /// Lets the limits hold that are reached at the present state, for an instant by itself: nothing strikes.
+    /// Lets the limits hold that are reached at the present state, and the joints rub that move, for an instant by itself:
+    /// nothing strikes.
     ///
     /// # Errors
     /// `penetration`; as [`Balance::hold`].
     pub fn lean(&mut self) -> Result<(), Trouble> {
-        if self.m.limits.is_empty() {
+        if self.m.limits.is_empty() && self.m.rubs.is_empty() {
             return Ok(());
         }
         self.start_limits()?;
         let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
+        self.start_rubs(still);
+        for _ in 0..=self.m.rubs.len() {
+            self.lean_on_reached(still)?;
+            if self.m.rubs.is_empty() || !self.loosen_rubs()? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn lean_on_reached(&mut self, still: f64) -> Result<(), Trouble> {
         let touching = self.touching(1e-9 * self.length);
         let reached = self.reach(touching)?;
         let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();

@@ -14,7 +14,9 @@ pub use numbers::free_bodies;
 
 use crate::balance::Source;
 use crate::gauges::{Law, Leaf, Placed, Poses};
+use crate::joints::Joint as _;
 use crate::kinematics::{relative, JointView};
+use crate::mode::Hold;
 use crate::plane::{Vec2, Wrench};
 use crate::scalar::Scalar;
 
@@ -88,6 +90,25 @@ pub fn loads<S: Scalar>(at: Placed<'_, S>) -> Vec<Load<S>> {
     limits::limits(at, &mut loads);
     limits::rubs(at, &mut loads);
     loads
+}
+
+/// Where a joint that slides carries its force by one row, its friction is that many times it; `values` are those of the loads,
+/// and say on which side it presses.
+pub fn follow_presses<S: Scalar>(at: Placed<'_, S>, loads: &mut [Load<S>], values: &[f64]) {
+    for i in 0..loads.len() {
+        let Origin::Rubbing(rub) = loads[i].origin else { continue };
+        let presses = |load: &Load<S>| match load.origin {
+            Origin::Row(Source::Joint(joint, row)) => {
+                joint == at.m.rubs[rub].joint && !at.m.joints[joint].kind.card().rows[row].turning
+            }
+            _ => false,
+        };
+        if let Some(press) = loads.iter().position(presses) {
+            let Hold::Sliding(sense) = at.mode.rubs[rub] else { continue };
+            let side = if values[press] < 0.0 { -sense } else { sense };
+            loads[i].size = Size::Follows(press, at.n.slots[at.m.rubs[rub].kinetic].scale(-side));
+        }
+    }
 }
 
 /// The mass centre of a body, fixed axes.

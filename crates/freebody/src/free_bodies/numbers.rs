@@ -1,6 +1,6 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
-use super::{accelerations, loads, mass_centre, Load, Origin, Part, Size};
+use super::{accelerations, follow_presses, loads, mass_centre, Load, Origin, Part, Size};
 use crate::balance::{closing_rows, Balance, Labels, Source, Trouble};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
@@ -20,8 +20,11 @@ pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
     let sizes = Sizes::of(balance, &labels);
     let at = balance.at();
     let m = balance.m;
-    let all = loads(at);
-    let told: Vec<Value> = all.iter().map(|load| tell(balance, load, sizes.of_load(balance, load, &all))).collect();
+    let mut all = loads(at);
+    let found: Vec<(Option<f64>, bool)> = all.iter().map(|load| sizes.of_load(balance, load, &all)).collect();
+    let values: Vec<f64> = found.iter().map(|(value, _)| value.unwrap_or(1.0)).collect();
+    follow_presses(at, &mut all, &values);
+    let told: Vec<Value> = all.iter().zip(found).map(|(load, size)| tell(balance, load, size)).collect();
     let still = vec![0.0; m.freedom()];
     let drift = accelerations(at, &still);
     let unit = |j: usize| -> Vec<Twist> {

@@ -140,7 +140,7 @@ pub fn answer(balance: &mut Balance<'_>, setting: &Setting, questions: &[Questio
             let sentence = "in letters the equations of this mechanism grow beyond what can be written; ask for fewer, or set letters to numbers";
             return Err(Trouble::new("too_large", sentence));
         }
-        Ok(json!({"answers": answers?, "loads": told["loads"], "letters": letters.table()}))
+        Ok(json!({"answers": answers?, "loads": told["loads"], "laws": letters.laws(), "letters": letters.table()}))
     })
 }
 

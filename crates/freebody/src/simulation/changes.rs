@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::balance::Trouble;
-use crate::mode::Hold;
+use crate::mode::{Hold, Mode};
 use crate::plane::Vec2;
 
 /// Something that switched.
@@ -25,12 +25,31 @@ pub struct Change {
 }
 
 /// The impulses of a blow.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Impulses {
     /// On the first body of each contact (the first end of a string), with its name, N·s.
     pub limits: Vec<(String, Vec2)>,
     /// Of each joint on its second body, N·s and N·m·s about its point.
     pub joints: Vec<[f64; 3]>,
+    /// Each limit with an impulse.
+    pub struck: Vec<Struck>,
+    /// Contacts, stops and strings that were reached, and that what was struck acts on, but that would have had to pull.
+    pub spared: Vec<String>,
+    /// What was in place, with what was struck held as it was held during the blow.
+    pub mode: Mode,
+}
+
+/// The impulse of a limit, one of a contact's, a stop's or a string's.
+#[derive(Clone, Debug)]
+pub struct Struck {
+    /// The name of the contact, stop or string.
+    pub name: String,
+    /// Along the gap, N·s (N·m·s at an angle).
+    pub normal: f64,
+    /// Along the slide, N·s.
+    pub tangent: f64,
+    /// The coefficient of restitution.
+    pub restitution: f64,
 }
 
 impl Machine<'_> {

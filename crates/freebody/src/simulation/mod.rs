@@ -14,7 +14,7 @@ mod switching;
 mod trajectory;
 
 pub use canonical::mass_matrix;
-pub use changes::{Change, Impulses};
+pub use changes::{Change, Impulses, Struck};
 pub use impacts::Rule;
 pub use machine::Machine;
 pub use trajectory::{Ledger, Trajectory};

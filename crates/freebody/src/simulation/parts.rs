@@ -78,6 +78,7 @@ impl Machine<'_> {
         limits.iter_mut().filter(|h| h.hold.carries()).for_each(|h| h.hold = Hold::Idle);
         self.balance.mode.limits = limits;
         let blow = self.balance.joining_blow()?;
+        let mode = self.balance.mode.clone();
         self.balance.mode.limits = held;
         let before = y.to_vec();
         y[n..2 * n].iter_mut().zip(&blow.change).for_each(|(u, d)| *u += d);
@@ -87,7 +88,7 @@ impl Machine<'_> {
             return Ok(());
         }
         let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
-        let impulses = Some(Impulses { limits: vec![], joints });
+        let impulses = Some(Impulses { limits: vec![], joints, struck: vec![], spared: vec![], mode });
         let states = Some([before, y.to_vec()]);
         self.note_jump(Change { t, kind: "impact", of: vec![], lost, states, impulses, note: None });
         Ok(())

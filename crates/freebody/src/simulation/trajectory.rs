@@ -256,6 +256,26 @@ impl Trajectory {
         Ok(found.expect("one time was visited"))
     }
 
+    /// What `read` finds during a blow, by its place among `changes`: with the rates before it, and held what was struck.
+    ///
+    /// # Errors
+    /// `no_blow`; those of `read`.
+    pub fn at_blow<T>(
+        &self,
+        m: &Mechanism,
+        change: usize,
+        read: impl Fn(&mut Balance<'_>) -> Result<T, Trouble>,
+    ) -> Result<T, Trouble> {
+        let found = self.changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
+        let Some((t, [before, _], impulses)) = found else {
+            return Err(Trouble::new("no_blow", format!("change {change} of the run is no blow")));
+        };
+        let mut balance = Balance::new(m, &self.stretch(t).p);
+        balance.mode = impulses.mode.clone();
+        balance.place(t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
+        read(&mut balance)
+    }
+
     /// Everything about one time, and the degrees of freedom then.
     ///
     /// # Errors

@@ -13,6 +13,7 @@ from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.tree import Add, Mul, Num, Tree, evaluate, is_zero, negative
+from freebody.free_body import Load
 
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
@@ -83,15 +84,21 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
 
 def absent(subject: Subject, stated: Stated) -> list[str]:
     """Unknown loads that touch the bodies but are not in the equation, by reason: ``elbow.Fx and elbow.Fy (they act at elbow)``."""
-    found: dict[str, list[str]] = {}
+    found = dropped(subject, stated).items()
+    return [f"{joined([load.symbol for load in loads])} ({agree(why, len(loads))})" for why, loads in found]
+
+
+def dropped(subject: Subject, stated: Stated) -> dict[str, list[Load]]:
+    """Unknown loads that touch the bodies but are not in the equation, by reason, of one: ``it acts at elbow``."""
+    found: dict[str, list[Load]] = {}
     at = numbers(subject, stated.balance)
     place = Place(stated.kind, stated.where, at, stated.constructed or stated.word == "across")
     for contribution in stated.balance.contributions:
         load = subject.free.loads[contribution.load]
         if contribution.absent and load.unknown:
             why = why_absent(load, stated.balance.bodies, place, size(subject))
-            found.setdefault(why, []).append(load.symbol)
-    return [f"{joined(names)} ({agree(why, len(names))})" for why, names in found.items()]
+            found.setdefault(why, []).append(load)
+    return found
 
 
 def numbers(subject: Subject, balance: Balance) -> tuple[float, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from freebody.equations.code import generate
@@ -16,7 +17,7 @@ from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Subject
 from freebody.equations.derivation.wanted import wanted
-from freebody.equations.document import Block, Document, Heading
+from freebody.equations.document import Block, Document, Equation, Heading
 from freebody.equations.letters import Letters
 from freebody.equations.tree import Sym, Tree, symbols
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import sympy
 
 FORMS = ("minimal", "brute", "constraints")
+_FUNCTIONS = {"py": "python", "c": "c"}
 _TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
 
 
@@ -93,6 +95,19 @@ class Equations:
         """The derivation as Markdown with LaTeX between dollars."""
         return self.document.markdown()
 
+    def printed(self, kind: str) -> str:
+        """By the ending of a file: txt, tex, md, html or json; py or c for functions. Raises ``KeyError`` for any other."""
+        return self.code(_FUNCTIONS[kind]) if kind in _FUNCTIONS else self.document.printed(kind)
+
+    def save(self, path: str | Path, kind: str = "") -> list[Path]:
+        """Write a file by its ending or ``kind``, see ``printed``, and beside it the sketch for Markdown (.svg) and LaTeX (.pdf).
+        Returns all that is written."""
+        kind = kind or Path(path).suffix.removeprefix(".")
+        if kind not in _FUNCTIONS:
+            return self.document.save(path, kind)
+        Path(path).write_text(self.printed(kind), encoding="utf-8")
+        return [Path(path)]
+
     def json(self) -> str:
         """The derivation as JSON: letters, and blocks with trees."""
         return self.document.json()
@@ -152,7 +167,11 @@ class _Writer:
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)
-        return [*kinematics, *self.content.blocks, *matrices.section(self.form, self.content, self.letters)]
+        laws = [
+            Equation(*law, "The law of friction, as the joint slides now" if not i else "")
+            for i, law in enumerate(self.subject.laws)
+        ]
+        return [*kinematics, *self.content.blocks, *laws, *matrices.section(self.form, self.content, self.letters)]
 
 
 def used(blocks: Any) -> set[str]:

@@ -23,7 +23,8 @@ def minimal(subject: Subject) -> Form:
     In a tree these are the balances of the coordinates. With loops they are looked for among all connected sets of bodies; where
     none exist, or only about points of inertia, the balances of the coordinates stand with the reactions of what closes loops."""
     rows = subject.rows
-    chosen = None if all(row.kind == "motion" for row in rows) else _searched(subject)
+    rubs = any(load.follows for load in subject.free.loads)
+    chosen = None if all(row.kind == "motion" for row in rows) and not rubs else _searched(subject)
     stated = chosen or of_coordinates(subject)
     stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(stated, 1)]
     equations = [_printed(s) for s in stated]

@@ -8,10 +8,12 @@ from collections.abc import Collection, Sequence
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.meaning import joined, plain
 from freebody.equations.derivation.told import Motion, Subject
-from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Table, Written
+from freebody.equations.document import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.names import latex_name, superscript
 from freebody.equations.tree import Sym, is_zero
+
+_CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
 
 
 def configuration(subject: Subject) -> list[Block]:
@@ -26,7 +28,15 @@ def configuration(subject: Subject) -> list[Block]:
         Heading("Configuration"),
         Paragraph(f"The mechanism has {degrees} of freedom{prescribed}. {_count(len(coordinates))} where it is:"),
         Table(("coordinate", "what it measures", "unit"), rows),
+        sketch(subject),
     ]
+
+
+def sketch(subject: Subject) -> Figure:
+    """The mechanism with what each coordinate measures."""
+    from freebody.views.diagram.configuration import Configuration
+
+    return Figure(Configuration(subject.source, subject.state), _CAPTION, "sketch")
 
 
 def kinematics(subject: Subject) -> list[Block]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
-from freebody.equations.document import Block, Vector, Written, is_tree
+from freebody.equations.document import Block, Figure, Vector, Written, is_tree
 from freebody.equations.letters import Letters
 from freebody.equations.rendering.markup import side_latex
 from freebody.equations.rendering.plain import side_text
@@ -14,10 +14,12 @@ from freebody.equations.tree import write
 
 
 def block(made: Block, letters: Letters) -> dict[str, Any]:
-    """The kind of the block and its fields; every expression is ``{"tree": …, "text": …, "latex": …}``."""
-    return {"kind": type(made).__name__.lower()} | {
-        field.name: _value(getattr(made, field.name), letters) for field in fields(made)
-    }
+    """The kind of the block and its fields; every expression is ``{"tree": …, "text": …, "latex": …}``, a picture what it shows."""
+    return (
+        {"kind": type(made).__name__.lower()}
+        | {field.name: _value(getattr(made, field.name), letters) for field in fields(made) if field.name != "picture"}
+        | ({"shows": made.picture.description} if isinstance(made, Figure) else {})
+    )
 
 
 def _value(value: Any, letters: Letters) -> Any:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from unicodedata import normalize
 
 from freebody.equations.document import (
     Block,
@@ -28,9 +28,12 @@ from freebody.equations.document import (
 from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
-from freebody.equations.rendering.plain import side_text
+from freebody.equations.rendering.plain import FEW, side_text
 from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
+
+_LINE = 75
+"""Signs of a formula that may be wider than a line: it is measured by TeX."""
 
 
 def side_latex(side: Side, letters: Letters) -> str:
@@ -70,9 +73,10 @@ def latex_subscript(text: str) -> str:
 
 @dataclass(frozen=True)
 class Markup(ABC):
-    """What the three have in common."""
+    """What the three have in common. ``beside``: how the names of figures' files begin; empty where there are none."""
 
     letters: Letters
+    beside: str = ""
 
     def render(self, blocks: Sequence[Block]) -> str:
         """All blocks."""
@@ -88,8 +92,7 @@ class Markup(ABC):
             case Equation():
                 return self.stated(block, self.equation(block))
             case MatrixEquation():
-                parts = [matrix_latex(part, self.letters) for part in (block.matrix, block.unknowns, block.right)]
-                return self.stated(block, f"{parts[0]} {parts[1]} = {parts[2]}")
+                return self.stated(block, self.matrices(block))
             case Bullets(items):
                 return self.bullets([self.words(item) for item in items])
             case Table():
@@ -104,6 +107,11 @@ class Markup(ABC):
             self.plain(piece) if isinstance(piece, str) else self.inline(side_latex(piece, self.letters))
             for piece in pieces(words)
         )
+
+    def matrices(self, block: MatrixEquation) -> str:
+        """LaTeX of A x = b."""
+        parts = [matrix_latex(part, self.letters) for part in (block.matrix, block.unknowns, block.right)]
+        return f"{parts[0]} {parts[1]} = {parts[2]}"
 
     def equation(self, block: Equation) -> str:
         """LaTeX of an equation."""
@@ -181,8 +189,9 @@ class Markdown(Markup):
         return "\n".join(([caption, ""] if caption else []) + lines)
 
     def figure(self, figure: Figure, caption: str) -> str:
-        data = base64.b64encode(figure.svg.encode()).decode()
-        return f"![{caption}](data:image/svg+xml;base64,{data})"
+        if not self.beside:
+            return self.paragraph(self.plain(f"[Figure: {figure.picture.description}]"))
+        return f"![{self.plain(figure.picture.description)}](<{self.beside}-{figure.name}.svg>)\n\n{caption}"
 
 
 class Latex(Markup):
@@ -191,13 +200,34 @@ class Latex(Markup):
     _SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
 
     def plain(self, text: str) -> str:
-        return re.sub("[^\x00-\u024f]+", lambda signs: _signs(signs[0]), escaped(text))
+        return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
+
+    def matrices(self, block: MatrixEquation) -> str:
+        """In brackets where they fit on the line, else entry by entry if there are few, else row by row."""
+        if _across(block, self.letters) <= WIDTH:
+            return super().matrices(block)
+        lines = self._entries(block) if len(block.unknowns) <= FEW else [equation_latex(*s, self.letters) for s in block.rows()]
+        return "\\begin{gathered}\n" + " \\\\\n".join(lines) + "\n\\end{gathered}"
+
+    def _entries(self, block: MatrixEquation) -> list[str]:
+        def equal(left: str, tree: Tree) -> str:
+            right = latex_lines(tree, self.letters)
+            return f"{left} = {right[0]}" if len(right) == 1 else aligned([left], right, beside=True)
+
+        unknowns = ", ".join(latex(x, self.letters) for x in block.unknowns)
+        told = rf"{block.letter} x = b, \quad x = ({unknowns}); \quad \text{{what is not told is }} 0"
+        entries = [
+            equal(" = ".join(f"{block.letter}_{{{i}{j}}}" for i, j in places), tree) for tree, places in block.entries().items()
+        ]
+        return [told, *entries, *(equal(f"b_{i}", entry) for i, entry in enumerate(block.right, 1))]
 
     def inline(self, math: str) -> str:
         return f"${math}$"
 
     def display(self, math: str, label: str) -> str:
         tag = rf"\tag{{{label}}}" if label else r"\notag"
+        if max(map(_signs_of, math.split(r"\\"))) > _LINE:
+            math = _fitted(rf"$\displaystyle {math}$")
         return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
 
     def heading(self, title: str, level: int) -> str:
@@ -217,8 +247,10 @@ class Latex(Markup):
         )
 
     def figure(self, figure: Figure, caption: str) -> str:
-        frame = rf"\IfFileExists{{{figure.name}.pdf}}{{\includegraphics{{{figure.name}.pdf}}}}{{\fbox{{{escaped(figure.name)}}}}}"
-        return "\n".join([r"\begin{center}", frame, *([r"\par " + caption] if caption else []), r"\end{center}"])
+        if not self.beside:
+            return self.paragraph(self.plain(f"[Figure: {figure.picture.description}]"))
+        shown = rf"\includegraphics{{{self.beside}-{figure.name}.pdf}}"
+        return "\n".join([r"\begin{center}", _fitted(shown), *([r"\par " + caption] if caption else []), r"\end{center}"])
 
 
 class Html(Markup):
@@ -249,24 +281,40 @@ class Html(Markup):
         return "\n".join([f"<table>{top}", *(f"<tr>{line}</tr>" for line in lines), "</table>"])
 
     def figure(self, figure: Figure, caption: str) -> str:
-        picture = re.sub(r"^\s*(<\?xml.*?\?>|<!DOCTYPE.*?>|\s)*", "", figure.svg, flags=re.DOTALL)
-        return f"<figure>{picture}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
+        return f"<figure>{figure.picture.inline()}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
+
+
+def _fitted(shown: str) -> str:
+    """What is wider than the line made smaller."""
+    return rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
+
+
+def _signs_of(line: str) -> int:
+    """How many signs a line of a formula has, about."""
+    return len(re.sub(r"\\[a-zA-Z]+|[{}_^&\\\s]", "", line))
+
+
+def _across(block: MatrixEquation, letters: Letters) -> int:
+    """Columns that A x = b takes as text."""
+    rows = [[columns(side_text(entry, letters)) for entry in row] for row in block.matrix]
+    widths = [max(each) + 3 for each in zip(*rows, strict=True)]
+    return sum(widths) + sum(max(columns(side_text(entry, letters)) for entry in side) for side in (block.unknowns, block.right))
+
+
+_SIGNS = {sign: rf"\{word}" for word, sign in GREEK.items()}
+_SIGNS |= {sign: f"_{digit}" for digit, sign in enumerate("₀₁₂₃₄₅₆₇₈₉")}
+_SIGNS |= {"⁴": "^4", "⁻": "^-", "−": "-", "×": r"\times", "·": r"\cdot", "→": r"\to", "∞": r"\infty", "≥": r"\ge", "≤": r"\le",
+           "√": r"\surd", "∂": r"\partial", "≠": r"\ne", "≈": r"\approx", "′": "'"}  # fmt: skip
+_ACCENTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 
 
 def _signs(signs: str) -> str:
-    """Letters that TeX does not have in text: Greek, raised and lowered digits, arrows."""
-    spelt = {sign: rf"\{word}" for word, sign in GREEK.items()}
-    spelt |= {sign: f"_{digit}" for digit, sign in enumerate("₀₁₂₃₄₅₆₇₈₉")} | {"⁴": "^4", "⁻": "^-", "Σ": r"\Sigma"}
-    spelt |= {
-        "−": "-",
-        "×": r"\times ",
-        "·": r"\cdot ",
-        "→": r"\to ",
-        "∞": r"\infty ",
-        "≥": r"\ge ",
-        "≤": r"\le ",
-        "√": r"\surd ",
-    }
-    spelt |= {"\u0307": r"^{\cdot}", "\u0308": r"^{\cdot\cdot}"}
-    made = "".join(f"{spelt[sign]} " if sign in spelt else sign for sign in signs).strip()
-    return f"${made}$" if all(sign in spelt for sign in signs) else signs
+    """Letters that TeX does not have in text: Greek, with dots, lowered digits, arrows; as they are where one is not known."""
+    apart = "".join(normalize("NFD", sign) if "\u1e00" <= sign <= "\u1eff" else sign for sign in signs)
+    made = [_sign(*found) for found in re.findall("(.)([\u0307\u0308]?)", apart)]
+    return f"${' '.join(filter(None, made))}$" if all(made) else signs
+
+
+def _sign(sign: str, accent: str) -> str | None:
+    shown = _SIGNS.get(sign, sign if sign.isascii() else None)
+    return rf"{_ACCENTS[accent]}{{{shown}}}" if shown and accent else shown

@@ -27,10 +27,10 @@ from freebody.equations.document import (
 from freebody.equations.letters import Letters
 from freebody.equations.names import ascii_name, unicode_name
 from freebody.equations.text import columns, equation_text, folded, text
-from freebody.equations.tree import Add, Tree, add, is_zero, mul
+from freebody.equations.tree import Add, Tree, is_zero
 
 _INDENT = "    "
-_FEW = 4
+FEW = 4
 """Unknowns up to which a matrix that is too wide is told entry by entry."""
 _TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
@@ -95,7 +95,7 @@ class _Writer:
             case Table():
                 return self.table(block)
             case Figure():
-                return self.filled(["[Figure: ", *pieces(block.caption or block.name), "]"])
+                return ""
 
     def words(self, words: Words) -> str:
         return "".join(
@@ -153,25 +153,20 @@ class _Writer:
 
     def listed(self, block: MatrixEquation) -> str:
         """What is too wide for brackets: entry by entry if there are few, else row by row, as equations."""
-        if len(block.unknowns) <= _FEW:
+        if len(block.unknowns) <= FEW:
             return self.entries(block)
-        lines = []
-        for row, right in zip(block.matrix, block.right, strict=True):
-            products = [mul(entry, unknown) for entry, unknown in zip(row, block.unknowns, strict=True) if not is_zero(entry)]
-            left = add(*products)
-            lines.append(equation_text(left, right, self.letters, ascii=self.ascii, width=self.width - len(_INDENT) - 8))
-        return "\n".join(lines)
+        width = self.width - len(_INDENT) - 8
+        return "\n".join(equation_text(*sides, self.letters, ascii=self.ascii, width=width) for sides in block.rows())
 
     def entries(self, block: MatrixEquation) -> str:
         """Every entry that is not 0, equal ones once, behind what they are entries of."""
-        found: dict[Tree, list[str]] = {}
-        for i, row in enumerate(block.matrix, 1):
-            for j, entry in enumerate(row, 1):
-                if not is_zero(entry):
-                    found.setdefault(entry, []).append(self.indexed(block.letter, f"{i}{j}"))
         lines = [
-            folded(f"{' = '.join(names)} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8)
-            for entry, names in found.items()
+            folded(
+                f"{' = '.join(self.indexed(block.letter, f'{i}{j}') for i, j in places)} = ",
+                text(entry, self.letters, ascii=self.ascii),
+                self.width - len(_INDENT) - 8,
+            )
+            for entry, places in block.entries().items()
         ]
         for i, entry in enumerate(block.right, 1):
             name = self.indexed("b", str(i))

@@ -33,7 +33,8 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
-    return Document((first, *opening.letters(letters, used(list(blocks))), *blocks), letters)
+    sketch = [opening.sketch(subject)] if subject.coordinates else []
+    return Document((first, *sketch, *opening.letters(letters, used(list(blocks))), *blocks), letters)
 
 
 def moving_names(subject: Subject) -> list[str]:

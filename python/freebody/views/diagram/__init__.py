@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from html import escape
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,12 +18,9 @@ from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
 from freebody.views.diagram.describe import described, spoken
 from freebody.views.diagram.names import Labels
 from freebody.views.diagram.panel import Panel
-from freebody.views.diagram.paper import Row, sheet
+from freebody.views.diagram.paper import Row
+from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.scenery import Scenery, scenery
-from freebody.views.style import quiet
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _NAMED = 3  # bodies of which the title of a group has the names even where they are all
 _STEP = 1e-3  # m, rad and their rates: enough for a spring at rest to pull
@@ -53,48 +45,21 @@ class Cut:
 
 
 @dataclass(frozen=True)
-class Diagram:
+class Diagram(Picture):
     """Free-body diagrams on one sheet, one cut below the other."""
 
     name: str
     cuts: tuple[Cut, ...]
 
-    @cached_property
-    def figure(self) -> Figure:
-        """The sheet as a matplotlib figure, just as large as it must be."""
-        return sheet([cut.row for cut in self.cuts])
+    @property
+    def rows(self) -> list[Row]:
+        """A row for every cut."""
+        return [cut.row for cut in self.cuts]
 
     @property
     def description(self) -> str:
         """In words, what the diagrams show."""
         return " ".join(described(cut.group, [mark.action for mark in cut.forces]) for cut in self.cuts)
-
-    def save(self, path: str | Path) -> Path:
-        """Write a file: .svg, .png or .pdf. Raises ``ValueError`` for any other."""
-        path = Path(path)
-        if path.suffix.lower() not in (".svg", ".png", ".pdf"):
-            raise ValueError(f"a diagram is .svg, .png or .pdf, not {path.suffix or 'without a suffix'!r}")
-        if path.suffix.lower() == ".svg":
-            path.write_text(self.svg(), encoding="utf-8")
-        else:
-            with quiet():
-                self.figure.savefig(path, dpi=220)
-        return path
-
-    def svg(self) -> str:
-        """The sheet as SVG with a title and a description, for those who cannot see it."""
-        import matplotlib
-
-        buffer = io.StringIO()
-        with quiet(), matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": self.name}):
-            self.figure.savefig(buffer, format="svg", metadata={"Date": None})
-        told = f"<title>{escape(self.name)}</title>\n <desc>{escape(self.description)}</desc>\n"
-        head, opening, rest = buffer.getvalue().partition("<svg")
-        attributes, end, body = rest.partition(">")
-        return f'{head}{opening}{attributes} role="img"{end}\n {told}{body}'
-
-    def _repr_svg_(self) -> str:
-        return self.svg()
 
 
 def diagram(
@@ -107,13 +72,13 @@ def diagram(
 ) -> Diagram:
     """Free-body diagrams of groups of bodies (by default every body by itself) at a state."""
     near = free if scaled else _further(source, state, free)
-    desk = _Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective)
+    desk = Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
     return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
 
 
 @dataclass(frozen=True)
-class _Desk:
+class Desk:
     """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
 
     source: Source
@@ -138,7 +103,7 @@ class _Desk:
             bare = drawn.bare()
             panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))
         title = "all bodies" if len(group) == len(self.free.bodies) > _NAMED else " + ".join(group)
-        return Cut(group, Row(title, panels, per_newton, notes, vanishes=self.effective and not terms))
+        return Cut(group, Row(title, panels, per_newton, notes, self.effective and not terms, self.labels.unit))
 
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
         """What acts, m a and I α, and remarks."""

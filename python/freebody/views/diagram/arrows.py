@@ -10,7 +10,8 @@ import numpy as np
 from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.scenery import Scenery, dense
+from freebody.views.diagram.scenery import Scenery
+from freebody.views.shapes import dense
 
 LENGTH = 36.0  # pt of a symbolic arrow
 LONGEST = 72.0  # pt of the largest force to scale

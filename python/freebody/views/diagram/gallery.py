@@ -38,7 +38,7 @@ def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
     for heading, model in models:
         place = re.sub(r"\W+", "-", heading).strip("-")
         links.append(f'<a href="#{place}">{escape(heading)}</a>')
-        pictures = _pictures(Mechanism.load(model), f"d{len(sections)}")
+        pictures = _pictures(Mechanism.load(model), f"d{len(sections)}-")
         sections.append(f'<section id="{place}"><h2><a href="#{place}">{escape(heading)}</a></h2>\n{pictures}</section>')
     path.write_text(_PAGE.format(links="\n".join(links), sections="\n".join(sections)), encoding="utf-8")
     return path
@@ -53,10 +53,4 @@ def _pictures(mechanism: Mechanism, prefix: str) -> str:
             drawn.append(mechanism.diagram("all"))
     except MotionError as error:
         return f"<p>{escape(error.args[2])}</p>"
-    return "\n".join(_inline(each.svg(), f"{prefix}{i}") for i, each in enumerate(drawn))
-
-
-def _inline(svg: str, prefix: str) -> str:
-    """An SVG for a page with others: its identifiers made its own."""
-    body = svg[svg.index("<svg") :]
-    return re.sub(r'(\bid="|xlink:href="#|url\(#)', rf"\g<1>{prefix}-", body)
+    return "\n".join(each.inline(f"{prefix}{i}") for i, each in enumerate(drawn))

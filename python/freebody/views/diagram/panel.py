@@ -12,7 +12,8 @@ from freebody.results import Array
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import Arrow, Mark, lines
 from freebody.views.diagram.layout import Ink, Label, Placed, placed
-from freebody.views.diagram.scenery import Scenery, dense
+from freebody.views.diagram.scenery import Scenery
+from freebody.views.shapes import dense
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK
 

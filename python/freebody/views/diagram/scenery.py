@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,7 +17,8 @@ from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
 from freebody.views.measures import measures
-from freebody.views.scene import Scene, Sketch, drawn, sketch_of_state
+from freebody.views.scene import GROUND, Scene, Sketch, drawn, sketch_of_state
+from freebody.views.style import GROUND as GREY
 from freebody.views.style import colour
 
 SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
@@ -27,6 +28,10 @@ _WIDEST = 380.0, 260.0  # pt, what more may take
 _LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
 _FAR = 60.0  # pt, longest arrow of a coordinate on a small body
 _STUB = 26.0  # pt, what is shown of a longer one
+_FURTHER = 6.0  # extents of the bodies, how long an arrow may be that they are drawn smaller for
+_POINT = 4.0  # sizes of symbols, below which a mechanism is no more than a point
+_NEARBY = 40.0  # pt about all else, in which points of ground are shown
+_RADIUS = 5.0  # sizes of symbols, of the arcs of angles
 _BESIDE = 8.0  # pt from its body at which a force hangs in the air
 _LOOSE = ("rail", "slot", "hatch")
 _SOLID = ("body", "block", "band", "mass")
@@ -107,7 +112,7 @@ class Scenery:
             + [d.arrow for d in self.dimensions]
             + [guide for d in self.dimensions for guide in d.guides]
         )
-        return dense(lines)
+        return shapes.dense(lines)
 
 
 def closed(stroke: Drawn) -> Array:
@@ -122,27 +127,10 @@ def _contains(outline: Array, places: Array) -> bool:
     return bool(Path(outline).contains_points(places).any())
 
 
-def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
-    """Places along polylines, at most a step apart."""
-    starts, ends = (np.vstack([line[piece] for line in lines] or [np.zeros((0, 2))]) for piece in (slice(-1), slice(1, None)))
-    counts = (np.hypot(*(ends - starts).T) / step).astype(int) + 2
-    side = np.repeat(np.arange(len(counts)), counts)
-    place = np.arange(len(side)) - np.repeat(np.cumsum(counts) - counts, counts)
-    found: Array = starts[side] + (place / (counts[side] - 1))[:, None] * (ends - starts)[side]
-    return found
-
-
 def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool) -> Scenery:
     """The bodies of a group as large as the paper allows."""
     room = _ROOM if len(group) == 1 else _WIDER if len(group) < 4 else _WIDEST
-    sketch = sketch_of_state(source, state)
-    scene, whole = drawn(sketch), sketch.size
-    for _ in range(2):  # the thickness of slender parts depends on the scale, and the extent on it
-        extent = np.ptp(np.vstack([stroke.points for stroke in _strokes(scene, group, 1.0)] or [np.zeros((1, 2))]), axis=0)
-        scale = float(min([size / along for size, along in zip(room, extent, strict=True) if along > 0] + [_LARGEST / whole]))
-        sketch = sketch_of_state(source, state)
-        sketch.size = SYMBOL / scale
-        scene = drawn(sketch)
+    sketch, scene, scale = _fitted(source, state, room, lambda scene, _: [each.points for each in _strokes(scene, group, 1.0)])
     strokes = _strokes(scene, group, scale)
     strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
@@ -154,13 +142,49 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
-def _strokes(scene: Scene, group: Collection[str], scale: float) -> list[Drawn]:
-    """All strokes of the group's bodies but the symbols of joints."""
+def whole(source: Source, state: State) -> Scenery:
+    """The mechanism on its ground with joints, springs and strings, and all its coordinates, as large as the paper allows."""
+    names = [body["name"] for body in source.about["bodies"]]
+
+    def seen(scene: Scene, sketch: Sketch) -> list[Array]:
+        lines = [stroke.points for stroke in _strokes(scene, [GROUND, *names], 1.0)] + _joining(scene)
+        across = float(np.hypot(*np.ptp(np.vstack(lines), axis=0)))
+        far = _FURTHER * across if across > _POINT * sketch.size else np.inf
+        return lines + [m.arrow for m in measures(sketch, _RADIUS) if np.hypot(*np.ptp(m.arrow, axis=0)) < far]
+
+    sketch, scene, scale = _fitted(source, state, _WIDEST, seen)
+    strokes = _strokes(scene, [GROUND, *names], scale, hidden=())
+    inner = [scale * line for line in _joining(scene)]
+    centres = {name: scale * sketch.place(f"{name}.G") for name in names}
+    dimensions = _dimensions(sketch, [GROUND, *names], scale, False, float(np.hypot(*_WIDEST)))
+    made = Scenery(strokes, inner, np.zeros((0, 2)), centres, [], dimensions, scale, sketch)
+    low, high = made.ink.min(axis=0) - _NEARBY, made.ink.max(axis=0) + _NEARBY
+    points = _points(sketch, [GROUND, *names], centres, scale)
+    return replace(made, points=[tag for tag in points if (low < tag.at).all() and (tag.at < high).all()])
+
+
+def _fitted(
+    source: Source, state: State, room: tuple[float, float], seen: Callable[[Scene, Sketch], list[Array]]
+) -> tuple[Sketch, Scene, float]:
+    """What is drawn, and the scale in pt for each m at which what is ``seen`` of it fills the room."""
+    sketch = sketch_of_state(source, state)
+    scene, least = drawn(sketch), sketch.size
+    for _ in range(2):  # the thickness of slender parts depends on the scale, and the extent on it
+        extent = np.ptp(np.vstack(seen(scene, sketch) or [np.zeros((1, 2))]), axis=0)
+        scale = float(min([size / along for size, along in zip(room, extent, strict=True) if along > 0] + [_LARGEST / least]))
+        sketch = sketch_of_state(source, state)
+        sketch.size = SYMBOL / scale
+        scene = drawn(sketch)
+    return sketch, scene, scale
+
+
+def _strokes(scene: Scene, group: Collection[str], scale: float, hidden: Collection[str] = _CUT) -> list[Drawn]:
+    """All strokes of the group's bodies but those of some styles, by default the symbols of joints."""
     return [
-        Drawn(stroke.style, scale * scene.place(i, stroke.points), colour(i - 1), stroke.closed, figure.name)
+        Drawn(stroke.style, scale * scene.place(i, stroke.points), colour(i - 1) if i else GREY, stroke.closed, figure.name)
         for i, figure in enumerate(scene.figures)
         for stroke in figure.strokes
-        if figure.name in group and stroke.style not in _CUT
+        if figure.name in group and stroke.style not in hidden
     ]
 
 
@@ -171,7 +195,7 @@ def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collect
     for load, part in cuts:
         own = [stroke for stroke in strokes if stroke.body == part.body and stroke.style not in _LOOSE]
         solid = [stroke for stroke in own if stroke.style in _SOLID]
-        at, seen = scale * attached(load, part, sketch), dense([closed(stroke) for stroke in own])
+        at, seen = scale * attached(load, part, sketch), shapes.dense([closed(stroke) for stroke in own])
         if not solid or any(_contains(stroke.points, at[None]) for stroke in solid):
             continue
         gaps = np.hypot(*(seen - at).T)
@@ -183,9 +207,13 @@ def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collect
 
 def _inner(scene: Scene, free: FreeBodies, group: Collection[str]) -> list[Array]:
     """Springs, links and strings that are not cut."""
-    inside = {load.name for load in free.inside(*group)}
-    lines = [line for pair in scene.pairs if pair.name in inside for line in scene.pair_lines(pair)]
-    return lines + [cord.path[0] for cord in scene.cords if cord.name in inside and cord.shown[0]]
+    return _joining(scene, {load.name for load in free.inside(*group)})
+
+
+def _joining(scene: Scene, among: Collection[str] | None = None) -> list[Array]:
+    """Springs, links and strings, all of them or those of some names."""
+    lines = [line for pair in scene.pairs if among is None or pair.name in among for line in scene.pair_lines(pair)]
+    return lines + [cord.path[0] for cord in scene.cords if (among is None or cord.name in among) and cord.shown[0]]
 
 
 def _pins(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> Array:
@@ -215,12 +243,12 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
 def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bool, far: float) -> list[Dimension]:
     """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
     found = []
-    for measure in measures(sketch, radius=5.0):
+    for measure in measures(sketch, _RADIUS):
         if measure.second not in group:
             continue
         value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
-        arrow, guides = scale * measure.arrow, [scale * measure.guide]
-        length = float(np.hypot(*(arrow[-1] - arrow[0])))
+        arrow, guides = scale * measure.arrow, [scale * guide for guide in measure.guides]
+        length = float(np.hypot(*np.diff(arrow, axis=0).T).sum())
         aside = scale * measure.place - guides[0][0]
         if measure.angle and measure.first not in group and np.hypot(*aside) > 1.0:
             # The vertex is not on these bodies: the same angle at what they are held by.
@@ -228,6 +256,15 @@ def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bo
             guides = [guides[0] + aside, scale * measure.place + np.outer([0.0, 1.25], end)]
             arrow = arrow + aside
         elif not measure.angle and length > far:
-            arrow, guides = arrow[-1] + np.array([[_STUB / length], [0.0]]) * (arrow[0] - arrow[-1]), []
+            arrow, guides = _end(arrow, _STUB), []
+        elif not measure.angle:
+            guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
         found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle))
     return found
+
+
+def _end(line: Array, length: float) -> Array:
+    """The last stretch of a polyline."""
+    left = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line[::-1], axis=0).T))])
+    shown = np.linspace(length, 0.0, len(line))
+    return np.column_stack([np.interp(shown, left, coordinate) for coordinate in line[::-1].T])

@@ -1,0 +1,67 @@
+"""A mechanism drawn once, to no forces, with what each of its coordinates measures."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from freebody.instant import State
+from freebody.run import Source
+from freebody.views.diagram.panel import Panel
+from freebody.views.diagram.paper import Row
+from freebody.views.diagram.picture import Picture
+from freebody.views.diagram.scenery import Scenery, whole
+from freebody.views.scene import sketch_of_state
+
+_TURNED = 0.2  # rad, below which an angle can hardly be seen
+_MORE = np.array([3.0, 1.9, 2.4])
+_FURTHER = np.array([12.0, 9.0, 15.0])  # sizes of symbols
+
+
+@dataclass(frozen=True)
+class Configuration(Picture):
+    """The drawing of a mechanism at a state."""
+
+    source: Source
+    state: State
+
+    @property
+    def name(self) -> str:
+        """Its title."""
+        return f"configuration of {self.source.name}"
+
+    @cached_property
+    def scenery(self) -> Scenery:
+        """What is seen, with a dimension for every coordinate."""
+        return whole(self.source, _opened(self.source, self.state))
+
+    @cached_property
+    def rows(self) -> list[Row]:
+        """One row of one panel."""
+        names = [body["name"] for body in self.source.about["bodies"]]
+        return [Row("", [Panel(self.scenery, [], names, oriented=True)], None, [])]
+
+    @property
+    def description(self) -> str:
+        """In words, what the drawing shows."""
+        told = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.about["coordinates"]]
+        return f"{self.source.name}, drawn with its coordinates: {'; '.join(told)}."
+
+
+def _opened(source: Source, state: State) -> State:
+    """A state where one sees what is measured: coordinates that are 0 a little off it, all by different amounts. The same state
+    where coordinates depend on each other or something may touch."""
+    coupled = any(joint["type"] == "coupling" for joint in json.loads(source.spec)["joints"])
+    if coupled or source.about["limits"] or any(joint["cut"] for joint in source.about["joints"]):
+        return state
+    size = sketch_of_state(source, state).size
+    least = {"rad": _TURNED, "m": size}
+    away = {"rad": _TURNED * _MORE, "m": size * _FURTHER}
+    q = [
+        float(x) if abs(x) > least.get(c["dimension"], -1.0) else float(away[c["dimension"]][i % 3])
+        for i, (c, x) in enumerate(zip(source.about["coordinates"], state.q, strict=True))
+    ]
+    return replace(state, q=np.array(q))

@@ -1,0 +1,73 @@
+"""Rows of panels as a picture: on a figure, in files, in the middle of a page."""
+
+from __future__ import annotations
+
+import io
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import cached_property
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+from zlib import crc32
+
+from freebody.views.diagram.paper import Row, sheet
+from freebody.views.style import quiet
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class Picture(ABC):
+    """Rows on one sheet, one below the other."""
+
+    name: str
+
+    @property
+    @abstractmethod
+    def rows(self) -> Sequence[Row]:
+        """What is drawn."""
+
+    @property
+    @abstractmethod
+    def description(self) -> str:
+        """In words, what is shown."""
+
+    @cached_property
+    def figure(self) -> Figure:
+        """The sheet as a matplotlib figure, just as large as it must be."""
+        return sheet(self.rows)
+
+    def save(self, path: str | Path) -> Path:
+        """Write a file: .svg, .png or .pdf. Raises ``ValueError`` for any other."""
+        path = Path(path)
+        if path.suffix.lower() not in (".svg", ".png", ".pdf"):
+            raise ValueError(f"a diagram is .svg, .png or .pdf, not {path.suffix or 'without a suffix'!r}")
+        if path.suffix.lower() == ".svg":
+            path.write_text(self.svg(), encoding="utf-8")
+        else:
+            with quiet():
+                self.figure.savefig(path, dpi=220)
+        return path
+
+    def svg(self) -> str:
+        """The sheet as SVG with a title and a description, for those who cannot see it."""
+        import matplotlib
+
+        buffer = io.StringIO()
+        with quiet(), matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": self.name}):
+            self.figure.savefig(buffer, format="svg", metadata={"Date": None})
+        told = f"<title>{escape(self.name)}</title>\n <desc>{escape(self.description)}</desc>\n"
+        head, opening, rest = buffer.getvalue().partition("<svg")
+        attributes, end, body = rest.partition(">")
+        return f'{head}{opening}{attributes} role="img"{end}\n {told}{body}'
+
+    def inline(self, prefix: str = "") -> str:
+        """The SVG for a page with others: identifiers begin with a prefix, by default one that no different picture has."""
+        svg = self.svg()
+        own = prefix or f"d{crc32(svg.encode()):08x}"
+        return re.sub(r'(\bid="|xlink:href="#|url\(#)', rf"\g<1>{own}-", svg[svg.index("<svg") :])
+
+    def _repr_svg_(self) -> str:
+        return self.svg()

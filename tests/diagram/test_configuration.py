@@ -1,0 +1,130 @@
+"""The sketch of a derivation: every coordinate of every joint is drawn as what it measures."""
+
+import re
+from dataclasses import replace
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from freebody import catalogue
+from freebody.equations.topics import topic
+from freebody.model import Mechanism
+from freebody.model.cards import joints
+from freebody.views.diagram.configuration import Configuration
+from freebody.views.diagram.names import letter
+from freebody.views.measures import measures
+from freebody.views.scene import sketch_of_state
+
+MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
+HEAD = """
+freebody: 1
+gravity: none
+ground: {points: {A: [0.1, 0.2]}, curves: {arc: {x: "2*cos(s)", y: "2*sin(s)"}}}
+bodies:
+  wheel: {pieces: [{shape: disk, radius: 0.3, mass: 1}], points: {P: [0.3, 0], Q: [-0.2, 0.1]}}
+joints: {pair: {type: TYPE, FIELDS, coordinates: [NAMES]}}
+"""
+LINE, CIRCLE = "{through: ground.A, angle: 20 deg}", "{centre: wheel.G, radius: 0.3}"
+FIELDS = {
+    "hinge": "of: [ground.A, wheel.P]",
+    "slider": f"along: {LINE}, line: {{through: wheel.P, angle: 10 deg}}",
+    "rollers": f"along: {LINE}, points: [wheel.P, wheel.Q]",
+    "slot": f"along: {LINE}, point: wheel.P",
+    "curved_slot": "along: ground.arc, point: wheel.P",
+    "cam": f"along: ground.arc, follower: {CIRCLE}",
+    "link": "of: [ground.A, wheel.P], length: 0.9",
+    "rolling": f"on: {LINE}, circle: {CIRCLE}",
+    "rolling_circles": f"on: {{centre: ground.A, radius: 0.8}}, circle: {CIRCLE}",
+    "free": "of: [ground.A, wheel.P]",
+    "polar": "of: [ground.A, wheel.P]",
+}
+VALUES = np.array([0.8, 0.5, -1.1])
+
+
+@cache
+def drawn(model):
+    mechanism = Mechanism.load(MODELS[model])
+    state, notes = mechanism.start()
+    return Configuration(mechanism.source(notes), state)
+
+
+every_model = pytest.mark.parametrize("model", sorted(MODELS))
+
+
+@every_model
+def test_every_coordinate_has_its_mark_and_it_can_be_seen(model):
+    found = drawn(model)
+    assert [each.text for each in found.scenery.dimensions] == [letter(c["name"]) for c in found.source.about["coordinates"]]
+    for each in found.scenery.dimensions:
+        assert np.hypot(*np.diff(each.arrow, axis=0).T).sum() >= 5.0
+
+
+@every_model
+def test_no_two_labels_overlap_and_all_are_on_the_paper(model):
+    [row] = drawn(model).rows
+    [panel] = row.panels
+    low, high = panel.box()
+    for label in panel.labels:
+        assert (low <= label.centre - label.half + 1e-9).all() and (label.centre + label.half <= high + 1e-9).all()
+    for a, b in combinations(panel.labels, 2):
+        assert (np.abs(a.centre - b.centre) >= a.half + b.half - 1e-9).any(), (a.label.text, b.label.text)
+
+
+def test_every_joint_with_coordinates_is_looked_at():
+    assert set(FIELDS) == {card.type for card in joints().values() if card.coordinates}
+
+
+def pair(kind):
+    """Source and state of a wheel on a joint."""
+    names = ", ".join(f"q{i}" for i, _ in enumerate(joints()[kind].coordinates))
+    text = HEAD.replace("TYPE", kind).replace("FIELDS", FIELDS[kind]).replace("NAMES", names)
+    mechanism = Mechanism.loads(text)
+    state, _ = mechanism.start()
+    return mechanism.source(), replace(state, q=VALUES[: len(state.q)].copy())
+
+
+@pytest.mark.parametrize("kind", FIELDS)
+def test_an_arrow_goes_from_zero_to_the_value(kind):
+    """An arc turns by the value of its coordinate, a straight arrow is as long; where the coordinate grows it is the head that
+    goes on, along the arrow, and the tail that stays."""
+    source, state = pair(kind)
+    sketch = sketch_of_state(source, state)
+    for i, measure in enumerate(measures(sketch)):
+        step, value = 1e-3, state.q[i]
+        beyond = sketch_of_state(source, replace(state, q=state.q + step * np.eye(len(state.q))[i]))
+        beyond.size = sketch.size
+        after = list(measures(beyond))[i]
+        way, turned = np.diff(measure.arrow, axis=0), np.diff(after.arrow, axis=0)
+        length, longer = (np.hypot(*each.T).sum() for each in (way, turned))
+        if measure.angle:
+            turn = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
+            sides = len(turn)  # of an arc: the outer halves of the first and the last side are missing
+            assert (turn[-1] - turn[0]) * sides / (sides - 1) == pytest.approx(value, rel=1e-9)
+        elif kind not in ("curved_slot", "cam"):
+            assert length == pytest.approx(abs(value), rel=1e-9)
+        assert np.sign(longer - length) == np.sign(value)
+        assert after.arrow[0] == pytest.approx(measure.arrow[0], abs=2e-3 * length)
+
+
+def test_a_zero_is_shown_by_its_sense():
+    source, state = pair("free")
+    for measure in measures(sketch_of_state(source, replace(state, q=np.zeros(3)))):
+        assert np.hypot(*np.diff(measure.arrow, axis=0).T).sum() > 0
+
+
+def test_it_is_in_every_derivation_of_what_moves():
+    mechanism = Mechanism.load("systems/19.3.3/model.yaml")
+    for document in (mechanism.equations().document, mechanism.equations("brute").document, topic(mechanism, "lagrange")):
+        html = document.html()
+        assert html.count("<svg") == 1 and "[Figure" not in html
+        own = re.findall(r' id="([^"]*)"', html)
+        assert own and len(own) == len(set(own))
+        assert set(re.findall(r"url\(#([^)]*)\)", html)) <= set(own)
+        assert "x, x of P from ground at plane" in document.markdown()
+
+
+def test_pictures_of_different_models_have_no_identifier_in_common():
+    found = [drawn(model).inline() for model in ("EX-ARM/model", "EX-ARM/relative")]
+    assert not set.intersection(*(set(re.findall(r' id="([^"]*)"', each)) for each in found))
