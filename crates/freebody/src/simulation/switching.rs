@@ -159,16 +159,17 @@ impl Machine<'_> {
     /// Brings the state exactly onto the limits that hold. What speed, and what height, that takes away, where limits all but
     /// depend on each other, is in the ledger.
     fn bring_onto(&mut self, t: f64, y: &mut [f64], at_rest: &[usize], reached: &[usize]) -> Result<(), Trouble> {
-        let before: f64 = self.energy(t, y).iter().sum();
+        let before = self.energy(t, y);
         self.put_onto(t, y, at_rest, reached)?;
-        let lost = before - self.energy(t, y).iter().sum::<f64>();
-        if lost < -GAIN * self.strength * self.balance.length {
+        let after = self.energy(t, y);
+        let [speed, height] = [0, 1].map(|i| after[i] - before[i]);
+        if speed > GAIN * self.strength * self.balance.length {
             let names = self.balance.names_of(reached);
-            let what = format!("to bring {names} to rest on each other would create the energy {:.6e} J", -lost);
+            let what = format!("to bring {names} to rest on each other would create the energy {speed:.6e} J");
             return Err(Trouble::new("contact_unsolved", what));
         }
-        if lost != 0.0 {
-            self.begin_stretch(t, 0.0, -lost);
+        if speed + height != 0.0 {
+            self.begin_stretch(t, 0.0, speed + height);
         }
         Ok(())
     }
