@@ -30,6 +30,8 @@ pub struct Scale {
     pub pace: f64,
     /// Whether what can stay at rest stays, where Coulomb's law leaves it open.
     pub stay: bool,
+    /// Whether touches that are almost one may contradict each other by a little.
+    pub rough: bool,
 }
 
 /// Limits whose gaps are closed at one state, k of them.
@@ -175,7 +177,8 @@ impl Balance<'_> {
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);
         let grips = self.grips(reached, slips, scale.still);
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
-        match complementarity::solve(&problem) {
+        let solve = if scale.rough { complementarity::solve_roughly } else { complementarity::solve };
+        match solve(&problem) {
             Verdict::Solved(answer) => Ok(holding(&answer, &problem, scale.pace)),
             Verdict::Indeterminate(answers) if scale.stay => {
                 let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
@@ -214,7 +217,7 @@ impl Balance<'_> {
         let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
         let pace = self.n.gravity.norm().max(self.length);
-        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false })?;
+        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false, rough: false })?;
         self.take(&reached, &holding);
         Ok(())
     }

@@ -45,12 +45,11 @@ impl Runner<'_> {
 
     /// Steps to the first crossing of `marks`, lets it act and goes on from there.
     pub(super) fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
-        let mut crossings = marks.iter().filter(|mark| mark.kind == Kind::Crossing);
-        let first = *crossings.next().expect("the caller saw one");
-        let together = crossings.filter(|mark| is_tie(mark.t, first.t));
-        let hits: Vec<Mark> = std::iter::once(&first).chain(together).copied().collect();
+        let crossings: Vec<Mark> = marks.iter().filter(|mark| mark.kind == Kind::Crossing).copied().collect();
+        let first = *crossings.first().expect("the caller saw one");
+        let (hits, later): (Vec<Mark>, Vec<Mark>) = crossings.into_iter().partition(|mark| is_tie(mark.t, first.t));
         self.note_touches(&segment, marks, first.t);
-        self.land(&segment, first)?;
+        self.land(&segment, first, later.first().map_or(segment.t1, |mark| mark.t))?;
         let has_jumped = self.act(&hits)?;
         if has_jumped {
             self.stepper.reset();
@@ -84,9 +83,9 @@ impl Runner<'_> {
     }
 
     /// Makes a true step to a zero that was found on the dense output of a longer one, and once
-    /// more when the function is not yet zero there.
-    fn land(&mut self, segment: &Segment, hit: Mark) -> Result<(), Outcome> {
-        let (t0, t1) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
+    /// more when the function is not yet zero there; not beyond `next`, where another one vanishes.
+    fn land(&mut self, segment: &Segment, hit: Mark, next: f64) -> Result<(), Outcome> {
+        let (t0, t1) = (segment.t0.min(next), segment.t0.max(next));
         let mut t = hit.t;
         for _ in 0..3 {
             if t == self.now.t {

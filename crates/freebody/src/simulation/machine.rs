@@ -56,6 +56,8 @@ pub struct Machine<'m> {
     pub(super) speed: f64,
     /// Speed below which there is none, at the instant that is settled, m/s.
     pub(super) still: f64,
+    /// Whether touches that are almost one may contradict each other by a little, at the instant that is settled.
+    pub(super) rough: bool,
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) stretches: Vec<Stretch>,
@@ -93,6 +95,7 @@ impl<'m> Machine<'m> {
             strength: 1.0,
             speed: 1.0,
             still: 0.0,
+            rough: false,
             set: m.overruled(p),
             stretches: vec![],
             worst_gap: 0.0,
