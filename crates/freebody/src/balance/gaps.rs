@@ -11,6 +11,8 @@ use crate::numbers::Numbers;
 const SHALLOW: f64 = 1e-8;
 /// Depth, over the characteristic length, to which a limit may be violated on the way.
 const GRAZE: f64 = 1e-9;
+/// Difference, over the characteristic length, of what pieces tell of a gap up to which it is one.
+const SAME: f64 = 1e-10;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
 const CLEAR: f64 = 0.1;
 
@@ -120,6 +122,13 @@ impl Balance<'_> {
         gap.gap(self.m, &self.mode, &at, gap.piece(self.m, &at, self.mode.limits[l].piece))
     }
 
+    /// The gap of an open limit, where it can close as it now is.
+    pub fn closing_gap(&self, l: usize) -> Option<f64> {
+        let (gap, at) = (&self.m.limits[l].gap, self.at());
+        let piece = gap.piece(self.m, &at, self.mode.limits[l].piece);
+        gap.can_close(piece.index).then(|| gap.gap(self.m, &self.mode, &at, piece))
+    }
+
     /// Of every contact, stop and string a distance that its two bodies keep at least, m, where they are clearly apart: then
     /// none of its limits is near.
     pub fn apart(&self) -> Vec<Option<f64>> {
@@ -137,8 +146,29 @@ impl Balance<'_> {
             if self.mode.limits[l].hold == Hold::Open && apart[self.m.limits[l].group].is_none() {
                 let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
                 self.mode.limits[l].piece = piece;
+                self.take_faster_piece(l);
             }
         }
+    }
+
+    /// Where several pieces tell one gap, as where corners meet, takes the one on which it grows fastest: a moment later it is
+    /// the largest.
+    fn take_faster_piece(&mut self, l: usize) {
+        let Gap::Touch(touch) = &self.m.limits[l].gap else { return };
+        let first = self.mode.limits[l].piece;
+        if !touch.is_largest() || self.limit_gap(l).abs() > SAME * self.length {
+            return;
+        }
+        let borders = touch.borders(self.m, &self.at(), first.index);
+        let mut best = (self.gap_rate(l), first);
+        for border in borders.iter().filter(|border| border.value.abs() <= SAME * self.length) {
+            self.mode.limits[l].piece.index = border.beyond;
+            let rate = self.gap_rate(l);
+            if rate > best.0 {
+                best = (rate, self.mode.limits[l].piece);
+            }
+        }
+        self.mode.limits[l].piece = best.1;
     }
 
     /// The limits whose gap is closed, or open by less than `most`.

@@ -53,7 +53,7 @@ impl Machine<'_> {
             Hold::Off => return,
             Hold::Open if limit.soft.is_some() => values[0] = self.free_of_spring(l),
             Hold::Pressed => values[0] = self.kept_by_spring(l),
-            Hold::Open => values[0] = self.balance.open_gap(l) / self.balance.length,
+            Hold::Open => values[0] = self.balance.closing_gap(l).map_or(1.0, |gap| gap / self.balance.length),
             Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
             Hold::Smooth | Hold::Stuck | Hold::Leaning(_) | Hold::Sliding(_) => {
                 let margins = forces.map_or(vec![], |forces| self.balance.margins(l, forces));

@@ -8,6 +8,7 @@ use freebody::contact::{Friction, Gap, Touch};
 use freebody::mechanism::Mechanism;
 use freebody::plane::{vec2, Vec2};
 use freebody::spec::{Contact, Number, Stop, Surface};
+use std::f64::consts::TAU;
 
 fn contact(name: &str, of: [Surface; 2]) -> Contact {
     let nought = literal(0.0);
@@ -302,4 +303,65 @@ fn a_polyline_that_goes_round_has_an_inside() {
     // Convex where the roof hangs in.
     let tent = Probe::over(&bent, polyline);
     assert!(tent.at(vec2(1.0, 0.499)).0 > 0.0 && tent.at(vec2(1.0, 0.501)).0 < 0.0 && tent.at(vec2(1.9, 0.9)).0 > 0.0);
+}
+
+/// Over the sides of both, the largest height of the other polygon over one, below 0 where they overlap; and the normal, towards
+/// the first.
+fn parted(a: &[Vec2], b: &[Vec2]) -> (f64, Vec2) {
+    let over = |of: &[Vec2], other: &[Vec2], sense: f64| -> Vec<(f64, Vec2)> {
+        let ends = of.iter().zip(of.iter().cycle().skip(1));
+        let side = ends.map(|(p, q)| (*p, -(*q - *p).perp() * (1.0 / (*q - *p).norm())));
+        side.map(|(p, n)| (other.iter().map(|c| n.dot(*c - p)).fold(f64::INFINITY, f64::min), n * sense)).collect()
+    };
+    let all = over(b, a, 1.0).into_iter().chain(over(a, b, -1.0));
+    all.max_by(|x, y| x.0.total_cmp(&y.0)).expect("a side")
+}
+
+/// However near to corners two polygons meet, none of their corners is in the way where a side keeps them apart, and where they
+/// touch one of the gaps that can close is closed.
+#[test]
+fn polygons_that_meet_with_corners_touch_just_where_they_are() {
+    let mut met = 0;
+    for seed in 0..3000 {
+        let rng = &mut Rng::new(seed);
+        let [moving, fixed] = [0, 1].map(|_| {
+            let n = 3 + rng.below(4);
+            let corner =
+                |i: usize| turned(vec2(rng.within(0.9, 1.0), 0.0), TAU * (i as f64 + rng.about(0.2)) / n as f64);
+            (0..n).map(corner).collect::<Vec<Vec2>>()
+        });
+        let mut model = Model::new().body("a", 1.0, 1.0, [0.0, 0.0]);
+        let mut words = [String::new(), String::new()];
+        for ((body, outline), words) in [("a", &moving), ("ground", &fixed)].into_iter().zip(&mut words) {
+            for (i, p) in outline.iter().enumerate() {
+                model = model.point(&format!("{body}.P{i}"), [p.x, p.y]);
+                *words += &format!(" {body}.P{i}");
+            }
+        }
+        let ends = points(&["ground.O", "a.origin"]);
+        let mut model = model.joint("free", "free", &[("of", ends)], &["x", "y", "angle"]);
+        model.0.contacts.push(contact("c", words.each_ref().map(|words| polygon(words))));
+        let m = model.compile().mechanism;
+
+        let (angle, apart) = (rng.about(3.0), 10.0_f64.powf(rng.within(-12.0, -1.0)));
+        let turned_in: Vec<Vec2> = moving.iter().map(|&p| turned(p, angle)).collect();
+        let from = turned(vec2(apart, 0.0), rng.about(3.2));
+        let mut at = fixed[rng.below(fixed.len())] + from - turned_in[rng.below(moving.len())];
+        let placed = |at: Vec2| turned_in.iter().map(|&p| p + at).collect::<Vec<Vec2>>();
+        if parted(&placed(at), &fixed).0.abs() > apart {
+            continue;
+        }
+        met += 1;
+        // Pushed off one side, it may be too far from another.
+        for _ in 0..1000 {
+            let (height, normal) = parted(&placed(at), &fixed);
+            at = at - normal * height;
+        }
+        let mut balance = Balance::new(&m, &[]);
+        balance.place(0.0, &[at.x, at.y, angle], &[0.0; 3]);
+        let closing = (0..m.limits.len()).filter_map(|l| balance.closing_gap(l));
+        let least = closing.fold(f64::INFINITY, f64::min);
+        assert!(least.abs() < 1e-14, "seed {seed}, {apart:e} from corner to corner: {least:e}");
+    }
+    assert!(met > 500, "{met}");
 }

@@ -13,6 +13,10 @@ const INSET: f64 = 0.01;
 /// Depth, in parts of its length, to which a side is sunk for a corner whose polygon reaches behind it: it cannot be what
 /// keeps them apart. Two polygons on one floor, their lower sides in line, so meet with the sides above.
 const SUNK: f64 = 1e-7;
+/// Sine of the angle between sides of two polygons below which they lie flat on each other: then corners of both hold.
+const FLAT: f64 = 1e-6;
+/// The piece of a corner that a side of its own polygon keeps off. Nothing closes there.
+const KEPT_OFF: usize = 1;
 
 /// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their right.
 /// Each corner turns to the right, so a closed one has its corners clockwise.
@@ -25,6 +29,10 @@ const SUNK: f64 = 1e-7;
 /// of its heights over them: 0 just on the sides, and outside a corner less than the distance. The ends of an open chain are
 /// then bounds of the solid too: along the side that follows in a concave corner, a little behind it, else straight back, or
 /// across to the other end where that would leave corners outside.
+///
+/// Where two corners meet, the sides of either polygon may keep them apart, and one side that does is enough. So the corner of
+/// a polygon that is lower over the sides here than the corners here are over a side of its own has a piece for that, the
+/// number 1: what closes is the other corner, on that side.
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// Sites of its corners.
@@ -89,6 +97,7 @@ impl Chain {
             return Face::Flat { to: to - along.perp() * T::of(depth), along };
         }
         match disk.radius {
+            None if self.closed => self.kept_off(m, poses, disk),
             Some(_) => {
                 let corner = if first { self.corners[0] } else { self.corner(piece / 2 + 1) };
                 Face::Round { to: poses.span(corner, disk.centre, m), radius: T::zero(), side: 1.0 }
@@ -164,11 +173,18 @@ impl Chain {
     pub(super) fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> Vec<Border> {
         let all = 2 * self.sides();
         if disk.radius.is_none() {
+            let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
+            if self.closed && piece == KEPT_OFF {
+                let beyond = self.highest(m, poses, disk);
+                return vec![Border { value: height(piece) - height(beyond), beyond }];
+            }
             let round = self.round(poses);
             let at = round.iter().position(|&p| p == piece).unwrap_or(0);
-            let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
             let border = |beyond| Border { value: height(piece) - height(beyond), beyond };
-            return [at + round.len() - 1, at + 1].map(|i| border(round[i % round.len()])).to_vec();
+            let beside = [at + round.len() - 1, at + 1].map(|i| border(round[i % round.len()]));
+            let own = self.own_height(m, poses, disk, piece);
+            let own = own.map(|own| Border { value: height(piece) - own, beyond: KEPT_OFF });
+            return beside.into_iter().chain(own).collect();
         }
         let side = |piece: usize| self.seen(m, poses, disk, piece / 2);
         let before = if piece == 0 { all - usize::from(self.closed) } else { piece - 1 };
@@ -188,7 +204,8 @@ impl Chain {
     pub(super) fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> usize {
         let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
         if disk.radius.is_none() {
-            return nearest(self.round(poses).into_iter().map(|piece| (piece, -height(piece))));
+            let piece = self.highest(m, poses, disk);
+            return if self.is_kept_off(m, poses, disk, piece) { KEPT_OFF } else { piece };
         }
         let seen: Vec<Seen<f64>> = (0..self.sides()).map(|i| self.seen(m, poses, disk, i)).collect();
         let (first, last) = (&seen[0], &seen[seen.len() - 1]);
@@ -202,6 +219,59 @@ impl Chain {
         let start = (!self.closed).then_some(2 * seen.len());
         let corners = sides().map(|(piece, _)| piece + 1).chain(start);
         nearest(over.chain(corners.map(|piece| (piece, height(piece)))))
+    }
+}
+
+/// Points, and the sides of polygons whose corners they are.
+impl Chain {
+    /// The piece over which a point is highest.
+    fn highest(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> usize {
+        let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
+        nearest(self.round(poses).into_iter().map(|piece| (piece, -height(piece))))
+    }
+
+    /// Whether a corner on its highest piece is lower than this chain is over one of the corner's own sides: a question only
+    /// where they are near.
+    fn is_kept_off(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> bool {
+        let height = self.face(m, poses, disk, piece).gap(0.0);
+        let near = || height <= SUNK * self.seen(m, poses, disk, piece / 2).length;
+        self.closed && near() && self.own_height(m, poses, disk, piece).is_some_and(|own| height < own)
+    }
+
+    /// The height of this chain over the one of the corner's own sides that is farther from it, those left out on which the
+    /// side of a piece lies flat.
+    fn own_height(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> Option<f64> {
+        let own = self.own_sides(m, poses, disk)?;
+        let side = self.seen(m, poses, disk, piece / 2).along;
+        let meets = |(_, along): &(Vec2<f64>, Vec2<f64>)| along.cross(side).abs() > FLAT;
+        own.into_iter().filter(meets).map(|(to, along)| along.cross(to)).reduce(f64::max)
+    }
+
+    /// That height as a face.
+    fn kept_off<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk) -> Face<T> {
+        let [a, b] = self.own_sides(m, poses, disk).expect("only corners of polygons are kept off");
+        let height = |(to, along): (Vec2<T>, Vec2<T>)| along.cross(to).value();
+        let (to, along) = if height(a) < height(b) { b } else { a };
+        Face::Flat { to, along }
+    }
+
+    /// From each of the two sides of a corner's own polygon to the corner of this chain that is lowest over it, and the
+    /// direction of the side.
+    fn own_sides<T: Scalar>(
+        &self,
+        m: &Mechanism,
+        poses: &impl Poses<T>,
+        disk: &Disk,
+    ) -> Option<[(Vec2<T>, Vec2<T>); 2]> {
+        let [before, after] = disk.beside.filter(|_| self.closed)?;
+        let axes = turn(m, poses, m.body_of(disk.centre));
+        Some([[before, disk.centre], [disk.centre, after]].map(|[from, to]| {
+            let along = axes.apply(way(poses, from, to));
+            let spans = self.corners.iter().map(|&corner| poses.span(from, corner, m));
+            let height = |to: &Vec2<T>| along.cross(*to).value();
+            let lowest = spans.reduce(|a, b| if height(&b) < height(&a) { b } else { a });
+            (lowest.expect("a chain has corners"), along)
+        }))
     }
 }
 

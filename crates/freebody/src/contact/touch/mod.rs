@@ -95,6 +95,11 @@ impl Touch {
         }
     }
 
+    /// Whether the gap is the largest of what its pieces tell, as that of a point over a chain.
+    pub fn is_largest(&self) -> bool {
+        self.disk.radius.is_none() && matches!(self.against, Profile::Chain(_))
+    }
+
     /// Whether the gap can close on a piece: a point does not stay on a corner.
     pub fn can_close(&self, piece: usize) -> bool {
         match self.against {
