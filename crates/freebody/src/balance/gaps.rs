@@ -156,10 +156,11 @@ impl Balance<'_> {
     fn take_faster_piece(&mut self, l: usize) {
         let Gap::Touch(touch) = &self.m.limits[l].gap else { return };
         let first = self.mode.limits[l].piece;
-        if !touch.is_largest() || self.limit_gap(l).abs() > SAME * self.length {
+        if self.limit_gap(l).abs() > SAME * self.length {
             return;
         }
-        let borders = touch.borders(self.m, &self.at(), first.index);
+        let mut borders = touch.borders(self.m, &self.at(), first.index);
+        borders.retain(|border| touch.may_tell(self.m, &self.at(), border.beyond));
         let mut best = (self.gap_rate(l), first);
         for border in borders.iter().filter(|border| border.value.abs() <= SAME * self.length) {
             self.mode.limits[l].piece.index = border.beyond;

@@ -11,6 +11,8 @@ pub(super) const GUARDS: usize = 4;
 /// Guards of each joint that rubs: friction in either direction, or the speed.
 pub(super) const RUB_GUARDS: usize = 2;
 
+/// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
+const KEPT: f64 = 2.0 * REACHED;
 /// Speed, over the mechanism's own, from which what leaned on others slides: well above what counts as none.
 const LOOSE: f64 = 10.0 * STILL;
 
@@ -53,7 +55,12 @@ impl Machine<'_> {
             Hold::Off => return,
             Hold::Open if limit.soft.is_some() => values[0] = self.free_of_spring(l),
             Hold::Pressed => values[0] = self.kept_by_spring(l),
-            Hold::Open => values[0] = self.balance.closing_gap(l).map_or(1.0, |gap| gap / self.balance.length),
+            // What another keeps off is at zero with it.
+            Hold::Open => {
+                let kept_off = || self.balance.open_gap(l) / self.balance.length + KEPT;
+                let closing = self.balance.closing_gap(l).map(|gap| gap / self.balance.length);
+                values[0] = closing.unwrap_or_else(kept_off);
+            }
             Hold::Idle => values[0] = self.balance.open_gap(l) / self.balance.length + REACHED,
             Hold::Smooth | Hold::Stuck | Hold::Leaning(_) | Hold::Sliding(_) => {
                 let margins = forces.map_or(vec![], |forces| self.balance.margins(l, forces));

@@ -230,12 +230,18 @@ impl Chain {
         nearest(self.round(poses).into_iter().map(|piece| (piece, -height(piece))))
     }
 
-    /// Whether a corner on its highest piece is lower than this chain is over one of the corner's own sides: a question only
-    /// where they are near.
+    /// Whether a corner on its highest piece is lower than this chain is over one of the corner's own sides, or reaches behind
+    /// that piece: questions only where they are near.
     fn is_kept_off(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> bool {
         let height = self.face(m, poses, disk, piece).gap(0.0);
         let near = || height <= SUNK * self.seen(m, poses, disk, piece / 2).length;
-        self.closed && near() && self.own_height(m, poses, disk, piece).is_some_and(|own| height < own)
+        let lower = || self.own_height(m, poses, disk, piece).is_some_and(|own| height < own);
+        self.closed && near() && (self.is_sunk(m, poses, disk, piece) || lower())
+    }
+
+    /// Whether a side is not what keeps a corner off, for the corner's polygon reaches behind it.
+    pub(super) fn is_sunk(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> bool {
+        piece % 2 == 0 && behind(m, poses, disk, self.seen(m, poses, disk, piece / 2).along) > FLAT
     }
 
     /// The height of this chain over the one of the corner's own sides that is farther from it, those left out on which the

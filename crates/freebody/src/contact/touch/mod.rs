@@ -95,9 +95,13 @@ impl Touch {
         }
     }
 
-    /// Whether the gap is the largest of what its pieces tell, as that of a point over a chain.
-    pub fn is_largest(&self) -> bool {
-        self.disk.radius.is_none() && matches!(self.against, Profile::Chain(_))
+    /// Whether the gap is the largest of what its pieces tell, as that of a point over a chain, and this one may tell it where
+    /// it is closed.
+    pub fn may_tell(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: usize) -> bool {
+        match &self.against {
+            Profile::Chain(chain) => self.disk.radius.is_none() && !chain.is_sunk(m, poses, &self.disk, piece),
+            _ => false,
+        }
     }
 
     /// Whether the gap can close on a piece: a point does not stay on a corner.
