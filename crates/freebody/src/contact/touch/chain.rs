@@ -15,6 +15,9 @@ const INSET: f64 = 0.01;
 const SUNK: f64 = 1e-7;
 /// Sine of the angle between sides of two polygons below which they lie flat on each other: then corners of both hold.
 const FLAT: f64 = 1e-6;
+/// Height, in parts of its length, that a side on which a corner rests may lack of one of the corner's own: corners that rest on
+/// each other stay as they are.
+const SLACK: f64 = 1e-12;
 /// The piece of a corner that a side of its own polygon keeps off. Nothing closes there.
 const KEPT_OFF: usize = 1;
 
@@ -183,7 +186,8 @@ impl Chain {
             let border = |beyond| Border { value: height(piece) - height(beyond), beyond };
             let beside = [at + round.len() - 1, at + 1].map(|i| border(round[i % round.len()]));
             let own = self.own_height(m, poses, disk, piece);
-            let own = own.map(|own| Border { value: height(piece) - own, beyond: KEPT_OFF });
+            let slack = SLACK * self.seen(m, poses, disk, piece / 2).length;
+            let own = own.map(|own| Border { value: height(piece) - own + slack, beyond: KEPT_OFF });
             return beside.into_iter().chain(own).collect();
         }
         let side = |piece: usize| self.seen(m, poses, disk, piece / 2);
