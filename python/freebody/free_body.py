@@ -13,6 +13,7 @@ from freebody.instant import Indeterminate
 from freebody.results import Array
 
 GROUND = "ground"
+_DRIVEN = ("motion", "coupling", "force")
 Pair = tuple[float, float]
 
 
@@ -25,6 +26,11 @@ class Part:
     point: Pair
     force: Pair
     couple: float
+
+    @property
+    def idle(self) -> bool:
+        """Whether it is nothing at all."""
+        return not any(self.force) and not self.couple
 
     def wrench(self, about: Pair = (0.0, 0.0)) -> Array:
         """Force x, y and moment about a place, (3,)."""
@@ -195,7 +201,10 @@ def _body(item: Mapping[str, Any]) -> Body:
 
 def _load(item: Mapping[str, Any]) -> Load:
     value = 1.0 if not item["unknown"] else float("nan") if item["value"] is None else float(item["value"])
-    parts = (Part(on["body"], _pair(on["point"]), _pair(on["force"]), float(on["couple"])) for on in item["on"])
+    parts = [Part(on["body"], _pair(on["point"]), _pair(on["force"]), float(on["couple"])) for on in item["on"]]
+    if item["kind"] in _DRIVEN and not all(part.idle for part in parts):
+        # What drives a difference of coordinates leaves nothing for ground to take.
+        parts = [part for part in parts if part.body != GROUND or not part.idle]
     known = not item["unknown"] or (item["determinate"] and not np.isnan(value))
     named = {name: item[name] for name in ("name", "path", "symbol", "kind", "component", "unknown")}
     follows = (item["follows"]["load"], float(item["follows"]["ratio"])) if item["follows"] else None

@@ -28,6 +28,7 @@ _STEMS = {"normal force": "N", "friction force": "F", "tooth force": "F", "thrus
           "force of the first roller": "N", "force of the second roller": "N"}  # fmt: skip
 _KINDS = {"contact": "N", "friction": "F", "string": "T"}
 _TURNING = ("torque", "torsion_spring")
+_SPRINGS = ("spring", "torsion_spring")
 _PLAIN = re.compile(r"[^\W\d]\w*")
 
 
@@ -49,6 +50,8 @@ def _name(load: Load, force: _Law) -> Name:
     if given:
         return given
     stem, below = _owner(load.name)
+    if last == "2" and (force or {}).get("type") in _SPRINGS:
+        stem = stem.replace("spring", "damper") if "spring" in stem else f"{stem} damper"
     if last in _PINS:
         return Name(stem, (*below, _PINS[last]))
     number = re.sub(r"\D", "", last) if load.kind in ("contact", "friction") or "roller" in (load.component or "") else ""

@@ -41,7 +41,7 @@ class Panel:
     def labels(self) -> list[Placed]:
         """Every letter in its place."""
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
-        ink = Ink.of((self.scenery.ink, 2.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
+        ink = Ink.of((self.scenery.ink, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
         return placed([*_letters(self.marks), *_others(self.scenery, self.names)], ink)
 
     @cached_property
@@ -78,7 +78,7 @@ def _others(scenery: Scenery, names: Sequence[str]) -> Iterator[Label]:
         n = len(dimension.arrow)
         yield Label(f"${dimension.text}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
     for tag in scenery.points:
-        yield Label(f"${tag.text}$", tag.at[None], 9.0, INK, led=False)
+        yield Label(f"${tag.text}$", tag.at[None], 9.0, INK)
     for name in names:
         yield Label(name.replace("$", r"\$"), scenery.centres[name][None], 9.0, GREY, bold=True)
 
