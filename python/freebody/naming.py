@@ -59,11 +59,11 @@ def _name(load: Load, force: _Law) -> Name:
 
 
 def _stem(load: Load, force: _Law) -> str:
-    told = _STEMS.get(load.component or "") or _KINDS.get(load.kind)
-    if told:
-        return told
     pushes = any(any(part.force) for part in load.on)
     turns = any(part.couple for part in load.on) and not pushes
+    told = _STEMS.get(load.component or "") or (_KINDS.get(load.kind) if not turns else "")
+    if told:
+        return told
     return "M" if turns or (force or {}).get("type") in _TURNING else "F"
 
 
@@ -124,6 +124,7 @@ class Naming:
         spec = json.loads(self.source.spec)
         told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == load.name)
         value = (told | told.get("with", {})).get("friction")
+        value = value.get("kinetic") if isinstance(value, dict) else value
         return Name.parse(value) if isinstance(value, str) and _PLAIN.fullmatch(value) else None
 
 

@@ -82,7 +82,7 @@ def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Ac
 
 def _acts(load: Load, part: Part, label: str, force: Array, couple: float, sketch: Sketch) -> Action:
     at = attached(load, part, sketch)
-    bound = load.kind in ("joint", "motion") or not np.array_equal(at, part.point)
+    bound = load.kind in ("joint", "friction", "motion") or not np.array_equal(at, part.point)
     return Action(load.name, load.kind, label, part.body, at, force, couple, (load,), _pulls(load, part, force), bound)
 
 

@@ -17,7 +17,8 @@ LENGTH = 36.0  # pt of a symbolic arrow
 LONGEST = 72.0  # pt of the largest force to scale
 SHORTEST = 9.0  # pt below which an arrow is all head
 _LONGER = (1.0, 1.5, 2.0)
-_ASIDES = (0.0, 6.0, -6.0)  # pt that one may be moved which else would be hidden
+_ASIDES = (0.0, 6.0, -6.0)  # pt that one may be moved which else would be hidden: of a slider its couple makes up for it
+_MOVED = 5.0  # how much worse it is to move any other
 _HEAD_ROOM = 13.0  # pt between two heads
 _RADII = (11.0, 15.0, 19.0, 23.0)
 _OWN = 6.0  # pt about its own point, where an arrow may meet others
@@ -74,14 +75,16 @@ def _arrow(action: Action, scenery: Scenery, marks: Sequence[Mark], per_newton: 
     at, size = scenery.place(action.at), float(np.hypot(*action.force))
     way = action.force / size
     lengths = [LENGTH * more for more in _LONGER] if per_newton is None else [max(per_newton * size, SHORTEST)]
-    movable = per_newton is None and (scenery.slides(action) or action.kind == "force")
+    slides = scenery.slides(action)
+    movable = per_newton is None and (slides or action.pulls or action.kind == "force")
     asides = _ASIDES if movable else (0.0,)
     starts = [at + aside * np.array([-way[1], way[0]]) for aside in asides]
     choices = [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
     if action.kind not in ("weight", "effective") and not action.pulls:
         choices += [Arrow(action, start, start - length * way, start) for start in starts for length in lengths]
     ink = scenery.ink
-    costs = [_cost(choice, scenery, ink, marks) + float(np.hypot(*(choice.at - at))) for choice in choices]
+    moved = 1.0 if slides else _MOVED
+    costs = [_cost(choice, scenery, ink, marks) + moved * float(np.hypot(*(choice.at - at))) for choice in choices]
     return choices[int(np.argmin(costs))]
 
 
@@ -128,7 +131,7 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
     then the mass centre."""
     own, centre = scenery.place(action.at), scenery.centres[action.body]
     parts = [min(0.5, step / (float(np.hypot(*(centre - own))) or 1.0)) for step in _TOWARDS]
-    parts = [0.0] if action.kind == "joint" else parts if action.bound else [0.0, 1.0, 0.5, 0.75, 1.4]
+    parts = [0.0] if action.kind in ("joint", "friction") else parts if action.bound else [0.0, 1.0, 0.5, 0.75, 1.4]
     places = [own + part * (centre - own) for part in parts]
     turn, ink, others = np.sign(action.couple), scenery.ink, dense([mark.line for mark in marks])
     best: tuple[float, Bow] | None = None

@@ -77,6 +77,8 @@ def _others(scenery: Scenery, names: Sequence[str]) -> Iterator[Label]:
     for dimension in scenery.dimensions:
         n = len(dimension.arrow)
         yield Label(f"${dimension.text}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
+        if dimension.axis is not None:
+            yield Label(f"${dimension.axis.text}$", dimension.axis.at[None], 8.0, MEASURE)
     for tag in scenery.points:
         yield Label(f"${tag.text}$", tag.at[None], 9.0, INK)
     for name in names:
