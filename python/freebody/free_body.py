@@ -202,10 +202,12 @@ def _body(item: Mapping[str, Any]) -> Body:
 def _load(item: Mapping[str, Any]) -> Load:
     value = 1.0 if not item["unknown"] else float("nan") if item["value"] is None else float(item["value"])
     parts = [Part(on["body"], _pair(on["point"]), _pair(on["force"]), float(on["couple"])) for on in item["on"]]
+    of = tuple(item["of"])
     if item["kind"] in _DRIVEN and not all(part.idle for part in parts):
-        # What drives a difference of coordinates leaves nothing for ground to take.
-        parts = [part for part in parts if part.body != GROUND or not part.idle]
+        # What drives a difference of coordinates cancels on ground, or on what carries both bodies.
+        parts = [part for part in parts if not part.idle]
+        of = (parts[1].body if len(parts) > 1 else GROUND, parts[0].body)
     known = not item["unknown"] or (item["determinate"] and not np.isnan(value))
     named = {name: item[name] for name in ("name", "path", "symbol", "kind", "component", "unknown")}
     follows = (item["follows"]["load"], float(item["follows"]["ratio"])) if item["follows"] else None
-    return Load(value=value, determinate=known, of=tuple(item["of"]), on=tuple(parts), follows=follows, **named)
+    return Load(value=value, determinate=known, of=of, on=tuple(parts), follows=follows, **named)

@@ -22,7 +22,7 @@ _DIRECTIONS = np.linspace(0, 2 * np.pi, 16, endpoint=False)
 _DISTANCES = (3.0, 7.0, 13.0, 22.0, 34.0, 48.0)
 _LED = 14.0  # pt from which a thin line leads to what is labelled
 _ALONG = np.linspace(0.1, 1.0, 8)  # of a leader, where it is looked at
-_CROSSED = 200.0  # what a leader through a label costs
+_CROSSED = 1e3  # what a leader through a label costs
 _SWEEPS = 6
 
 
