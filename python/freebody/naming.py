@@ -1,7 +1,8 @@
 """The letter of every load, mass and inertia of a model: the same on its diagrams and in its equations.
 
 A component of a pin's force is ``pivot_x``; a normal force ``N_track``, friction ``F_floor``, a tension ``T_rope``, a couple
-``M_weld``, any other force ``F_drive``. Masses, inertias and gravity have the letters of the model, else ``m_rod``, ``I_rod``, g.
+``M_weld``, any other force ``F_drive``, what damps beside a spring ``F_damper``. Masses, inertias and gravity have the letters of
+the model, else ``m_rod``, ``I_rod``, g.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ def _corner(inside: Sequence[Array], labels: Sequence[Placed], scenery: Scenery,
         np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
     ]
     for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
-        start, end = at - 4, at + _CORNER
+        start, end = at - 8, at + _CORNER
         written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
         if written or ((ink > start) & (ink < end)).all(axis=1).any():
             continue
