@@ -201,9 +201,9 @@ impl Balance<'_> {
         self.start_limits()?;
         let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
         self.start_rubs(still);
-        let scale = Scale { still, pace: self.n.gravity.norm().max(self.length), stay: false };
+        let scale = Scale { still, pace: self.n.gravity.norm().max(self.length), stay: false, rough: false };
         for _ in 0..=self.most_turns() {
-            self.lean_on_reached(still)?;
+            self.lean_on_reached(scale)?;
             if self.m.rubs.is_empty() || !self.turn_rub(scale, None)? {
                 break;
             }
@@ -211,13 +211,13 @@ impl Balance<'_> {
         Ok(())
     }
 
-    fn lean_on_reached(&mut self, still: f64) -> Result<(), Trouble> {
+    fn lean_on_reached(&mut self, scale: Scale) -> Result<(), Trouble> {
         let touching = self.touching(1e-9 * self.length);
         let reached = self.reach(touching)?;
-        let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
+        let staying =
+            (0..reached.len()).filter(|&i| reached.rates[i] <= scale.still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
-        let pace = self.n.gravity.norm().max(self.length);
-        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false, rough: false })?;
+        let holding = self.hold(&reached, &reached.slips(), scale)?;
         self.take(&reached, &holding);
         Ok(())
     }
