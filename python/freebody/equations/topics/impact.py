@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from freebody.balances.reasons import agree
-from freebody.equations.answers import AGREES, operations, with_positive_divisors
+from freebody.equations.answers import AGREES, with_positive_divisors
 from freebody.equations.collect import collected
 from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined, load_words
@@ -19,7 +19,7 @@ from freebody.equations.letters import Letter, Letters
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.blow import Blow, after, blow, impulse
 from freebody.equations.topics.common import document, moving_names
-from freebody.equations.tree import Num, Sym, Tree, evaluate, is_zero, minus, replace, symbols
+from freebody.equations.tree import Num, Sym, Tree, evaluate, is_zero, minus, operations, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State
