@@ -111,7 +111,7 @@ def _overlap(centres: Array, half: Array, other: Array, its_half: Array) -> Arra
 
 
 def _edges(centres: Array, anchors: Array, half: Array) -> tuple[Array, Array]:
-    """Where the lines from anchors (k, 2) to centres enter the boxes there (k, 2), and which of them are so long that they are drawn."""
+    """Where the lines from anchors (k, 2) to centres enter the boxes there (k, 2), and which are so long that they are drawn."""
     ways = centres - anchors
     edges = centres - ways * np.minimum(1.0, np.min(half / np.maximum(np.abs(ways), 1e-9), axis=1))[:, None]
     return edges, np.hypot(*(edges - anchors).T) > _LED
