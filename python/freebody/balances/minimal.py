@@ -30,6 +30,11 @@ class MinimalForm:
 
         return show(self)
 
+    def _repr_html_(self) -> str:
+        from freebody.equations.rendering.page import lines
+
+        return lines(str(self))
+
 
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None) -> MinimalForm:
     """The minimal form at ``states[0]``; the arguments are those of ``smallest_set``."""

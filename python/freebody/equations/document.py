@@ -176,7 +176,19 @@ class Document:
         return [path, *(each.picture.save(path.with_name(f"{path.stem}-{each.name}{ending}")) for each in figures)]
 
     def html(self) -> str:
-        r"""A fragment of HTML with LaTeX in ``\(…\)`` and ``\[…\]``, for MathJax or KaTeX; figures are inside."""
+        """A whole page, formulas as MathML, figures inside; it needs nothing from elsewhere."""
+        from freebody.equations.rendering.page import page
+
+        return page(self.title, self._fragment())
+
+    @property
+    def title(self) -> str:
+        """The words of the first heading."""
+        from freebody.equations.rendering.plain import words_text
+
+        return next((words_text(block.words, self.letters) for block in self.blocks if isinstance(block, Heading)), "Equations")
+
+    def _fragment(self) -> str:
         from freebody.equations.rendering.markup import Html
 
         return Html(self.letters).render(self.blocks)
@@ -200,7 +212,9 @@ class Document:
         return self.text()
 
     def _repr_html_(self) -> str:
-        return self.html()
+        from freebody.equations.rendering.page import fragment
+
+        return fragment(self._fragment())
 
     def _repr_latex_(self) -> str:
         return self.latex()

@@ -1,4 +1,4 @@
-"""Documents as Markdown, LaTeX and HTML: mathematics is LaTeX in all three."""
+"""Documents as Markdown, LaTeX and HTML: mathematics is LaTeX, in HTML the same as MathML."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ from freebody.equations.document import (
 )
 from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
+from freebody.equations.mathml import broken, mathml
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
 from freebody.equations.rendering.plain import FEW, side_text
 from freebody.equations.text import columns
@@ -254,17 +255,20 @@ class Latex(Markup):
 
 
 class Html(Markup):
-    """A fragment of a page."""
+    """A fragment of a page, formulas as MathML."""
 
     def plain(self, text: str) -> str:
         return html.escape(text)
 
     def inline(self, math: str) -> str:
-        return rf"\({html.escape(math)}\)"
+        return mathml(math)
+
+    def equation(self, block: Equation) -> str:
+        return " = ".join(side_latex(side, self.letters) for side in (block.left, block.right))
 
     def display(self, math: str, label: str) -> str:
-        tag = rf" \tag{{{label}}}" if label else ""
-        return f'<div class="equation">\\[{html.escape(math)}{html.escape(tag)}\\]</div>'
+        tag = f'<div class="label">({html.escape(label)})</div>' if label else ""
+        return f'<div class="equation"><div class="formula">{broken(math)}</div>{tag}</div>'
 
     def heading(self, title: str, level: int) -> str:
         return f"<h{level}>{title}</h{level}>"

@@ -61,6 +61,11 @@ def side_text(side: Side, letters: Letters, *, ascii: bool = False) -> str:
     return text(side, letters, ascii=ascii)
 
 
+def words_text(words: Words, letters: Letters, *, ascii: bool = False) -> str:
+    """A sentence on one line."""
+    return "".join(piece if isinstance(piece, str) else side_text(piece, letters, ascii=ascii) for piece in pieces(words))
+
+
 def _tied(math: str) -> str:
     """Mathematics in a sentence, to be broken at plus and minus signs only."""
     return re.sub(rf" (?![+−-]{_TIE})", _TIE, re.sub(r"(?<= [+−-]) ", _TIE, math))
@@ -98,9 +103,7 @@ class _Writer:
                 return ""
 
     def words(self, words: Words) -> str:
-        return "".join(
-            piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words)
-        )
+        return words_text(words, self.letters, ascii=self.ascii)
 
     def filled(self, words: Words, lead: str = "") -> str:
         whole = "".join(
