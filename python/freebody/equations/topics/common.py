@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from freebody.equations.collect import factored
+from freebody.equations.collect import factored, pythagorean
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.told import Arrow, Subject
@@ -71,10 +71,10 @@ def brief(tree: Tree, letters: Letters) -> Tree:
 
 
 def spread(tree: Tree) -> Tree:
-    """The sum of all products, with what they have in common in front."""
+    """The sum of all products, sin² + cos² being 1, with what they have in common in front."""
     import sympy
 
-    return factored(from_sympy(sympy.expand(to_sympy(tree))))
+    return factored(pythagorean(from_sympy(sympy.expand(to_sympy(tree)))))
 
 
 def place_of(subject: Subject, point: str) -> Arrow:
