@@ -64,7 +64,7 @@ def _searched(subject: Subject) -> list[Stated] | None:
 
 
 def _printed(stated: Stated) -> Printed:
-    return Printed(stated.title, *stated.sides, stated.balance.linear)
+    return Printed(stated.title, *stated.sides, stated.linear)
 
 
 def _introduction(subject: Subject, form: Form, searched: bool, number: int) -> str:
