@@ -36,7 +36,7 @@ def test_a_long_sum_can_be_broken_and_says_the_same():
     assert broken(latex).count("<math") == 5  # m (l/2 | + r) s'' | = −m g | − k (s | − r)
 
 
-@pytest.mark.parametrize("latex", [r"\unknown{x}", r"\frac{1}", r"\begin{bmatrix} 1", r"\begin{array} 1 \end{array}"])
+@pytest.mark.parametrize("latex", [r"\unknown{x}", r"\frac{1}", r"\begin{bmatrix} 1", r"\begin{cases} 1 \end{cases}"])
 def test_what_is_not_printed_here_is_refused(latex):
     with pytest.raises(ValueError, match=r"LaTeX|missing"):
         mathml(latex)

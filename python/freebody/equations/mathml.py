@@ -171,7 +171,10 @@ class _Reader:
 
     def matrix(self) -> list[str]:
         """An environment of rows and columns."""
-        if (kind := self.text()) != "bmatrix":
+        kind = self.text()
+        if kind == "array":
+            self.text()
+        elif kind != "bmatrix":
             raise ValueError(f"LaTeX that is not printed here: {kind}")
         rows, cells = [], []
         while True:
@@ -181,7 +184,8 @@ class _Reader:
                 cells = []
             if self.ended == "\\end":
                 self.text()
-                return [f"<mrow><mo>[</mo><mtable>{''.join(rows)}</mtable><mo>]</mo></mrow>"]
+                table = f"<mtable>{''.join(rows)}</mtable>"
+                return [table if kind == "array" else f"<mrow><mo>[</mo>{table}<mo>]</mo></mrow>"]
 
 
 _COMMANDS: Mapping[str, Callable[[_Reader], list[str]]] = {

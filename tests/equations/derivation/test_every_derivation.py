@@ -35,7 +35,7 @@ def test_every_equation_holds_at_random_states(model, form):
         values = numbers(subject)
         for part in found.parts:
             assert off(part, values, subject.tables) < CLOSE, part.title
-        same_signs(found, {x: 1.0 for x in found.unknowns}, values, subject.tables)
+        same_signs(found, dict.fromkeys(found.unknowns, 1.0), values, subject.tables)
     if found.content.system.is_square and found.unknowns:
         agrees(found, values, subject.tables)
 
