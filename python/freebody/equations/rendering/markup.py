@@ -235,7 +235,12 @@ class Latex(Markup):
         body = [" & ".join(row) + r" \\" for row in rows]
         top = [rf"\begin{{tabular}}{{{'l' * len(heads)}}}", " & ".join(heads) + r" \\ \hline"]
         return "\n".join(
-            [r"\begin{center}", *([caption, "", ""] if caption else []), *top, *body, r"\end{tabular}", r"\end{center}"]
+            [
+                r"\begin{center}",
+                *([caption, "", ""] if caption else []),
+                _fitted("\n".join([*top, *body, r"\end{tabular}"])),
+                r"\end{center}",
+            ]
         )
 
     def figure(self, figure: Figure, caption: str) -> str:

@@ -33,8 +33,7 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
-    sketch = [opening.sketch(subject)] if subject.coordinates else []
-    return Document((first, *sketch, *opening.letters(letters, used(list(blocks))), *blocks), letters)
+    return Document((first, *opening.configuration(subject), *opening.letters(letters, used(list(blocks))), *blocks), letters)
 
 
 def moving_names(subject: Subject) -> list[str]:
