@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from freebody.balances.minimal import MinimalForm
     from freebody.balances.smallest import SmallestSet
+    from freebody.blow import Blow
     from freebody.check import Verdict
     from freebody.equations.answers import Answers
     from freebody.equations.derivation import Equations
@@ -242,11 +243,38 @@ class Moving:
             free = now.free_bodies()
         return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective)
 
+    def blow(self: Builder, number: int = 1, *, of: str | None = None, at: float | str | None = None) -> Blow:
+        """The blow of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
+        from a time on (s, or ``"200 ms"``). Raises ``NoBlow``."""
+        from freebody.blow import find
+        from freebody.model.start import evaluate
+
+        return find(self.simulate(), number, of=of, after=None if at is None else evaluate(at, {}))
+
+    def impulse_diagram(
+        self: Builder,
+        of: str | Sequence[str] | None = None,
+        number: int = 1,
+        *,
+        at: float | str | None = None,
+        to_scale: bool = False,
+        effective: bool = True,
+    ) -> Diagram:
+        """Impulse diagrams of a blow, chosen as in ``blow`` by ``number`` and ``at``; ``of``, ``to_scale`` and ``effective`` as in
+        ``diagram``, with m Δv and I Δω in place of m a and I α."""
+        from freebody.views.diagram import groups
+        from freebody.views.diagram.impulses import impulse_diagram
+
+        found = self.blow(number, at=at)
+        return impulse_diagram(found, groups(of, found.impulses), to_scale, effective)
+
     def _instant_at(self: Builder, at: float | str) -> Instant:
         """The motion at a time, after what happens then; at its start after the events there."""
         from freebody.model.start import evaluate
 
         t = evaluate(at, {})
+        if t < 0:
+            raise ValueError(f"the motion begins at 0 s: there is nothing at {t:g} s")
         run = self.simulate(t) if t > 0 else self.opening()
         if run is None:
             return self.solve()

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
+from freebody.blow import Blow
 from freebody.equations.names import Name, ascii_name
 from freebody.equations.tree import Tree, read
 from freebody.free_body import FreeBodies, Load
@@ -99,9 +100,13 @@ class Naming:
     @cached_property
     def bodies(self) -> dict[str, tuple[Tree, Tree]]:
         """Mass and inertia of every body, as they stand in the equations."""
+        told = self._told("kinematics")
+        return {each["body"]: (read(each["mass"]), read(each["inertia"])) for each in told}
+
+    def _told(self, question: str) -> list[dict[str, Any]]:
+        """An answer of the core at the state."""
         s = self.state
-        told = self.source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps([{"ask": "kinematics"}]))
-        return {each["body"]: (read(each["mass"]), read(each["inertia"])) for each in json.loads(told)["answers"][0]}
+        return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps([{"ask": question}])))["answers"][0]
 
     @cached_property
     def gravity(self) -> Name | None:
@@ -117,3 +122,27 @@ class Naming:
         told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == load.name)
         value = (told | told.get("with", {})).get("friction")
         return Name.parse(value) if isinstance(value, str) and _PLAIN.fullmatch(value) else None
+
+
+@dataclass(frozen=True)
+class ImpulseNaming(Naming):
+    """The letters of a blow: an impulse is J with the letter of its force below, ``J_N_floor``."""
+
+    blow: Blow
+
+    @classmethod
+    def of(cls, blow: Blow) -> ImpulseNaming:
+        """Those of a blow of a run."""
+        return cls(blow.run.source, blow.state, blow.impulses, blow)
+
+    @cached_property
+    def loads(self) -> dict[str, Name]:
+        """The letters of impulses, by the symbols of their forces."""
+        forces = load_names(self.blow.free.loads, self.source)
+        return {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
+
+    def _told(self, question: str) -> list[dict[str, Any]]:
+        """An answer of the core during the blow."""
+        return json.loads(self.blow.run.motion.letters_of_blow(self.blow.place, "{}", json.dumps([{"ask": question}])))[
+            "answers"
+        ][0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -25,10 +25,19 @@ class Snapshot:
 @dataclass(frozen=True)
 class Impulses:
     """The impulses of a blow: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
-    second body (x, y in N·s, couple in N·m·s about the joint's point)."""
+    second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
+    ``restitution`` is that of what was struck; ``spared`` was reached too, but would have had to pull."""
 
     contacts: Mapping[str, tuple[float, float]]
     joints: Mapping[str, tuple[float, float, float]]
+    stops: Mapping[str, float] = field(default_factory=dict)
+    restitution: Mapping[str, float] = field(default_factory=dict)
+    spared: tuple[str, ...] = ()
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """How large the impulse of each contact, string and stop is."""
+        return {name: float(np.hypot(*force)) for name, force in self.contacts.items()} | dict(self.stops)
 
 
 @dataclass(frozen=True)
@@ -51,6 +60,7 @@ def changes_of(told: Sequence[Mapping[str, Any]], about: Mapping[str, Any]) -> l
     """Changes as the core tells them, with names for its places."""
     coordinates = [c["name"] for c in about["coordinates"]]
     joints = [j["name"] for j in about["joints"]]
+    stops = [limit["name"] for limit in about["limits"] if limit["type"] == "stop"]
 
     def snapshot(state: Mapping[str, Any] | None) -> Snapshot | None:
         return state and Snapshot(*(dict(zip(coordinates, state[part], strict=True)) for part in "qu"))
@@ -59,7 +69,10 @@ def changes_of(told: Sequence[Mapping[str, Any]], about: Mapping[str, Any]) -> l
         if not blow:
             return None
         felt = {name: tuple(p) for name, p in zip(joints, blow["joints"], strict=True) if any(p)}
-        return Impulses({name: tuple(p) for name, p, *_ in blow["limits"]}, felt)
+        forces = {name: tuple(p) for name, p in blow["limits"] if name not in stops}
+        at_stops = {each["name"]: each["normal"] for each in blow["struck"] if each["name"] in stops}
+        back = {each["name"]: each["restitution"] for each in blow["struck"]}
+        return Impulses(forces, felt, at_stops, back, tuple(blow["spared"]))
 
     return [
         Change(c["t"], c["kind"], tuple(c["of"]), c["lost"], c["note"] or "",

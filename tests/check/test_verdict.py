@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from textbook import BOOKS, Book
 
+import freebody as fb
 from freebody.check import Checker, Kind
 from freebody.model import Mechanism
+
+SYSTEMS = Path(fb.__file__).parent / "systems"
 
 
 def checker(name: str) -> Checker:
@@ -153,3 +158,65 @@ REDUNDANT_STATEMENTS = [
 @pytest.mark.parametrize(("text", "kind"), REDUNDANT_STATEMENTS)
 def test_reactions_that_are_not_determined_must_fit_whatever_they_are(text: str, kind: Kind) -> None:
     assert Checker(Mechanism.loads(REDUNDANT)).check(text).kind is kind
+
+
+def system(name: str) -> Checker:
+    return Checker(Mechanism.load(SYSTEMS / f"{name}.yaml"))
+
+
+def test_a_number_of_the_start_is_true_only_there() -> None:
+    pendulum = system("S19.18/model")  # θ̈ at the start by hand: (g sin(slope − θ) − s̈ cos θ)/l, ẍ by elimination
+    slope, theta, g, l, M, m = np.radians(20), 0.6, 9.81, 0.5, 2.0, 1.0
+    pull = (M + m) * np.sin(slope) - m * np.cos(theta) * np.sin(slope - theta)
+    thetaddot = (g * np.sin(slope - theta) - np.cos(theta) * g * pull / (M + m * np.sin(theta) ** 2)) / l
+    verdict = pendulum.check(f"theta'' = {thetaddot:.2f}")
+    assert (verdict.kind, verdict.assumption) == (Kind.TRUE_IF, "at the start, with these numbers of the model")
+    assert pendulum.check(f"theta'' = {thetaddot + 0.02:.2f}").kind is Kind.WRONG
+
+
+def test_angles_that_are_equal_but_for_round_off_are_equal() -> None:
+    held = system("EX-ARM/held")
+    assert held.check("sin(theta1 - theta2) = 0").ok
+    assert system("EX-ARM/model").check("sin(theta1 - theta2) = 0").kind is Kind.WRONG
+
+
+def test_rates_of_a_prescribed_acceleration_are_free() -> None:
+    """Else nothing would be learnt about products of them."""
+    pendulum = system("19.3.18/model")
+    assert pendulum.check("l*theta'' = aA*sin(theta)").ok
+    assert pendulum.check("l*theta'' = aA*sin(theta) + xA'*theta'").kind is Kind.WRONG
+
+
+LIKELY = [
+    ("S19.19/model", "(M+m) x'' + k x = m eps (θ'' cosθ + θ'^2 sinθ)", "`sin` and `cos` of `theta` exchanged"),
+    ("EX-ARM/model", "I1 θ1'' = Ms − Me + l1 (shoulder_x sinθ1 − shoulder_y cosθ1) − l3 (elbow_y cosθ1 − elbow_x sinθ1)", "l3 - l1"),
+    ("19.3.25/model", "m ½ l² θ'' = −m g l sinθ + m l r'' cosθ", "1"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "text", "after"), LIKELY)
+def test_the_likely_slip_is_the_one_mend(name: str, text: str, after: str) -> None:
+    (mend,) = system(name).check(text).mends
+    assert [edit[2] for edit in mend.edits] == [after]
+
+
+def test_mends_in_parameters_that_follow_from_others_come_last() -> None:
+    gun = system("S19.16/model")  # m1 is m2/3 there
+    first, *_ = gun.check("(m1 l²/3 + m2 R²) θ'' = T").mends
+    assert first.edits[0][2] == "2*m2*R*Rdot*thetadot"
+
+
+SPRING = """
+freebody: 1
+gravity: none
+bodies: {p: {shape: particle, mass: 2 kg}}
+joints: {guide: {type: slot, along: {through: ground.O, angle: 0}, point: p.centre, coordinate: x}}
+forces: {coil: {type: spring, along: x, stiffness: 30 N/m}}
+initial: {x: 1 m}
+"""
+
+
+def test_figures_of_a_true_equation_are_in_si_units() -> None:
+    spring = Checker(Mechanism.loads(SPRING))
+    assert spring.check("2 x'' = -30 x").ok
+    assert spring.check("2 x'' = -31 x").kind is Kind.DIMENSIONS

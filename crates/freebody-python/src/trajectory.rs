@@ -4,6 +4,7 @@ use crate::instant::Instant;
 use crate::mechanism::Shared;
 use crate::{array, errors};
 use freebody::letters::answer;
+use freebody::motion::{Happening, Kind};
 use freebody::simulation;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -26,10 +27,14 @@ impl Trajectory {
     fn events(&self) -> String {
         let m = self.of.mechanism();
         let n = m.freedom();
-        let told = |h: &freebody::motion::Happening| {
-            let (name, crossing) = self.run.event(&m, h);
+        let told = |h: &Happening| {
+            let kind = match h.kind {
+                Kind::Crossing => "crossing",
+                Kind::Touch => "touch",
+                Kind::Opening => "start",
+            };
             serde_json::json!({
-                "name": name, "t": h.t, "kind": if crossing { "crossing" } else { "touch" },
+                "name": m.events[h.index].name, "t": h.t, "kind": kind,
                 "direction": h.direction, "q": h.y[..n], "u": h.y[n..2 * n],
             })
         };
@@ -54,6 +59,17 @@ impl Trajectory {
         let told = self.run.at(&self.of.mechanism(), t, |balance| answer(balance, &setting, &questions));
         Ok(told.map_err(errors::motion)?.to_string())
     }
+    /// Bodies and loads during a blow, given by its place among `changes`: those of what was struck are told for a unit.
+    fn free_bodies_of_blow(&self, change: usize) -> PyResult<String> {
+        let told = self.run.at_blow(&self.of.mechanism(), change, freebody::free_bodies::free_bodies);
+        Ok(told.map_err(errors::motion)?.to_string())
+    }
+    /// Answers in letters to questions about a blow, with the rates before it.
+    fn letters_of_blow(&self, change: usize, setting: &str, questions: &str) -> PyResult<String> {
+        let (setting, questions) = crate::mechanism::questions(setting, questions)?;
+        let told = self.run.at_blow(&self.of.mechanism(), change, |balance| answer(balance, &setting, &questions));
+        Ok(told.map_err(errors::motion)?.to_string())
+    }
     #[getter]
     fn changes(&self) -> String {
         let m = self.of.mechanism();
@@ -62,7 +78,8 @@ impl Trajectory {
             let state = |y: &Vec<f64>| serde_json::json!({"q": y[..n], "u": y[n..2 * n]});
             let impulses = c.impulses.as_ref().map(|i| {
                 let limits: Vec<_> = i.limits.iter().map(|(name, p)| serde_json::json!([name, [p.x, p.y]])).collect();
-                serde_json::json!({"limits": limits, "joints": i.joints})
+                let struck: Vec<_> = i.struck.iter().map(struck).collect();
+                serde_json::json!({"limits": limits, "joints": i.joints, "struck": struck, "spared": i.spared})
             });
             serde_json::json!({
                 "t": c.t, "kind": c.kind, "of": c.of, "lost": c.lost, "note": c.note, "impulses": impulses,
@@ -161,4 +178,8 @@ impl Trajectory {
         let list = |v: &[f64]| PyArray1::from_slice(py, v);
         (t, list(&q), list(&u), list(&p), "{}".to_string())
     }
+}
+
+fn struck(s: &simulation::Struck) -> serde_json::Value {
+    serde_json::json!({"name": s.name, "normal": s.normal, "tangent": s.tangent, "restitution": s.restitution})
 }

@@ -1,7 +1,8 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
+use crate::balance::Source;
 use crate::joints::Joint as _;
-use crate::mechanism::{Joint, Level, Mechanism, Part};
+use crate::mechanism::{Joint, Level, Mechanism, Part, Rubbing};
 use crate::numbers::Numbers;
 use serde_json::{json, Map, Value};
 
@@ -12,8 +13,8 @@ pub fn describe(m: &Mechanism) -> Value {
         "name": m.name,
         "bodies": bodies(m, &numbers),
         "parameters": parameters(m, &numbers),
-        "coordinates": coordinates(m, true),
-        "closure_coordinates": coordinates(m, false),
+        "coordinates": coordinates(m, &numbers, true),
+        "closure_coordinates": coordinates(m, &numbers, false),
         "joints": m.joints.iter().map(|j| joint(m, j)).collect::<Vec<_>>(),
         "forces": m.forces.iter().map(|f| json!({"name": f.name, "type": f.word, "conservative": f.potential.is_some()})).collect::<Vec<_>>(),
         "motions": motions(m),
@@ -45,22 +46,28 @@ fn parameters(m: &Mechanism, n: &Numbers) -> Vec<Value> {
 }
 
 /// Coordinates of the joints in the tree, or of those that close loops.
-fn coordinates(m: &Mechanism, tree: bool) -> Vec<Value> {
+fn coordinates(m: &Mechanism, n: &Numbers, tree: bool) -> Vec<Value> {
     let joints = m.joints.iter().filter(|j| j.child.is_some() == tree);
     joints
         .flat_map(|j| {
             j.coordinates.iter().map(|c| {
-                json!({"name": c.name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, j, c)})
+                json!({"name": c.name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, n, j, c)})
             })
         })
         .collect()
 }
 
 /// What a coordinate measures, in words.
-fn meaning(m: &Mechanism, joint: &Joint, c: &crate::mechanism::Coordinate) -> String {
+fn meaning(m: &Mechanism, n: &Numbers, joint: &Joint, c: &crate::mechanism::Coordinate) -> String {
     let [first, second] = m.ends(joint).map(|b| &m.bodies[b].name);
     let what = joint.kind.card().coordinates[c.card].name;
-    let from = if c.absolute { "the fixed x axis".to_string() } else { format!("`{first}`") };
+    let zero = n.slots[c.zero];
+    let from = match (c.dimension, c.absolute || m.ends(joint)[0] == 0) {
+        ("rad", fixed) if fixed && zero != 0.0 => direction(zero.to_degrees()),
+        ("rad", false) if zero != 0.0 => format!("{} to `{first}`", direction_at(zero.to_degrees())),
+        _ if c.absolute => "the fixed x axis".to_string(),
+        _ => format!("`{first}`"),
+    };
     let sense = match (c.dimension, c.sense < 0.0) {
         ("rad", true) => ", clockwise",
         ("rad", false) => ", counter-clockwise",
@@ -68,6 +75,20 @@ fn meaning(m: &Mechanism, joint: &Joint, c: &crate::mechanism::Coordinate) -> St
         _ => "",
     };
     format!("{what} of `{second}` from {from} at `{}`{sense}", joint.name)
+}
+
+/// A fixed direction, by its angle to the x axis in degrees.
+fn direction(degrees: f64) -> String {
+    let named = [(-90.0, "straight down"), (90.0, "straight up"), (180.0, "the fixed −x axis")];
+    let is = |angle: f64| (degrees - angle).abs() < 1e-9;
+    named
+        .iter()
+        .find(|(angle, _)| is(*angle))
+        .map_or_else(|| format!("{} to the fixed x axis", direction_at(degrees)), |(_, words)| words.to_string())
+}
+
+fn direction_at(degrees: f64) -> String {
+    format!("the direction at {}°", (degrees * 1e9).round() / 1e9)
 }
 
 fn joint(m: &Mechanism, j: &Joint) -> Value {
@@ -117,7 +138,12 @@ fn notes(m: &Mechanism, n: &Numbers) -> Vec<String> {
         0.0 => notes.push("No gravity acts in the plane.".to_string()),
         _ => notes.push(format!("Gravity is ({}, {}) m/s².", n.gravity.x, n.gravity.y)),
     }
-    notes.push("Bodies are rigid, joints are ideal: no friction, no clearance.".to_string());
+    let joints = (0..m.rubs.len()).filter(|&rub| matches!(m.rubs[rub].of, Rubbing::Joint { .. }));
+    let rubbing: Vec<_> = joints.map(|rub| format!("`{}`", Source::Rub(rub).name(m))).collect();
+    notes.push(match rubbing.is_empty() {
+        true => "Bodies are rigid, joints are ideal: no friction, no clearance.".to_string(),
+        false => format!("Bodies are rigid; joints have no clearance, and no friction but {}.", rubbing.join(", ")),
+    });
     notes.push(match m.groups.is_empty() {
         true => "Bodies that no joint joins pass through each other: there are no contacts.".to_string(),
         false => "Only what a contact, stop or string names can touch or hold; all else passes through.".to_string(),

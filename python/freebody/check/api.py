@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from freebody.model.errors import Complaint
@@ -12,11 +13,10 @@ from .claims import claimed
 from .families import ALL, Family
 from .language.dimensions import DimensionError, check_dimensions
 from .language.errors import StatementError
-from .language.parser import parse
 from .letters import Letters
 from .meaning import StatementLetters
 from .truth import Truth
-from .verdict import Verdict, judged, misfit
+from .verdict import Verdict, holds, judged, misfit
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -45,7 +45,7 @@ class Checker:
     def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
         """A statement beside the motions that decide about it. Raises ``StatementError`` and ``Complaint``."""
         known = self.letters(letters)
-        program = parse(text, known.names)
+        program = known.read(text)
         return Case(program, StatementLetters(known, program, self.truth), self.truth, hypothesis or self.hypothesis)
 
     def check(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Verdict:
@@ -64,7 +64,7 @@ class Checker:
         try:
             check_dimensions(case.program, case.meaning.letters.dimensions)
         except DimensionError as error:
-            return misfit(case, case.equations, text, error.what)
+            return _in_figures(case) or misfit(case, case.equations, text, error.what)
         except StatementError:
             pass  # kinds that do not go together are told with the verdict
         return judged(case)
@@ -83,6 +83,18 @@ class Checker:
             return self._run, evaluate(name, {})
         except Complaint:
             raise Complaint(f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`") from None
+
+
+def _in_figures(case: Case) -> Verdict | None:
+    """The verdict where an equation is true whose dimensions fit if figures stand for measures in SI units."""
+    try:
+        check_dimensions(case.program, case.meaning.letters.dimensions, figures=True)
+    except StatementError:
+        return None
+    if not holds(case):
+        return None
+    verdict = judged(case)
+    return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None
 
 
 def check(mechanism: Builder, text: str, letters: Declared | None = None) -> Verdict:

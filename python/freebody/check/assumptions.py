@@ -14,6 +14,7 @@ from .families import Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation
 from .residual import HOLDS, residual, unreached
+from .rounding import is_figure, rounding
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
@@ -47,7 +48,10 @@ def _holds(case: Case, equation: Equation, family: Family) -> bool:
         values = case.values(family, count=_STATES)
     except NoMotion:
         return False
-    return residual(equation, values).worst < HOLDS and not unreached(equation, values)
+    found = residual(equation, values)
+    as_printed = family.at_start and family.numbers and is_figure(equation)
+    near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
+    return bool(near) and not unreached(equation, values)
 
 
 def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
@@ -69,6 +73,8 @@ def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
     yield from ((f"{name} = 0", with_zero(name)) for name in others)
     yield "these numbers of the model", replace(given, numbers=True, zeros=False)
     yield "at rest, and these numbers of the model", replace(given, numbers=True, zeros=False, at_rest=True)
+    yield "at the start", replace(given, at_start=True)
+    yield "at the start, with these numbers of the model", replace(given, numbers=True, zeros=False, at_start=True)
 
 
 def mattering(case: Case) -> list[str]:

@@ -19,7 +19,7 @@ from .hypothesis import FAR, family
 from .language.errors import StatementError
 from .language.evaluate import equation_sides, evaluate
 from .language.nodes import Equation, Letter, Program, letters, terms
-from .language.parser import parse, parse_expression
+from .language.parser import parse_expression
 from .language.spelling import spell
 from .residual import HOLDS, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
@@ -187,7 +187,7 @@ def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
 def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:
     """Whether an equation is true wherever others are, whatever the mechanics."""
     known = checker.letters(declared)
-    then, given = parse(statement, known.names), parse(premises.replace(" and ", "\n"), known.names)
+    then, given = known.read(statement), known.read(premises.replace(" and ", "\n"))
     conclusion, case = then.equations[0], checker.case(statement + "\n" + premises.replace(" and ", "\n"), declared)
     values = dict(case.meaning.values(case.samples()))
     rng = np.random.default_rng(3)

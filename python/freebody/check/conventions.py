@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from .edits import Edit
 from .language.nodes import (
+    Call,
     Cross,
     Dot,
     Equation,
@@ -21,8 +22,10 @@ from .language.nodes import (
     substitute,
     walk,
 )
+from .language.spelling import spell
 from .vocabulary import Vocabulary
 
+_OTHER = {"sin": "cos", "cos": "sin"}
 _QUARTER = Quotient(Number(math.pi, "pi"), Number(2.0, "2"))
 
 
@@ -32,6 +35,7 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     A letter that stands once is left to the edits of its place.
     """
     yield from _products(equation)
+    yield from _functions(equation)
     found = [n for n in walk(equation) if isinstance(n, Letter)]
     often = [name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1]
     for name in often:
@@ -56,6 +60,18 @@ def _products(equation: Equation) -> Iterator[Edit]:
             after = replace(after, old, other(old.left, old.right, span=old.span))
         if after is not equation:
             yield Edit("convention", None, None, after, words=words)
+
+
+def _functions(equation: Equation) -> Iterator[Edit]:
+    """Sine and cosine of an angle exchanged wherever they stand, where both do."""
+    calls = [n for n in walk(equation) if isinstance(n, Call) and n.function in _OTHER]
+    for angle in dict.fromkeys(n.arguments for n in calls):
+        found = [n for n in calls if n.arguments == angle]
+        if {n.function for n in found} == set(_OTHER):
+            after = equation
+            for call in found:
+                after = replace(after, call, Call(_OTHER[call.function], angle))
+            yield Edit("convention", None, None, after, words=f"`sin` and `cos` of `{spell(angle[0])}` exchanged")
 
 
 def _angles(equation: Equation, plain: Letter, vocabulary: Vocabulary) -> Iterator[Edit]:

@@ -120,7 +120,8 @@ class Described:
         """Rates that can be given at will."""
         state = self.first
         solved = self.core.instant(state.p, state.t, state.q, state.u)
-        return max(int(json.loads(solved.rank)["freedom"]) - int(self.about["freedom"].get("driven", 0)), 0)
+        given = sum(motion["level"] != "acceleration" for motion in self.spec["motions"])
+        return max(int(json.loads(solved.rank)["freedom"]) - given, 0)
 
     @cached_property
     def loops(self) -> int:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -69,14 +70,25 @@ class Fits:
 
     def _leaves(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
-        found = _constant(need.needed) if isinstance(need.node, Number) else None
-        if found is not None and found != -need.node.value and (number := recognised(found)) is not None:
+        found = _constant(need.needed) if _is_figure(need.node) else None
+        if found is not None and found != -need.value[0] and (number := recognised(found)) is not None:
             yield Edit("factor", need.node, number, replace(equation, need.node, number))
         if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
             for letter in self._letters:
                 if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
                     new = Letter(letter.name, letter.dots, span=need.node.span)
                     yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+        if isinstance(need.node, Letter) and need.node in self.vocabulary.parameters:
+            yield from self._lengthened(equation, need, need.node)
+
+    def _lengthened(self, equation: Equation, need: Need, letter: Letter) -> Iterator[Edit]:
+        """A parameter that should be the sum or the difference of two, as an arm often is."""
+        for a, b in permutations((letter, *self.vocabulary.alike(letter)), 2):
+            one, two = self.values[a.key], self.values[b.key]
+            for part, whole in ((b, one + two), (Negative(b), one - two)):
+                if np.allclose(whole, need.needed, rtol=_SAME, atol=0):
+                    new = Sum((a, part), span=letter.span)
+                    yield Edit("letter", letter, new, replace(equation, letter, new), 0.2)
 
     @cached_property
     def _letters(self) -> list[Letter]:
@@ -214,6 +226,12 @@ class Fits:
 def _arguments(equation: Equation) -> Iterator[Node]:
     """What sines and cosines are taken of."""
     return (n.arguments[0] for n in walk(equation) if isinstance(n, Call) and n.function in ("sin", "cos"))
+
+
+def _is_figure(node: Node) -> bool:
+    """Whether it is a number, or a fraction of two."""
+    parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
+    return all(isinstance(part, Number) for part in parts)
 
 
 def _constant(values: Array) -> float | None:

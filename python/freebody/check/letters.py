@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
@@ -69,6 +70,7 @@ class Letters:
     def __init__(
         self, mechanism: Builder, declared: Mapping[str, str | Sequence[str | float]] | None = None, gravity: str | None = None
     ) -> None:
+        self.mechanism = mechanism
         lowered = mechanism.lowered()
         self.spec = lowered.spec
         self.named = meanings.meanings(lowered.root)
@@ -108,7 +110,24 @@ class Letters:
             name = "".join(found[0].split())
             if name not in self.meanings and (meaning := self._reading(name)) is not None:
                 self._put(name, meaning)
-        return parse(text, self.names)
+        program = parse(text, self.names)
+        return parse(text, self.names) if self._strange(program) and self._learn_printed() else program
+
+    def _strange(self, program: Program) -> bool:
+        """Whether some letter has no meaning."""
+        given = {line.name for line in program.assignments}
+        return any(isinstance(n, Letter) and n.name not in self.meanings and n not in given for n in walk(program))
+
+    def _learn_printed(self) -> bool:
+        """Those of printed equations join the others, which go before them; whether there are any that did not before."""
+        from .printed import printed
+
+        taken = {folded(name) for name in self.meanings}
+        new = {name: said for name, said in printed(self.mechanism).items() if folded(name) not in taken}
+        for name, said in new.items():
+            with suppress(Complaint):
+                self._declare(name, said)
+        return bool(new)
 
     def _reading(self, text: str) -> Meaning | None:
         try:
@@ -157,6 +176,9 @@ class Letters:
         for coordinate in self.about["coordinates"]:
             name = coordinate["name"]
             out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
+            owner, _, stem = name.rpartition(".")
+            if owner:
+                out.setdefault(f"{stem}_{owner}", out[name])  # as LaTeX prints it
         out.setdefault("t", Meaning("time", ("t",), TIME))
         if (text := gravity or self._gravity()) is not None:
             out.setdefault("g", Meaning("gravity", (text,), LENGTH.times(TIME, -2)))
@@ -182,8 +204,7 @@ class Letters:
                 text = f"{spell(owner)}.{part}"
                 meaning = Meaning("reaction", (text,), self.named.dimension(f"{owner}.{part}", self.writer.scope))
                 endings = [f".{part}", f"_{part}", *([f"_{_SHORT[part]}"] if part in _SHORT else [])]
-                plain = spell(owner) == owner
-                out |= {f"{owner}{end}": meaning for end in endings} if plain else {text: meaning}
+                out |= {text: meaning, **{f"{owner.replace(' ', '_')}{end}": meaning for end in endings}}
         return out
 
     def _joint_parts(self, name: str) -> list[str]:

@@ -128,8 +128,9 @@ class StatementLetters:
     @cached_property
     def _parameters(self) -> list[Letter]:
         own = [Letter(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
+        own.sort(key=lambda n: n.name not in self.truth.free_parameters)
         made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
-        return self._once([*made, *(n for n in self.used if n in own), *own])
+        return self._once([*made, *(n for n in own if n in self.used), *own])
 
     def _once(self, found: list[Letter]) -> list[Letter]:
         """Without letters that only name again what another does."""

@@ -14,13 +14,13 @@ from freebody.results import Array
 from .case import Case
 from .families import Samples
 from .language.evaluate import Sides, equation_sides, evaluate
-from .language.nodes import Equation, Number, letters, walk
+from .language.nodes import Equation, Number, letters
 from .language.nodes import replace as replaced
 from .language.parser import parse
 from .language.spelling import spell
 from .meaning import StatementLetters
 from .mend import Mend
-from .residual import HOLDS, magnitude
+from .rounding import figures, last_digit, rounding, slope
 from .verdict import Evidence, Kind, Verdict
 
 if TYPE_CHECKING:
@@ -79,64 +79,37 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
     return Verdict(Kind.WRONG, expression, f"at {moment} it is {told}")
 
 
-def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
-    """How far the sides may lie apart, by half the last printed digit of each figure with a decimal point; (K, n)."""
-    base = equation_sides(equation, values).residual
-    size = (magnitude(equation.left, values) + magnitude(equation.right, values)).reshape(len(base), -1)
-    allowed = HOLDS * size
-    for figure in _printed(equation):
-        allowed = allowed + np.abs(_slope(equation, figure, values)) * _last_digit(figure) / 2
-    return allowed
-
-
-def _printed(equation: Equation) -> list[Number]:
-    return [n for n in walk(equation) if isinstance(n, Number) and "." in n.text]
-
-
-def _last_digit(figure: Number) -> float:
-    """What one more in the last printed digit is worth."""
-    digits, _, power = figure.text.partition("e")
-    return 10.0 ** (int(power or 0) - len(digits.split(".")[1]))
-
-
-def _slope(equation: Equation, figure: Number, values: Mapping[str, Array]) -> Array:
-    """How fast the sides part as a figure grows."""
-    step = _last_digit(figure)
-    moved = replaced(equation, figure, Number(figure.value + step, figure.text))
-    return (equation_sides(moved, values).residual - equation_sides(equation, values).residual) / step
-
-
 def _corrected(equation: Equation, values: Mapping[str, Array]) -> tuple[tuple[Mend, ...], bool]:
     """The fewest figures to be printed otherwise, and whether they are off by no more than one in the last digit."""
-    figures = _printed(equation)
-    for count in range(1, len(figures) + 1):
-        found = [mend for some in combinations(figures, count) for mend in _printed_again(equation, some, values)]
+    printed = figures(equation)
+    for count in range(1, len(printed) + 1):
+        found = [mend for some in combinations(printed, count) for mend in _printed_again(equation, some, values)]
         if found:
             return tuple(mend for mend, _ in found), all(last for _, last in found)
     return (), False
 
 
-def _printed_again(equation: Equation, figures: tuple[Number, ...], values: Mapping[str, Array]) -> Iterator[tuple[Mend, bool]]:
+def _printed_again(equation: Equation, chosen: tuple[Number, ...], values: Mapping[str, Array]) -> Iterator[tuple[Mend, bool]]:
     """The equation with other numbers for some figures, if these make it hold to its digits."""
-    slopes = np.stack([_slope(equation, figure, values)[0] for figure in figures], axis=-1)
+    slopes = np.stack([slope(equation, figure, values)[0] for figure in chosen], axis=-1)
     steps = -np.linalg.pinv(slopes) @ equation_sides(equation, values).residual[0]
     after, edits, last = equation, [], True
-    for figure, step in zip(figures, steps, strict=True):
+    for figure, step in zip(chosen, steps, strict=True):
         places = len(figure.text.partition("e")[0].split(".")[1])
         power = 10.0 ** int(figure.text.partition("e")[2] or 0)
         text = f"{(figure.value + step) / power:.{places}f}" + figure.text[len(figure.text.partition("e")[0]) :]
         after = replaced(after, figure, Number(float(text), text))
         edits.append(("figure", figure.text, text))
-        last &= abs(float(text) - figure.value) < 1.5 * _last_digit(figure)
+        last &= abs(float(text) - figure.value) < 1.5 * last_digit(figure)
     left = np.abs(equation_sides(after, values).residual)
     if np.all(left <= rounding(after, values) * (1 + _ROUND)):
-        yield Mend(tuple(edits), spell(after), float(len(edits)), tuple(figure.span for figure in figures)), last
+        yield Mend(tuple(edits), spell(after), float(len(edits)), tuple(figure.span for figure in chosen)), last
 
 
 def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:
     """A statement with the values of its letters at a moment, and its time."""
     known = checker.letters(declared)
-    program = parse(statement, known.names)
+    program = known.read(statement)
     meaning = StatementLetters(known, program, checker.truth)
     run, t = checker.moment(moment)
     return Case(program, meaning, checker.truth), meaning.values(_OnRun(run, t, checker)), t

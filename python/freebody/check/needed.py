@@ -92,6 +92,8 @@ def _factors(need: Need, factors: tuple[Node, ...], values: Mapping[str, Array])
 
 
 def _quotient(need: Need, top: Node, bottom: Node, values: Mapping[str, Array]) -> Iterator[Need]:
+    if isinstance(top, Number) and isinstance(bottom, Number):
+        return  # ½ is one figure
     above, below = evaluate(top, values), evaluate(bottom, values)
     if below.ndim != 1:
         return

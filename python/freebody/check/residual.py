@@ -21,6 +21,8 @@ REACH = 1e-3
 OFTEN = 8
 """Samples in which a term must reach that far."""
 _FLOOR = 1e-6  # of a component of a vector against its largest: below it is round-off of directions
+_THROUGH_ZERO = ("sin", "cos", "tan", "sinh", "asin", "atan")
+"""Functions whose zero may be a difference of angles that are equal but for round-off."""
 _MANY = 400  # terms, beyond which brackets stay
 
 
@@ -77,6 +79,8 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
             return np.stack([_scalar(inside(item)) for item in items], axis=-1)[:, :, None]
         case Matrix(rows=rows):
             return np.stack([np.stack([_scalar(inside(x)) for x in row], axis=-1) for row in rows], axis=1)
+        case Call(function=function, arguments=(of,)) if function in _THROUGH_ZERO:
+            return np.maximum(np.abs(evaluate(node, values)), np.minimum(_scalar(inside(of)), 1.0))
         case Power() | Call() | Letter() | Node():
             return np.abs(evaluate(node, values))
     raise TypeError(type(node).__name__)

@@ -143,6 +143,14 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
     return _not_true(case, equation, text, found)
 
 
+def holds(case: Case) -> bool:
+    """Whether all equations of a statement hold on true states."""
+    try:
+        return all(case.residual(equation).worst < HOLDS for equation in case.equations)
+    except (NoMotion, StatementError):
+        return False
+
+
 def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
     """The verdict where dimensions do not fit: each equation with its mends, or with the nearest true one."""
     try:

@@ -99,7 +99,7 @@ class Vocabulary:
         for q in self.coordinates:
             yield (Letter(q.name, 2),), self.powers(Letter(q.name, 2))
         for a, b in combinations_with_replacement([Letter(q.name, 1) for q in self.coordinates], 2):
-            yield (_square(a) if a == b else Product((a, b)),), _joined([self.powers(a), self.powers(b)])
+            yield (_square(a),) if a == b else (a, b), _joined([self.powers(a), self.powers(b)])
         for letter in dict.fromkeys((*self.others, *moving)):
             yield (letter,), self.powers(letter)
         for q in self.coordinates:

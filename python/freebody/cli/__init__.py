@@ -127,12 +127,21 @@ def diagram(
     changes: Changes = None,
     to_scale: Annotated[bool, typer.Option("--to-scale", help="What acts at the instant, with a scale of forces.")] = False,
     effective: Annotated[bool, typer.Option("--effective/--no-effective", help="Draw m a and I alpha beside.")] = True,
+    blow: Annotated[
+        int | None,
+        typer.Option(metavar="NUMBER", help="Impulses during this blow of the run, from 1; --at TIME counts from then."),
+    ] = None,
 ) -> None:
-    """Draw free-body diagrams, by default of every body by itself."""
+    """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of a blow."""
     from freebody.cli import show
 
-    time, state = moment(at)
-    drawn = opened(model, changes).diagram(of, time, to_scale=to_scale, effective=effective, **state)
+    (time, state), mechanism = moment(at), opened(model, changes)
+    if blow is None:
+        drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, **state)
+    elif state:
+        raise Mistake("--blow is of the run, so --at takes a time", "change the start in the model")
+    else:
+        drawn = mechanism.impulse_diagram(of, blow, at=time, to_scale=to_scale, effective=effective)
     show.written([drawn.save(output)])
 
 

@@ -22,6 +22,7 @@ class Form(str, Enum):
     minimal = "minimal"
     brute = "brute"
     constraints = "constraints"
+    solved = "solved"
     lagrange = "lagrange"
     linear = "linear"
     frame = "frame"
@@ -32,17 +33,13 @@ class Form(str, Enum):
     out_of_plane = "out_of_plane"
 
 
-class Language(str, Enum):
-    """Languages of generated functions."""
-
-    python = "python"
-    c = "c"
-
-
 def equations(
     model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
     form: Annotated[
-        Form, typer.Option(help="Free of reactions, three balances a body, all constraints; or a further derivation.")
+        Form,
+        typer.Option(
+            help="Free of reactions, three balances a body, all constraints; solved in letters; or a further derivation."
+        ),
     ] = Form.minimal,
     want: Annotated[
         str | None, typer.Option("--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …")
@@ -54,23 +51,29 @@ def equations(
             "--set", metavar="NAME=VALUE", help="A letter as a number, or an option of a derivation, point=rod.B; repeatable."
         ),
     ] = None,
+    limits: Annotated[
+        list[str] | None,
+        typer.Option("--limit", metavar="NAME=VALUE", help="With --form solved: the answer as m2=inf, m1=0 …; repeatable."),
+    ] = None,
     latex: Annotated[bool, typer.Option("--latex", help="A fragment of LaTeX.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Markdown.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
-    code: Annotated[Language | None, typer.Option(help="Functions for the matrix form: python (NumPy) or c.")] = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json, .py, .c.")
-    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json.")] = None,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
     from freebody.cli import opened, pairs
 
-    found = derived(opened(model), form.value, want, at_rest, pairs(fixed))
-    asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json), (_ending(code), code)) if given]
+    if limits and form is not Form.solved:
+        raise Mistake(f"--limit is not for --form {form.value}", "take --form solved")
+    if form is Form.solved:
+        found = solved(opened(model), want, at_rest, pairs(fixed), pairs(limits))
+    else:
+        found = derived(opened(model), form.value, want, at_rest, pairs(fixed))
+    asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json)) if given]
     if len(asked) > 1:
-        raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json, --code")
+        raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json")
     kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
-    _refuse(found, kind)
+    _refuse(kind)
     if output:
         from freebody.cli import show
 
@@ -93,14 +96,19 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
         raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
 
-def _refuse(found: Equations | Document, kind: str) -> None:
-    """Raises ``Mistake`` for what cannot be printed in a way, by the ending of its file."""
-    ways = ("txt", "tex", "md", "html", "json", "py", "c")
+def solved(mechanism: Mechanism, want: str | None, at_rest: bool, fixed: dict[str, str], limits: dict[str, str]) -> Document:
+    """Accelerations, or what is wanted (names with commas between), solved in letters."""
+    wanted = [name.strip() for name in want.split(",")] if want else None
+    try:
+        return mechanism.solve_in_letters(wanted, at_rest=at_rest, set=fixed, limits=limits).document
+    except KeyError as error:
+        raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
+
+
+def _refuse(kind: str) -> None:
+    """Raises ``Mistake`` for a way of printing that there is not, by the ending of its file."""
+    ways = ("txt", "tex", "md", "html", "json")
+    if kind in ("py", "c"):
+        raise Mistake("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")
     if kind not in ways:
         raise Mistake(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")
-    if kind in ("py", "c") and not hasattr(found, "code"):
-        raise Mistake("functions are made of the forms minimal, brute and constraints", "take one of these, or print text")
-
-
-def _ending(code: Language | None) -> str:
-    return "c" if code is Language.c else "py"

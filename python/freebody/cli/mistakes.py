@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import sys
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperGroup
+
+if TYPE_CHECKING:
+    from freebody.model.errors import Problem
 
 MISTAKEN = 2
 
@@ -32,14 +36,15 @@ class Guarded(TyperGroup):
 def explained(error: Exception) -> str | None:
     """What is wrong and what to try; None for an error that is ours."""
     from freebody import _core
+    from freebody.model.errors import Complaint, ModelFileError, Problem
 
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}"
+    if isinstance(error, ModelFileError):
+        return "\n".join(map(_placed, error.problems))
     if where := getattr(error, "where", None):
-        from freebody.model.errors import Problem
-
         return str(Problem(where, *error.args[-2:]))
-    if isinstance(error, (Mistake, _core.ModelError, _core.ExpressionError, _core.MotionError)):
+    if isinstance(error, (Mistake, Complaint, _core.ModelError, _core.ExpressionError, _core.MotionError)):
         # The last two are always what is wrong and what to try; a place in front of them is a path in the model.
         *_, what, hint = error.args
         if isinstance(error, _core.MotionError):
@@ -49,3 +54,10 @@ def explained(error: Exception) -> str | None:
     # A bare KeyError or IndexError says nothing to a user: it is a slip of ours.
     spoken = isinstance(error, (ValueError, LookupError, ImportError)) and not isinstance(error, (KeyError, IndexError))
     return str(error) if spoken or type(error) is RuntimeError else None
+
+
+def _placed(problem: Problem) -> str:
+    """A problem with its place, unless that is a line of Python: then it came with the command."""
+    if Path(problem.where.file).suffix in ("", ".yaml", ".yml", ".json") and not problem.where.file.startswith("<"):
+        return str(problem)
+    return f"{problem.what}\n  {problem.hint}" if problem.hint else problem.what

@@ -14,16 +14,20 @@ from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import lettered
+from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
+from freebody.equations.measured import shown
 from freebody.equations.simplify import PATIENCE
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, children, evaluate, mul, negative, power, walk
+from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power
 from freebody.free_body import FreeBodies
+from freebody.instant import Instant
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -32,6 +36,10 @@ MOST_EQUATIONS = 4
 """More equations together are not solved in letters."""
 MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 150}
 """Operations in all coefficients, by the number of equations, above which the answer would fill pages."""
+MOST_MEASURED = 8
+"""More where lengths and angles are numbers."""
+MOST_OPERATIONS_MEASURED = 250
+"""The same there."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
 _OTHERS = 3
@@ -89,17 +97,28 @@ def solve_in_letters(
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = Subject(mechanism.source(), state, at_rest)
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
+    try:
+        return _answers(subject, chosen, names, limits or {}, patience)
+    except TooLarge:
+        lengths = [n for n in subject.letters.geometric() if n not in chosen.trees and n not in (limits or {})]
+        if not lengths:
+            raise
+        return _answers(subject, chosen.and_numbers(subject.with_numbers(lengths).numbers or {}), names, limits or {}, patience)
+
+
+def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float) -> Answers:
     letters = subject.letters
     found: dict[str, Tree] = {}
     made: list[Block] = []
     for system in _systems(subject, chosen, names):
         solution = _solved(subject, system, chosen, patience)
-        made += [*(b for s in system.stated for b in blocks(subject, s)), *_shown(system, solution, letters)]
+        made += [*(b for s in system.stated for b in blocks(subject, s)), *_asked(system.rows), *_shown(system, solution)]
         found |= solution
     values = {name: found[_letter(subject, name)] for name in names}
     checked = _check(subject, chosen, {_letter(subject, name): tree for name, tree in values.items()})
-    at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in (limits or {}).items()}
-    document = Document((*_title(subject, chosen), *made, *_limits(subject, at, limits or {})), letters)
+    at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
+    told = (*_title(subject, chosen), *made, *_limits(subject, at, limits))
+    document = Document(tuple(lettered(block, letters) for block in told), letters)
     return Answers(values, at, letters, document, checked)
 
 
@@ -108,8 +127,13 @@ class _System:
     """Balances and rows that together give ``gives``."""
 
     stated: tuple[Stated, ...]
-    linear: tuple[Linear, ...]
+    rows: tuple[Row, ...]
     gives: tuple[Sym, ...]
+
+    @property
+    def linear(self) -> list[Linear]:
+        """All of them in what is unknown."""
+        return [*(each.balance.linear for each in self.stated), *(row.linear for row in self.rows)]
 
 
 def _systems(subject: Subject, chosen: Given, names: Sequence[str]) -> list[_System]:
@@ -165,35 +189,35 @@ def _of_all(subject: Subject, states: Sequence[FreeBodies], wanted: Sym) -> _Sys
 
 def _closed(subject: Subject, stated: Sequence[Stated], wanted: Sym) -> _System:
     """With as many rows as it takes to have an equation for every unknown."""
-    linear = [s.balance.linear for s in stated]
-    rows = [row.linear for row in subject.rows]
+    linear, rows = [s.balance.linear for s in stated], list[Row]()
     while True:
         unknown = {wanted, *(x for each in linear for x in each.coefficients)}
-        more = next((row for row in rows if row not in linear and unknown & row.coefficients.keys()), None)
+        more = next((row for row in subject.rows if row not in rows and unknown & row.linear.coefficients.keys()), None)
         if more is None or len(unknown) <= len(linear):
             break
-        linear.append(more)
+        rows.append(more)
+        linear.append(more.linear)
     if len(unknown) != len(linear) or not any(wanted in each.coefficients for each in linear):
         raise TooLarge(f"{wanted.name}: {len(linear)} equations leave {len(unknown)} unknowns; ask for numbers")
-    return _System(tuple(stated), tuple(linear), tuple(unknown))
+    return _System(tuple(stated), tuple(rows), tuple(unknown))
 
 
 def _solved(subject: Subject, system: _System, chosen: Given, patience: float) -> dict[Sym, Tree]:
     letters = subject.letters
-    if len(system.linear) > MOST_EQUATIONS:
-        raise TooLarge(f"it takes {len(system.linear)} equations together, too many for an answer in letters; ask for numbers")
     unknowns = sorted(system.gives, key=lambda x: (x.dots == 0, letters.place(x.name)))
     matrix = [[chosen.put(each.coefficients.get(x, ZERO)) for x in unknowns] for each in system.linear]
     right = [chosen.put(negative(each.rest)) for each in system.linear]
-    if (size := sum(operations(entry) for entry in (*right, *(e for row in matrix for e in row)))) > MOST_OPERATIONS[len(right)]:
-        raise TooLarge(f"{len(right)} equations with {size} operations are too long for an answer in letters; ask for numbers")
+    _require_short(matrix, right, chosen.measured)
     solution = solve(matrix, right, letters, patience=patience)
     return {x: with_positive_divisors(tree, subject.values) for x, tree in zip(unknowns, solution, strict=True)}
 
 
-def operations(tree: Tree) -> int:
-    """How many sums, products, powers and functions an expression has."""
-    return sum(max(1, len(children(node)) - 1) for node in walk(tree) if children(node))
+def _require_short(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], measured: bool) -> None:
+    n, size = len(right), sum(operations(entry) for row in (*matrix, right) for entry in row)
+    if n > (MOST_MEASURED if measured else MOST_EQUATIONS):
+        raise TooLarge(f"it takes {n} equations together, too many for an answer in letters; ask for numbers")
+    if size > (MOST_OPERATIONS_MEASURED if measured else MOST_OPERATIONS[n]):
+        raise TooLarge(f"{n} equations with {size} operations are too long for an answer in letters; ask for numbers")
 
 
 def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
@@ -208,9 +232,14 @@ def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
     return mul(MINUS_ONE, made) if len(turned) % 2 else made
 
 
-def _shown(system: _System, solution: Mapping[Sym, Tree], letters: Letters) -> list[Block]:
+def _asked(rows: Sequence[Row]) -> list[Block]:
+    names = joined(list(dict.fromkeys(row.name for row in rows))) if rows else ""
+    return [Equation(row.acceleration, ZERO, f"With {names}" if i == 0 else "") for i, row in enumerate(rows)]
+
+
+def _shown(system: _System, solution: Mapping[Sym, Tree]) -> list[Block]:
     name = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
-    return [Equation(x, tree, name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
+    return [Equation(x, shown(tree), name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
 
 
 def _letter(subject: Subject, name: str) -> Sym:
@@ -236,7 +265,7 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
         numbers = there.values
         for x, tree in values.items():
             found, true = float(evaluate(tree, numbers, there.tables)), numbers[x]
-            if abs(found - true) > AGREES * max(abs(true), _scale(there.free, x)):
+            if abs(found - true) > AGREES * max(abs(true), _scale(there, x)):
                 raise ArithmeticError(f"the answer for {x.name} is {found:g} where the numbers are {true:g}; take the numbers")
         compared += 1
     return compared
@@ -253,9 +282,12 @@ def _like(subject: Subject, there: Subject) -> Subject | None:
     return there if same else None
 
 
-def _scale(free: FreeBodies, x: Sym) -> float:
+def _scale(there: Subject, x: Sym) -> float:
+    """The largest of its kind, or among the terms that balance where all of a kind vanish."""
+    free, state = there.free, there.state
     values = free.accelerations.values() if x.dots else [load.value for load in free.loads if load.unknown]
-    return max((abs(v) for v in values if np.isfinite(v)), default=1.0)
+    sizes = Instant(there.source.core, state, about=there.source.about).sizes
+    return max(sizes[1 if x.dots else 0], *(abs(v) for v in values if np.isfinite(v)))
 
 
 def _target(to: Any) -> float | Fraction:
@@ -265,6 +297,10 @@ def _target(to: Any) -> float | Fraction:
 def _title(subject: Subject, chosen: Given) -> list[Block]:
     said = ["all rates are 0"] * subject.at_rest + chosen.said()
     made: list[Block] = [Heading(f"{subject.source.name}: answers in letters", 1)]
+    if chosen.measured:
+        made.append(
+            Paragraph("In letters alone this would fill pages: lengths, angles and plain numbers are those of the model, in SI.")
+        )
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])
 
 
@@ -272,5 +308,5 @@ def _limits(subject: Subject, found: Mapping[tuple[str, str], Tree], limits: Map
     made: list[Block] = [Heading("Limits")] if found else []
     for (name, letter), tree in found.items():
         to = "∞" if str(limits[letter]) == "inf" else str(limits[letter])
-        made.append(Equation(_letter(subject, name), tree, [Sym(letter), f" → {to}"]))
+        made.append(Equation(_letter(subject, name), shown(tree), [Sym(letter), f" → {to}"]))
     return made

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, evaluate, mul, number, replace, symbols
+from freebody.equations.measured import exact, shown, with_exact_numbers
+from freebody.equations.tree import PI, Sym, Tree, evaluate, mul, number, replace, symbols
 from freebody.instant import State
 
 if TYPE_CHECKING:
@@ -19,25 +20,28 @@ if TYPE_CHECKING:
 
 _DEGREES = re.compile(r"\s*(-?\d+(?:\.\d+)?(?:/\d+)?)\s*(?:deg|°)\s*")
 _NUMBER = re.compile(r"\s*-?\d+(?:\.\d+)?(?:/\d+)?\s*")
-_RATIONAL = 1e-12
-_DENOMINATORS = 1000
 _NEAR = 0.15
 """How far other states for checks are, in rad and m, and parts of parameters."""
 
 
 @dataclass(frozen=True)
 class Given:
-    """Letters with what they are set to."""
+    """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages."""
 
     trees: Mapping[str, Tree]
+    measured: bool = False
 
     def put(self, tree: Tree) -> Tree:
         """An expression with the letters replaced, and plain numbers exact."""
         from freebody.equations.to_sympy import from_sympy, to_sympy
 
         new = {Sym(name): value for name, value in self.trees.items()}
-        made = _with_exact_numbers(tree)
+        made = with_exact_numbers(tree)
         return from_sympy(to_sympy(replace(made, new))) if symbols(made) & new.keys() else made
+
+    def and_numbers(self, numbers: Mapping[str, float]) -> Given:
+        """With more letters set, to measured numbers."""
+        return Given({name: exact(value) for name, value in numbers.items()} | dict(self.trees), True)
 
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
         """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
@@ -88,7 +92,7 @@ class Given:
         """As words: ``theta = π/4``."""
         from freebody.equations.text import text
 
-        return [f"{text(Sym(name))} = {text(tree)}" for name, tree in self.trees.items()]
+        return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
 
     def _numbers(self, parameters: Mapping[str, float]) -> dict[str, Any]:
         values = {Sym(name): value for name, value in parameters.items()}
@@ -104,32 +108,6 @@ def given(mechanism: Builder, set: Mapping[str, Any]) -> Given:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
     return Given({name: _exact(value, letters) for name, value in set.items()})
-
-
-def _with_exact_numbers(tree: Tree) -> Tree:
-    match tree:
-        case Num(float() as value):
-            return exact(value)
-        case Add(parts) | Mul(parts):
-            return type(tree)(tuple(map(_with_exact_numbers, parts)))
-        case Pow(base, exponent):
-            return Pow(_with_exact_numbers(base), exponent)
-        case Fn(name, args):
-            return Fn(name, tuple(map(_with_exact_numbers, args)))
-        case _:
-            return tree
-
-
-def exact_angle(value: float) -> Tree:
-    """An angle as a part of π, where it is a plain one."""
-    part = Fraction(value / np.pi).limit_denominator(12)
-    return mul(number(part), Sym(PI)) if abs(float(part) * np.pi - value) < _RATIONAL else exact(value)
-
-
-def exact(value: float) -> Tree:
-    """A number as a fraction, where it is a plain one."""
-    part = Fraction(value).limit_denominator(_DENOMINATORS)
-    return number(part if abs(float(part) - value) <= _RATIONAL * max(1.0, abs(value)) else float(value))
 
 
 def _exact(value: Any, letters: list[str]) -> Tree:

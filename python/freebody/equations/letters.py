@@ -65,6 +65,13 @@ class Letters(Mapping[str, Letter]):
         """The names of some kinds, in the order of the model."""
         return [name for name, letter in self.table.items() if letter.kind in kinds]
 
+    def geometric(self) -> list[str]:
+        """Coordinates and parameters that are lengths, angles or plain numbers: neither masses, loads, stiffnesses nor g."""
+        heavy = (_HEAVY, _GRAVITY)
+        return [
+            x.name for x in self.values() if x.kind == "coordinate" or (x.kind == "parameter" and _weight(x.unit) not in heavy)
+        ]
+
     def rank(self, symbol: Sym) -> tuple[int, int]:
         """Where a letter stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
         weight = _weight(self.table[symbol.name].unit) if symbol.name in self.table else _OTHER

@@ -46,7 +46,7 @@ class Name:
             part.translate(_SUBSCRIPTS) if part.isdigit() else f"_{GREEK.get(part, _word(part))}" for part in self.below
         )
         made = stem + _COMBINING[dots] + below if self.is_letter else stem + below + "′" * dots
-        return f"{self.owner}.{made}" if self.owner else made
+        return f"{self.owner.replace(' ', '_')}.{made}" if self.owner else made
 
     def ascii(self) -> str:
         """``N_track``, ``N_floor1``."""
@@ -79,7 +79,8 @@ def unicode_name(text: str, dots: int = 0) -> str:
 
 def ascii_name(text: str, dots: int = 0) -> str:
     """The name with Greek spelt and a prime for each dot: ``theta1''``."""
-    return "".join(SPELT.get(sign, sign) for sign in text.translate(_FROM_SUBSCRIPTS)) + "'" * dots
+    plain = re.sub(r"\[(\d+)\]", r"\1", text.translate(_FROM_SUBSCRIPTS)).replace(" ", "_")
+    return "".join(SPELT.get(sign, sign) for sign in plain) + "'" * dots
 
 
 def latex_name(text: str, dots: int = 0, *, reaction: bool = False) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from freebody.equations.letters import Letters
+from freebody.equations.measured import is_measured, measured
 from freebody.equations.text import text
 from freebody.equations.to_sympy import from_sympy
 from freebody.equations.tree import MINUS_ONE, Fn, Num, Tree, evaluate, symbols, walk
@@ -27,7 +28,10 @@ _AGREEMENT = 1e-8  # relative difference of two forms that are equal
 def shortest(expression: Any, letters: Letters | None = None, patience: float = PATIENCE) -> Tree:
     """The shortest of the forms factored, cancelled, with sin² or cos² eliminated, and simplified by trigonometry.
 
-    Each is held against the expression itself at random values, and dropped where they differ."""
+    Each is held against the expression itself at random values, and dropped where they differ. One with measured numbers is only
+    multiplied out."""
+    if is_measured(expression):
+        return measured(expression)
     until = time.monotonic() + patience
     best = given = from_sympy(expression)
     cost = length(best, letters)

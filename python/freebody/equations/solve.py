@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.equations.letters import Letters
+from freebody.equations.measured import is_measured, ratio, rational
 from freebody.equations.simplify import PATIENCE, equal, shortest
 from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
@@ -15,6 +16,9 @@ MOST_UNKNOWNS = 6
 """Above it an answer in letters is too long to be read."""
 MOST_OPERATIONS = 1500
 """Operations in all coefficients above which no answer in letters is sought."""
+
+
+_UNDETERMINED = "the equations do not determine the unknowns, whatever the letters are"
 
 
 class TooLarge(ValueError):
@@ -30,14 +34,20 @@ def solve(
 ) -> list[Tree]:
     """The solution x of A x = b in letters, each entry in the shortest form found.
 
-    ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``; a matrix that is singular for all
+    ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
     values of the letters is ``Singular``. The solution is held against the system at random values."""
-    _admit(matrix, right)
+    _require_square(matrix, right)
     import sympy
 
     a = sympy.Matrix([[to_sympy(entry) for entry in row] for row in matrix])
     b = sympy.Matrix([to_sympy(entry) for entry in right])
-    found = [shortest(entry, letters, patience) for entry in _solved(a, b)]
+    numeric = is_measured(a) or is_measured(b)
+    if len(right) > MOST_UNKNOWNS and not numeric:
+        raise TooLarge(
+            f"{len(right)} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
+            "ask for numbers, or for a smaller set of equations"
+        )
+    found = _solved_measured(a, b) if numeric else [shortest(entry, letters, patience) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
             raise ArithmeticError(
@@ -97,15 +107,10 @@ def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None =
     return shortest(to_sympy(tree).subs(chosen, simultaneous=True), letters)
 
 
-def _admit(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
+def _require_square(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
     n = len(right)
     if len(matrix) != n or any(len(row) != n for row in matrix):
         raise ValueError("A x = b needs as many equations as unknowns")
-    if n > MOST_UNKNOWNS:
-        raise TooLarge(
-            f"{n} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
-            "ask for numbers, or for a smaller set of equations"
-        )
 
 
 def _solved(a: Any, b: Any) -> list[Any]:
@@ -120,9 +125,26 @@ def _solved(a: Any, b: Any) -> list[Any]:
     try:
         solution = joined[:, :-1].lu_solve(joined[:, -1:])
     except DMNonInvertibleMatrixError:
-        raise Singular("the equations do not determine the unknowns, whatever the letters are") from None
+        raise Singular(_UNDETERMINED) from None
     back = {new: old for old, new in shared.items()}
     return [entry.subs(back) for entry in solution.to_Matrix()]
+
+
+def _solved_measured(a: Any, b: Any) -> list[Tree]:
+    """The same with measured numbers: determinants, whose common factors are not looked for, as round-off hides them."""
+    from sympy.polys.matrices import DomainMatrix
+
+    shared, (a, b) = _plain(a.applyfunc(rational), b.applyfunc(rational))
+    joined = DomainMatrix.from_Matrix(a.row_join(b)).to_dense()
+    n, back = a.rows, {new: old for old, new in shared.items()}
+
+    def determinant(columns: list[int]) -> Any:
+        return joined.domain.to_sympy(joined.extract(list(range(n)), columns).charpoly()[-1] * (-1) ** n).subs(back)
+
+    below = determinant(list(range(n)))
+    if below == 0:
+        raise Singular(_UNDETERMINED)
+    return [ratio(determinant([n if j == i else j for j in range(n)]), below) for i in range(n)]
 
 
 def _plain(*matrices: Any) -> tuple[dict, list[Any]]:

@@ -11,8 +11,10 @@ from freebody.equations.letters import Letters
 from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import Mul, Pow, Tree, is_zero, mul, power
+from freebody.equations.tree import Mul, Num, Pow, Tree, is_zero, mul, number, power
 
+MOST_OPERATIONS = 80
+"""Operations in a characteristic polynomial above which its roots are not sought in letters."""
 _HALF = Fraction(1, 2)
 MOST_ROWS = 4
 """Roots of polynomials of higher order have no formula in letters."""
@@ -54,6 +56,8 @@ def eigenvalues(
     import sympy
 
     polynomial = _polynomial(matrix, positive)
+    if sum(factor.count_ops() for factor in polynomial.all_coeffs()) > MOST_OPERATIONS:
+        raise TooLarge("the characteristic polynomial is too long for its roots in letters; put numbers for some letters")
     found = sympy.roots(polynomial, cubics=False, quartics=False)
     if sum(found.values()) != polynomial.degree():
         raise TooLarge("these eigenvalues have no short form in letters; put numbers, or ask for the stability conditions")
@@ -106,9 +110,9 @@ def _reduced(condition: Any) -> Any:
     import sympy
 
     factored = sympy.factor(sympy.cancel(sympy.together(condition)))
-    above, below = sympy.fraction(factored)
-    rest = sympy.Mul(*(f for f in sympy.Mul.make_args(above * below) if not _is_positive(f)))
-    rest = sympy.Mul(*(_odd(f) for f in sympy.Mul.make_args(rest)))
+    parts = [f for part in sympy.fraction(factored) for f in sympy.Mul.make_args(sympy.factor(part))]
+    kept = [f for f in parts if not _is_positive(f)]
+    rest = sympy.Mul(*(sympy.sign(f) if f.is_number else _odd(f) for f in kept))
     return None if rest.is_positive else rest
 
 
@@ -142,9 +146,22 @@ def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
 
 
 def _one_root(tree: Tree) -> Tree:
-    """√k/√m as √(k/m): under both roots stands something positive."""
+    """√k/√m as √(k/m), ½ √(2 k/m) as √(k/(2 m)): under all roots stands something positive."""
     if not isinstance(tree, Mul):
         return tree
     roots = [f for f in tree.factors if isinstance(f, Pow) and abs(f.exponent) == _HALF]
-    rest = [f for f in tree.factors if f not in roots]
-    return mul(*rest, power(mul(*(power(f.base, 2 * f.exponent) for f in roots)), _HALF)) if len(roots) > 1 else tree
+    under = mul(*(power(f.base, 2 * f.exponent) for f in roots))
+    size, rest = _front(mul(*(f for f in tree.factors if f not in roots)))
+    inner, letters = _front(under)
+    if not roots or (len(roots) == 1 and inner == 1):
+        return tree
+    sign = 1 if size > 0 else -1
+    return mul(number(sign), rest, power(mul(number(size**2 * inner), letters), _HALF))
+
+
+def _front(tree: Tree) -> tuple[Fraction, Tree]:
+    """The exact number in front of a product, and what follows it."""
+    factors = tree.factors if isinstance(tree, Mul) else (tree,)
+    if isinstance(factors[0], Num) and isinstance(factors[0].value, Fraction):
+        return factors[0].value, mul(*factors[1:])
+    return Fraction(1), tree

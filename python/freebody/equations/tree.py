@@ -137,6 +137,11 @@ def walk(tree: Tree) -> Iterator[Tree]:
         waiting.extend(reversed(children(node)))
 
 
+def operations(tree: Tree) -> int:
+    """How many sums, products, powers and functions an expression has."""
+    return sum(max(1, len(children(node)) - 1) for node in walk(tree) if children(node))
+
+
 def symbols(*trees: Tree) -> set[Sym]:
     """All letters that occur, rates and accelerations for themselves."""
     found, seen, waiting = set(), set(), list(trees)

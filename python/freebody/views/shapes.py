@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from freebody.results import Array
 
-_ARC_STEP = np.pi / 18
+_ARC_STEP = np.pi / 60
 
 
 def turn(points: Array, angle: float, at: ArrayLike = (0.0, 0.0)) -> Array:

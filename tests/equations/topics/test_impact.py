@@ -97,5 +97,5 @@ def test_a_run_without_blow_is_named() -> None:
 
 def test_what_is_absent_is_told() -> None:
     said = topic(rod_on_a_floor(), "impact").text()
-    assert "Absent: weight of rod" in said
-    assert "floor.J_N" in said
+    assert "weight of rod: finite" in said
+    assert "J_N_floor" in said

@@ -1,8 +1,11 @@
 """Answers in letters against closed forms of textbooks, and against numbers at other states."""
 
+import numpy as np
 import pytest
-from models import atwood, sliding_rod, spring_pendulum, system
+from models import SYSTEMS, atwood, sliding_rod, spring_pendulum, system
+from typer.testing import CliRunner
 
+from freebody.cli import app
 from freebody.equations import Sym, evaluate, from_sympy, symbols, to_sympy
 from freebody.equations.answers import solve_in_letters
 from freebody.equations.simplify import equal
@@ -80,8 +83,10 @@ def test_limits() -> None:
 
 
 def test_what_is_too_long_is_refused() -> None:
+    """Where lengths are asked to stay letters, there is no shorter way."""
+    letters = ("l1", "l2", "l3", "d", "side", "beta", "phi")
     with pytest.raises(TooLarge, match="ask for numbers"):
-        system("S19.21").solve_in_letters(["theta"], at_rest=True)
+        system("S19.21").solve_in_letters(["theta"], at_rest=True, set={"theta": 1.1}, limits=dict.fromkeys(letters, 0))
 
 
 def test_what_is_driven_follows_from_its_motion() -> None:
@@ -103,3 +108,80 @@ def test_what_is_not_unknown_is_named() -> None:
 def test_a_spring_and_gravity() -> None:
     answers = solve_in_letters(spring_pendulum(), ["theta"])
     assert equal(answers["theta"], tree("(m*g*l*sin(theta) - k*theta)/(m*l**2)", "m g l k theta"))
+
+
+def bars(lengths: tuple[float, float, float, float], theta: float, beta: float, phi: float) -> tuple[np.ndarray, np.ndarray]:
+    """Of a four-bar of rods, by θ̇: the rates of its three angles, and the squared speeds of mass centres and spins together, a mass."""
+    l1, l2, l3, _ = lengths
+    across = [np.array([-np.sin(a), np.cos(a)]) for a in (theta, beta, phi)]
+    b, f = np.linalg.solve(np.array([l2 * across[1], -l3 * across[2]]).T, -l1 * across[0])
+    speed = (l1 * across[0] / 2, l1 * across[0] + b * l2 * across[1] / 2, f * l3 * across[2] / 2)
+    inertia = [v @ v + (length * w) ** 2 / 12 for v, length, w in zip(speed, (l1, l2, l3), (1, b, f), strict=True)]
+    return np.array([1, b, f]), np.array(inertia)
+
+
+def test_a_four_bar_keeps_its_masses_and_its_torque() -> None:
+    """From rest T = Σ mᵢ (v² + ρ² ω²) θ̈ by power, v and ω for a unit θ̇; the lengths are those of the model."""
+    mechanism = system("S19.21")
+    answers = mechanism.solve_in_letters(["theta", "phi"], at_rest=True)
+    theta, beta, phi = mechanism.start(at_rest=True)[0].q
+    rates, inertia = bars((0.3, 0.7, 0.6, 0.8), theta, beta, phi)
+    at = {Sym("m1"): 2.3, Sym("m2"): 0.4, Sym("m3"): 5.1, Sym("T"): 7.0}
+    assert symbols(*answers.values.values()) == set(at)
+    expected = 7.0 / (inertia @ [2.3, 0.4, 5.1])
+    assert evaluate(answers["theta"], at) == pytest.approx(expected, rel=1e-9)
+    assert evaluate(answers["phi"], at) == pytest.approx(expected * rates[2], rel=1e-9)
+    assert "would fill pages" in str(answers) and answers.checked > 1
+
+
+def test_a_slider_crank_keeps_its_masses_and_g() -> None:
+    """Released from rest: its weights do work at r/2 cos θ, r/2 cos θ and none; the rod's centre is the mean of its ends."""
+    answers = system("GEN-SLIDER").solve_in_letters(["theta"], at_rest=True)
+    r, l, theta = 0.1, 0.3, np.pi / 3
+    beta = -np.arcsin(r / l * np.sin(theta))
+    b = -r * np.cos(theta) / (l * np.cos(beta))
+    x = -r * np.sin(theta) - l * np.sin(beta) * b
+    crank = r**2 / 3
+    rod = ((x - r * np.sin(theta)) ** 2 + (r * np.cos(theta)) ** 2) / 4 + (l * b) ** 2 / 12
+    at = {Sym("m1"): 0.7, Sym("m2"): 3.0, Sym("m3"): 1.1, Sym("g"): 9.0}
+    expected = -9.0 * r / 2 * np.cos(theta) * (0.7 + 3.0) / (0.7 * crank + 3.0 * rod + 1.1 * x**2)
+    assert evaluate(answers["theta"], at) == pytest.approx(expected, rel=1e-9)
+
+
+def test_what_is_asked_for_in_a_limit_stays_a_letter() -> None:
+    """A four-bar of which two bars have no mass is a rod on a pin: θ̈ = 3 T/(m₁ l₁²)."""
+    mechanism = system("S19.21")
+    answers = mechanism.solve_in_letters(["theta"], at_rest=True, set={"m2": 0}, limits={"m3": 0})
+    assert evaluate(answers.limits["theta", "m3"], {Sym("T"): 1.0, Sym("m1"): 1.0}) == pytest.approx(3 / 0.3**2, rel=1e-9)
+
+
+# A parameter to 0 or ∞, and what is then left, each a case that a book treats by itself.
+LIMITS = {
+    "a wedge that cannot move": ("m1", "inf", {"x": "0", "y": "g*sin(tip)"}),
+    "a wedge without mass: the block falls": ("m1", 0, {"x": "g*cos(tip)/sin(tip)", "y": "g/sin(tip)"}),
+    "a heavy block": ("m2", "inf", {"x": "g*cos(tip)/sin(tip)"}),
+}
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_limits_of_a_block_on_a_wedge(name: str) -> None:
+    letter, to, expected = LIMITS[name]
+    answers = system("EX-BLOCK").solve_in_letters(list(expected), at_rest=True, limits={letter: to})
+    for what, text in expected.items():
+        assert equal(answers.limits[what, letter], tree(text, "g tip")), what
+
+
+def test_limits_of_atwood() -> None:
+    """Free fall without a second mass, upward with g beside one beyond measure; no tension, and twice a weight."""
+    found = atwood().solve_in_letters(["x1", "cord"], limits={"m2": "inf", "m1": 0})
+    assert equal(found.limits["x1", "m2"], tree("-g", "g")) and equal(found.limits["x1", "m1"], tree("-g", "g"))
+    assert equal(found.limits["cord", "m2"], tree("-2*m1*g", "m1 g")) and evaluate(found.limits["cord", "m1"], {}) == 0
+    assert evaluate(atwood().solve_in_letters(["x1"], set={"m2": "m1"})["x1"], {}) == 0
+
+
+def test_the_command_solves_in_letters() -> None:
+    model = str(SYSTEMS / "19.3.17" / "model.yaml")
+    asked = ["--form", "solved", "--for", "x,rod.tension", "--at-rest", "--set", "theta=45 deg", "--limit", "mc=inf"]
+    done = CliRunner().invoke(app, ["equations", model, *asked])
+    assert done.exit_code == 0 and "mp g/(2 mc + mp)" in done.output and "mc → ∞" in done.output
+    assert CliRunner().invoke(app, ["equations", model, "--limit", "mc=inf"]).exit_code != 0

@@ -91,7 +91,8 @@ impl Balance<'_> {
         Ok(Blow { change, normal: vec![], tangent: vec![], on_first: vec![], joints, note: None })
     }
 
-    fn friction_of(&self, limit: usize) -> f64 {
+    /// The coefficient of friction of a limit that slides: 0 where it is smooth, infinite where it cannot slide.
+    pub fn friction_of(&self, limit: usize) -> f64 {
         match self.m.limits[limit].friction {
             None => 0.0,
             Some(Friction::Rough) => f64::INFINITY,

@@ -30,6 +30,8 @@ pub struct Scale {
     pub pace: f64,
     /// Whether what can stay at rest stays, where Coulomb's law leaves it open.
     pub stay: bool,
+    /// Whether touches that are almost one may contradict each other by a little.
+    pub rough: bool,
 }
 
 /// Limits whose gaps are closed at one state, k of them.
@@ -175,7 +177,8 @@ impl Balance<'_> {
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);
         let grips = self.grips(reached, slips, scale.still);
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
-        match complementarity::solve(&problem) {
+        let solve = if scale.rough { complementarity::solve_roughly } else { complementarity::solve };
+        match solve(&problem) {
             Verdict::Solved(answer) => Ok(holding(&answer, &problem, scale.pace)),
             Verdict::Indeterminate(answers) if scale.stay => {
                 let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
@@ -186,22 +189,35 @@ impl Balance<'_> {
         }
     }
 
-    /// Lets the limits hold that are reached at the present state, for an instant by itself: nothing strikes.
+    /// Lets the limits hold that are reached at the present state, and the joints rub that move, for an instant by itself:
+    /// nothing strikes.
     ///
     /// # Errors
     /// `penetration`; as [`Balance::hold`].
     pub fn lean(&mut self) -> Result<(), Trouble> {
-        if self.m.limits.is_empty() {
+        if self.m.limits.is_empty() && self.m.rubs.is_empty() {
             return Ok(());
         }
         self.start_limits()?;
         let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
+        self.start_rubs(still);
+        let scale = Scale { still, pace: self.n.gravity.norm().max(self.length), stay: false };
+        for _ in 0..=self.most_turns() {
+            self.lean_on_reached(still)?;
+            if self.m.rubs.is_empty() || !self.turn_rub(scale, None)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn lean_on_reached(&mut self, still: f64) -> Result<(), Trouble> {
         let touching = self.touching(1e-9 * self.length);
         let reached = self.reach(touching)?;
         let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
         let pace = self.n.gravity.norm().max(self.length);
-        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false })?;
+        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false, rough: false })?;
         self.take(&reached, &holding);
         Ok(())
     }

@@ -118,8 +118,9 @@ impl<L: Clone + PartialEq> Expr<L> {
 
     pub(super) fn apply(self, function: Function) -> Self {
         match self.literal() {
-            Some(value) => Self::constant(function.apply(value)),
-            None => self.extend(|a| Op::Apply(function, a)),
+            // Elsewhere its digits would be cut: cos(pi/2) is 0 in letters.
+            Some(0.0) => Self::constant(function.apply(0.0)),
+            _ => self.extend(|a| Op::Apply(function, a)),
         }
     }
 

@@ -3,9 +3,9 @@
 use super::{along_gauge, joint_place, part, Load, Origin, Part, Size};
 use crate::balance::{curve_row, drive_row, joint_rows, Row, Source};
 use crate::expr::spell;
-use crate::gauges::Placed;
+use crate::gauges::{Placed, Poses};
 use crate::joints::{Joint as _, Kind};
-use crate::mechanism::Part as Piece;
+use crate::mechanism::{Joint, Part as Piece};
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 
@@ -15,17 +15,23 @@ pub fn joints<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
         if joint.rows.is_empty() || !at.mode.has(Piece::Joint(index)) {
             continue;
         }
-        let (of, place) = (at.m.ends(joint), joint_place(at, index));
-        let mut rows = vec![];
-        match joint.curve {
-            Some(_) => rows.push(curve_row(at, index)),
-            None => joint_rows(at, index, None, &mut rows),
-        }
+        let (of, mut rows) = (at.m.ends(joint), vec![]);
+        let place = match joint.curve {
+            Some(_) => {
+                let (row, touch) = curve_row(at, index);
+                rows.push(row);
+                touch
+            }
+            None => {
+                joint_rows(at, index, None, &mut rows);
+                joint_place(at, index)
+            }
+        };
         let card = joint.kind.card();
         for row in &rows {
             let Source::Joint(_, r) = row.source else { continue };
             let (origin, parts) = match card.rows[r].pin {
-                Some(axis) => (Origin::Pin(index, axis), pinned(of, place, axis)),
+                Some(axis) => (Origin::Pin(index, axis), pinned(at, joint, axis)),
                 None => (Origin::Row(row.source), loaded(at, row, place)),
             };
             let symbol = format!("{}.{}", spell(&joint.name), word(joint.kind, r));
@@ -51,12 +57,15 @@ fn word(kind: Kind, row: usize) -> String {
     }
 }
 
-/// A unit force of a pin along a fixed axis.
-fn pinned<S: Scalar>([first, second]: [usize; 2], point: Vec2<S>, axis: usize) -> Vec<Part<S>> {
+/// A unit force of a pin along a fixed axis; each body feels it where it has the pin.
+fn pinned<S: Scalar>(at: Placed<'_, S>, joint: &Joint, axis: usize) -> Vec<Part<S>> {
     let (zero, one) = (S::zero(), S::one());
     let force = if axis == 0 { vec2(one, zero) } else { vec2(zero, one) };
-    let on = |body, force| Part { body, point, force, couple: zero };
-    vec![on(first, -force), on(second, force)]
+    let on = |site: usize, force| {
+        let body = at.m.body_of(site);
+        Part { body, point: at.pose(body).place(at.arm(site)), force, couple: zero }
+    };
+    vec![on(joint.first.site, -force), on(joint.second.site, force)]
 }
 
 /// The loads of a unit multiplier of a row between two bodies, both at one place.

@@ -2,13 +2,13 @@
 
 use super::equation::linear_in;
 use super::motion::acceleration;
+
 use super::vectors::tree_by;
 use super::{sizes, Letters};
 use crate::algebra::{Letter, Tree};
 use crate::balance::{closing_rows, joint_rows, Row, Source};
-use crate::free_bodies::{loads, Load, Size};
+use crate::free_bodies::{follow_presses, loads, Load, Size};
 use crate::gauges::Placed;
-use crate::joints::Joint as _;
 use crate::kinematics::Kinematics;
 use crate::mechanism::Part;
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
@@ -62,8 +62,9 @@ impl Letters<'_> {
     pub(super) fn constraints(&self) -> Value {
         let free = self.free();
         let at = Placed { k: &free.k, ..self.at() };
-        let all = loads(at);
+        let mut all = loads(at);
         let values: Vec<f64> = self.sizes.iter().map(|s| s.value()).collect();
+        follow_presses(at, &mut all, &values);
         let sizes = sizes(&all, &values);
         let mut unknowns: Vec<Letter> = free.coordinates.iter().map(|c| Letter::new(c, 2)).collect();
         let open = all.iter().filter(|l| matches!(l.size, Size::Unknown | Size::ByLaw));
@@ -87,27 +88,8 @@ impl Letters<'_> {
         }
         let tree = |row: &Row<Symbol>| matches!(row.source, Source::Joint(..));
         rows.extend(closing_rows(at, Some(&free.bodies)).into_iter().filter(|row| !tree(row)));
-        for row in &mut rows {
-            let Source::Joint(joint, r) = row.source else { continue };
-            if let Some(axis) = self.m.joints[joint].kind.card().rows[r].pin {
-                let [value, rate, bias] = self.apart(free, joint).map(|v| [v.x, v.y][axis]);
-                (row.value, row.rate, row.bias) = (Some(value), Some(rate), bias);
-            }
-        }
+        self.tell_pins(&free.k, &free.bodies, &mut rows);
         rows
-    }
-
-    /// From the first point of a pin to the second, with its rate and its acceleration.
-    fn apart(&self, free: &Free, joint: usize) -> [Vec2<Symbol>; 3] {
-        let joint = &self.m.joints[joint];
-        let place = |site: usize| -> [Vec2<Symbol>; 3] {
-            let body = self.m.body_of(site);
-            let (pose, twist) = (free.k.pose[body], free.k.twist[body]);
-            let arm = pose.turn.apply(self.n.arms[site]);
-            [pose.at + arm, twist.at(arm), acceleration(free.bodies[body], arm, twist.w)]
-        };
-        let (first, second) = (place(joint.first.site), place(joint.second.site));
-        std::array::from_fn(|i| second[i] - first[i])
     }
 
     fn balances(

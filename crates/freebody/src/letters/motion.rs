@@ -6,6 +6,8 @@ use super::Letters;
 use crate::algebra::Letter;
 use crate::balance::{closing_rows, Row, Source, Trouble};
 use crate::free_bodies::mass_centre;
+use crate::joints::Joint as _;
+use crate::kinematics::Kinematics;
 use crate::plane::{Twist, Vec2};
 use crate::scalar::{Scalar, Symbol};
 use serde_json::{json, Value};
@@ -52,8 +54,34 @@ impl Letters<'_> {
 
     /// What loops, motions and closed limits ask, told of the coordinates.
     pub(super) fn rows(&self) -> Value {
-        let rows = closing_rows(self.at(), Some(&self.bodies));
-        Value::Array(rows.iter().map(|row| self.row(row)).collect())
+        Value::Array(self.closing().iter().map(|row| self.row(row)).collect())
+    }
+
+    /// What closes loops, prescribes motions and holds limits.
+    pub(super) fn closing(&self) -> Vec<Row<Symbol>> {
+        let mut rows = closing_rows(self.at(), Some(&self.bodies));
+        self.tell_pins(&self.k, &self.bodies, &mut rows);
+        rows
+    }
+
+    /// Tells the rows of pins along the fixed axes: from the first point to the second, with its rate and its acceleration.
+    pub(super) fn tell_pins(&self, k: &Kinematics<Symbol>, bodies: &[Twist<Symbol>], rows: &mut [Row<Symbol>]) {
+        let place = |site: usize| -> [Vec2<Symbol>; 3] {
+            let body = self.m.body_of(site);
+            let (pose, twist) = (k.pose[body], k.twist[body]);
+            let arm = pose.turn.apply(self.n.arms[site]);
+            [pose.at + arm, twist.at(arm), acceleration(bodies[body], arm, twist.w)]
+        };
+        for row in rows {
+            let Source::Joint(joint, r) = row.source else { continue };
+            let joint = &self.m.joints[joint];
+            if let Some(axis) = joint.kind.card().rows[r].pin {
+                let (first, second) = (place(joint.first.site), place(joint.second.site));
+                let [value, rate, bias] =
+                    std::array::from_fn(|i| [(second[i] - first[i]).x, (second[i] - first[i]).y][axis]);
+                (row.value, row.rate, row.bias) = (Some(value), Some(rate), bias);
+            }
+        }
     }
 
     fn row(&self, row: &Row<Symbol>) -> Value {

@@ -1,8 +1,8 @@
 //! What switched: the record of a motion's modes.
 
 use super::Machine;
-use crate::balance::Trouble;
-use crate::mode::Hold;
+use crate::balance::{Source, Trouble};
+use crate::mode::{Hold, Mode};
 use crate::plane::Vec2;
 
 /// Something that switched.
@@ -25,12 +25,31 @@ pub struct Change {
 }
 
 /// The impulses of a blow.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Impulses {
     /// On the first body of each contact (the first end of a string), with its name, N·s.
     pub limits: Vec<(String, Vec2)>,
     /// Of each joint on its second body, N·s and N·m·s about its point.
     pub joints: Vec<[f64; 3]>,
+    /// Each limit with an impulse.
+    pub struck: Vec<Struck>,
+    /// Contacts, stops and strings that were reached, and that what was struck acts on, but that would have had to pull.
+    pub spared: Vec<String>,
+    /// What was in place, with what was struck held as it was held during the blow.
+    pub mode: Mode,
+}
+
+/// The impulse of a limit, one of a contact's, a stop's or a string's.
+#[derive(Clone, Debug)]
+pub struct Struck {
+    /// The name of the contact, stop or string.
+    pub name: String,
+    /// Along the gap, N·s (N·m·s at an angle).
+    pub normal: f64,
+    /// Along the slide, N·s.
+    pub tangent: f64,
+    /// The coefficient of restitution.
+    pub restitution: f64,
 }
 
 impl Machine<'_> {
@@ -59,14 +78,14 @@ impl Machine<'_> {
                 told.push((kind, group.name.clone()));
             }
         }
-        for (rub, of) in m.rubs.iter().enumerate() {
+        for rub in 0..m.rubs.len() {
             let kind = match (before.rubs[rub], self.balance.mode.rubs[rub]) {
                 (Hold::Stuck, Hold::Sliding(_)) => "slip",
                 (Hold::Sliding(_), Hold::Stuck) => "stick",
                 (Hold::Sliding(a), Hold::Sliding(b)) if a != b => "reversal",
                 _ => continue,
             };
-            told.push((kind, m.joints[of.joint].name.clone()));
+            told.push((kind, Source::Rub(rub).name(m).to_string()));
         }
         for (kind, name) in told {
             self.note(Change { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note: None });

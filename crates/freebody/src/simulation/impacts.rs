@@ -1,6 +1,6 @@
 //! Impacts: blows of limits that are reached, the end of bounces without end, and contacts that jam.
 
-use super::changes::{Change, Impulses};
+use super::changes::{Change, Impulses, Struck};
 use super::Machine;
 use crate::balance::{Blow, Reached, Trouble};
 use crate::contact::complementarity::{self, Law, NoImpact, Strike};
@@ -18,6 +18,8 @@ const YIELDING: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 const LEFT_OVER: f64 = 1e-6;
 /// Part of the largest impulse below which one is round-off.
 const NOTHING: f64 = 1e-12;
+/// Part of what friction can do in a blow from which on all of it is used up.
+const USED_UP: f64 = 1.0 - 1e-9;
 
 /// What to do about impacts whose outcome rigid bodies leave open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,9 +65,8 @@ impl Machine<'_> {
             }
         }
         let (blow, lost) = struck?;
-        let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
-        let part = reached.takes_part(still);
-        let struck = (0..part.len()).filter(|&i| part[i] && blow.normal[i] > NOTHING * most);
+        let (part, hit) = (reached.takes_part(still), hit(&blow));
+        let struck = (0..part.len()).filter(|&i| part[i] && hit[i]);
         let struck: Vec<usize> = struck.map(|i| reached.limits[i]).collect();
         let m = self.balance.m;
         let string = |&l: &usize| m.groups[m.limits[l].group].word == "string";
@@ -118,7 +119,22 @@ impl Machine<'_> {
         }
         let most = limits.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
         limits.retain(|(_, p)| p.norm() > NOTHING * most);
-        Impulses { limits, joints: blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect() }
+        let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let (part, hit) = (reached.takes_part(self.still), hit(blow));
+        let (struck, spared): (Vec<usize>, Vec<usize>) = (0..part.len()).filter(|&i| part[i]).partition(|&i| hit[i]);
+        let mut mode = self.balance.mode.clone();
+        for &i in &struck {
+            let rubs = self.balance.friction_of(reached.limits[i]);
+            mode.limits[reached.limits[i]].hold = held(blow.normal[i], blow.tangent[i], rubs);
+        }
+        let spared: Vec<usize> = spared.iter().map(|&i| reached.limits[i]).collect();
+        let struck = struck.iter().map(|&i| Struck {
+            name: m.groups[m.limits[reached.limits[i]].group].name.clone(),
+            normal: blow.normal[i],
+            tangent: blow.tangent[i],
+            restitution: self.balance.restitution(reached.limits[i]),
+        });
+        Impulses { limits, joints, struck: struck.collect(), spared: self.names(&spared), mode }
     }
 
     /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.
@@ -188,8 +204,8 @@ impl Machine<'_> {
         let (before, scale) = (y.to_vec(), self.judgement());
         let Some(blow) = self.balance.jam(&reached, scale)? else { return Ok(false) };
         let (blow, lost) = self.strike(t, y, blow)?;
-        let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
-        let jammed = (0..reached.limits.len()).filter(|&i| blow.normal[i] > NOTHING * most);
+        let hit = hit(&blow);
+        let jammed = (0..reached.limits.len()).filter(|&i| hit[i]);
         let jammed: Vec<usize> = jammed.map(|i| reached.limits[i]).collect();
         self.note_jump(Change {
             t,
@@ -201,6 +217,21 @@ impl Machine<'_> {
             note: blow.note,
         });
         Ok(true)
+    }
+}
+
+/// Of each limit reached whether it has an impulse.
+fn hit(blow: &Blow) -> Vec<bool> {
+    let most = blow.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
+    blow.normal.iter().map(|&p| p > NOTHING * most).collect()
+}
+
+/// How a limit is held during a blow: it slides where its friction is all used up.
+fn held(normal: f64, tangent: f64, friction: f64) -> Hold {
+    match friction {
+        0.0 => Hold::Smooth,
+        _ if tangent.abs() < USED_UP * friction * normal => Hold::Stuck,
+        _ => Hold::Sliding(-tangent.signum()),
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod canonical;
 mod changes;
+mod drawn_in;
 mod guards;
 mod happenings;
 mod impacts;
@@ -14,7 +15,7 @@ mod switching;
 mod trajectory;
 
 pub use canonical::mass_matrix;
-pub use changes::{Change, Impulses};
+pub use changes::{Change, Impulses, Struck};
 pub use impacts::Rule;
 pub use machine::Machine;
 pub use trajectory::{Ledger, Trajectory};

@@ -7,7 +7,7 @@ use crate::balance::{Balance, Freedom, Instant, Observer, Route, Trouble};
 use crate::gauges::Law;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
-use crate::motion::{Happening, Kind, Outcome, Run};
+use crate::motion::{Happening, Outcome, Run};
 
 /// A finished run with dense output.
 pub struct Trajectory {
@@ -56,7 +56,7 @@ impl Trajectory {
         steps.push(run.t);
         Trajectory {
             steps,
-            events: run.events.clone(),
+            events: machine.openings.into_iter().chain(run.events.iter().cloned()).collect(),
             outcome: run.outcome.clone(),
             counts: [run.accepted, run.rejected, run.evaluations],
             kinks: run.kinks,
@@ -113,7 +113,10 @@ impl Trajectory {
         let mut y = vec![0.0; self.run.y.len()];
         let mut last = None;
         for &t in times {
-            if !self.run.trajectory.at(t, &mut y) {
+            if t == self.run.t {
+                // After what happened there.
+                y.copy_from_slice(&self.run.y);
+            } else if !self.run.trajectory.at(t, &mut y) {
                 let (first, end) = (self.steps[0], self.run.t);
                 return Err(Trouble::new(
                     "out_of_range",
@@ -256,16 +259,31 @@ impl Trajectory {
         Ok(found.expect("one time was visited"))
     }
 
+    /// What `read` finds during a blow, by its place among `changes`: with the rates before it, and held what was struck.
+    ///
+    /// # Errors
+    /// `no_blow`; those of `read`.
+    pub fn at_blow<T>(
+        &self,
+        m: &Mechanism,
+        change: usize,
+        read: impl Fn(&mut Balance<'_>) -> Result<T, Trouble>,
+    ) -> Result<T, Trouble> {
+        let found = self.changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
+        let Some((t, [before, _], impulses)) = found else {
+            return Err(Trouble::new("no_blow", format!("change {change} of the run is no blow")));
+        };
+        let mut balance = Balance::new(m, &self.stretch(t).p);
+        balance.mode = impulses.mode.clone();
+        balance.place(t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
+        read(&mut balance)
+    }
+
     /// Everything about one time, and the degrees of freedom then.
     ///
     /// # Errors
     /// As [`Trajectory::reactions`].
     pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
         self.at(m, t, |balance| Ok((balance.instant(route)?, balance.freedom())))
-    }
-
-    /// Name of the event of a happening, and whether it crossed.
-    pub fn event<'m>(&self, m: &'m Mechanism, happening: &Happening) -> (&'m str, bool) {
-        (&m.events[happening.index].name, happening.kind == Kind::Crossing)
     }
 }

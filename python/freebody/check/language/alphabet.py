@@ -62,7 +62,7 @@ LATEX_WORDS: dict[str, str] = {
 }
 """LaTeX commands that are letters."""
 
-_NUMBERED = re.compile(r"[_{}\s]")
+_NUMBERED = re.compile(r"[_{},\s]")
 
 
 def plain(char: str) -> str:

@@ -60,15 +60,16 @@ class DimensionError(StatementError):
         return error
 
 
-def check_dimensions(program: Program, units_of_letters: Mapping[str, str | Dimension]) -> None:
+def check_dimensions(program: Program, units_of_letters: Mapping[str, str | Dimension], *, figures: bool = False) -> None:
     """Raises ``DimensionError`` at the first two terms that do not go together.
 
     ``units_of_letters``: dimension or unit of each letter by its name, ``""`` for plain numbers and directions. A rate has that of its
-    letter by second; a letter that is not listed fits anything.
+    letter by second; a letter that is not listed fits anything. ``figures``: so does every
+    figure, every sum with one in it, and the time in seconds.
     """
     try:
         for line in inlined(program):
-            _Reader(units_of_letters).equation(line)
+            _Reader(units_of_letters, figures).equation(line)
     except StatementError as error:
         raise error.within(program.text) from None
 
@@ -79,8 +80,8 @@ def dimensions(node: Node, units_of_letters: Mapping[str, str | Dimension]) -> S
 
 
 class _Reader:
-    def __init__(self, units_of_letters: Mapping[str, str | Dimension]) -> None:
-        self.units = units_of_letters
+    def __init__(self, units_of_letters: Mapping[str, str | Dimension], figures: bool = False) -> None:
+        self.units, self.figures = units_of_letters, figures
 
     def equation(self, equation: Equation) -> None:
         """All terms of both sides have one dimension; of columns, entry by entry."""
@@ -96,14 +97,16 @@ class _Reader:
     def of(self, node: Node) -> Shape:
         match node:
             case Number(value=value, text=text):
-                return None if value == 0 or "." in text else NUMBER_ONLY
+                return None if self.figures or value == 0 or "." in text else NUMBER_ONLY
             case Unit(text=text):
                 return unit(text).dimension
             case Letter():
-                return self.letter(node)
+                return None if self.figures and node.name == "t" else self.letter(node)
             case Negative(of=of):
                 return self.of(of)
             case Sum():
+                if self.figures and any(not letters(term) for _, term in addends(node)):
+                    return None
                 return self.agreed([(term, self.term(term)) for _, term in addends(node)])
             case Product(factors=factors):
                 return self.product(factors)

@@ -16,6 +16,9 @@ class StatementError(ValueError):
         self.what, self.span, self.hint, self.text = what, span, hint, text
         super().__init__("\n".join([what, *shown(text, span), *([f"  {hint}"] if hint else [])]))
 
+    def __reduce__(self) -> tuple[type[StatementError], tuple[str, Span, str, str]]:
+        return type(self), (self.what, self.span, self.hint, self.text)
+
     def within(self, text: str) -> StatementError:
         """The same error, with the text that it is about."""
         return type(self)(self.what, self.span, self.hint, text)

@@ -76,6 +76,8 @@ _CLOTHES = {
     ),
     *("widehat", "mathsf", "textbf", "overline", "tilde", "pmb"),
 }
+_WORDS = {"mathrm", "mathsf", "operatorname", "text", "textbf"}
+"""Clothes of names, which may have blanks in them."""
 _NOTHING = {
     *[",", "!", ";", ":", "(", ")", "[", "]", ">"],
     "left",
@@ -87,6 +89,8 @@ _NOTHING = {
     "Bigl",
     "Bigr",
     "displaystyle",
+    "notag",
+    "nonumber",
     "limits",
 }
 _FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "log", "arcsin", "arccos", "arctan"}
@@ -94,11 +98,11 @@ _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
-_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)")
+_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
 
 
 def glyphs(text: str) -> list[Glyph]:
-    """All glyphs of a statement. Comments and labels in front of a colon read as blanks. Raises ``StatementError``."""
+    """All glyphs of a statement. Comments, labels in front of a colon and numbers of equations at the end read as blanks. Raises ``StatementError``."""
     bare = _LABEL.sub(_blank, _COMMENT.sub(_blank, text))
     try:
         return _Reader(bare).all()
@@ -201,7 +205,8 @@ class _Reader:
         if word in _DOTS:
             return _dotted(self.group(), _DOTS[word])
         if word in _CLOTHES:
-            return self.group()
+            inside = self.group()
+            return inside if word not in _WORDS else [g for g in inside if g.kind is not Kind.SPACE]
         if word in LATEX_WORDS:
             greek = word not in ("ell", "imath", "jmath", "sum", "prime")
             return [Glyph(Kind.PRIME if word == "prime" else Kind.WORD, LATEX_WORDS[word], span, greek=greek)]

@@ -9,7 +9,7 @@ Rules of reading:
   (cos θ) θ̈, ``sin 2ωt`` is sin(2ωt).
 - ``(a, b)`` is a column, ``[a, b; c, d]`` a matrix; brackets without commas only group.
 - Lines end at line ends, at ``;`` and ``,`` outside brackets, and at the words *where*, *with*, *and*. A line that starts with
-  ``=``, ``+``, ``*``, ``/`` or follows an operator goes on.
+  ``=``, ``+``, ``*``, ``/``, follows an operator, or starts with ``-`` where one of the two has no ``=``, goes on.
 - A lone letter on the left that is not known and stands in another line, too, gets its meaning there.
 """
 
@@ -19,7 +19,7 @@ from collections.abc import Iterable, Sequence
 
 from .alphabet import folded
 from .errors import StatementError
-from .grammar import CLOSES, SIGNED, Line
+from .grammar import CLOSES, RELATIONS, SIGNED, Line
 from .nodes import Assignment, Equation, Letter, Node, Program, walk
 from .tokens import Names, Token, tokens
 
@@ -83,10 +83,10 @@ def _lines(row: Sequence[Token]) -> list[list[Token]]:
     """The tokens of each line, closed by an ``end``."""
     out: list[list[Token]] = [[]]
     depth = 0
-    for token, after in zip(row, [*row[1:], row[-1]], strict=True):
+    for place, token in enumerate(row, 1):
         depth += (token.kind in CLOSES) - (token.kind in CLOSES.values())
         ends = token.kind == "line" or (token.kind in (",", ";") and depth == 0)
-        if ends and depth == 0 and not (token.kind == "line" and _goes_on(out[-1], after)):
+        if ends and depth == 0 and not (token.kind == "line" and _goes_on(out[-1], _next(row, place))):
             out[-1].append(Token("end", "", (token.span[0], token.span[0])))
             out.append([])
         elif token.kind != "line":
@@ -94,5 +94,15 @@ def _lines(row: Sequence[Token]) -> list[list[Token]]:
     return [line for line in out if len(line) > 1]
 
 
-def _goes_on(line: Sequence[Token], after: Token) -> bool:
-    return bool(line) and (line[-1].kind in SIGNED or after.kind in ("=", "+", "*", "/", "·", "×"))
+def _next(row: Sequence[Token], place: int) -> Sequence[Token]:
+    """From the first token of the next line that is not empty."""
+    return row[next((i for i in range(place, len(row)) if row[i].kind != "line"), len(row)) :]
+
+
+def _goes_on(line: Sequence[Token], rest: Sequence[Token]) -> bool:
+    """Whether the next line belongs to this one: by the signs between them, or a minus where one of the two says nothing alone."""
+    if not line or not rest:
+        return False
+    behind = next((token.kind for token in rest if token.kind in (*RELATIONS, "line", ",", ";")), "end")
+    alone = behind in RELATIONS and any(token.kind in RELATIONS for token in line)
+    return line[-1].kind in SIGNED or rest[0].kind in ("=", "+", "*", "/", "·", "×") or (rest[0].kind == "-" and not alone)

@@ -273,7 +273,7 @@ class _Reader:
         """Where a row of unknown letters changes between Latin and Greek, and its end."""
         ends, greek = [], self.row[start].greek
         for i in range(start + 1, end):
-            if self.row[i].kind is Kind.WORD and self.row[i].greek != greek:
+            if self.row[i].kind is Kind.WORD and self.row[i].greek != greek and self.row[i - 1].kind is not Kind.LOW:
                 ends.append(i)
                 greek = self.row[i].greek
         return [*ends, end]

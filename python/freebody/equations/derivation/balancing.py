@@ -14,7 +14,8 @@ from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Add, Mul, Num, Tree, evaluate, is_zero, negative
+from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative
+from freebody.free_body import Load
 
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
@@ -75,9 +76,11 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     if reasons := absent(subject, stated):
         made.append(Paragraph(f"What drops out: {'; '.join(reasons)}."))
     what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
-    unknowns = list(balance.linear.coefficients)
+    unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
     acting: list[Words] = [
-        [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)] for c in balance.contributions if not c.absent
+        [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)]
+        for c in balance.contributions
+        if not c.absent and c.load not in cancelled
     ]
     inertia: list[Words] = [
         [f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)
@@ -95,15 +98,31 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
 
 def absent(subject: Subject, stated: Stated) -> list[str]:
     """Unknown loads that touch the bodies but are not in the equation, by reason: ``elbow.Fx and elbow.Fy (they act at elbow)``."""
-    found: dict[str, list[str]] = {}
+    found = dropped(subject, stated).items()
+    return [f"{joined([load.symbol for load in loads])} ({agree(why, len(loads))})" for why, loads in found]
+
+
+def dropped(subject: Subject, stated: Stated) -> dict[str, list[Load]]:
+    """Unknown loads that touch the bodies but are not in the equation, by reason, of one: ``it acts at elbow``."""
+    found: dict[str, list[Load]] = {}
     at = numbers(subject, stated.balance)
     place = Place(stated.kind, stated.where, at, stated.constructed or stated.word == "across")
+    cancelled = cancelling(subject, stated.balance)
     for contribution in stated.balance.contributions:
-        load = subject.free.loads[contribution.load]
-        if contribution.absent and load.unknown:
-            why = why_absent(load, stated.balance.bodies, place, size(subject))
-            found.setdefault(why, []).append(load.symbol)
-    return [f"{joined(names)} ({agree(why, len(names))})" for why, names in found.items()]
+        load, summed = subject.free.loads[contribution.load], contribution.load in cancelled
+        if load.unknown and (contribution.absent or summed) and not (summed and load.follows):
+            why = why_absent(load, stated.balance.bodies, place, size(subject), summed)
+            found.setdefault(why, []).append(load)
+    return found
+
+
+def cancelling(subject: Subject, balance: Balance) -> set[int]:
+    """Loads, by their places, that the friction which follows from them cancels in a balance, and that friction."""
+    loads = subject.free.loads
+    parts = {c.load for c in balance.contributions if not c.absent}
+    leading = {load.follows[0] for load in loads if load.follows} & parts
+    gone = {i for i in leading if Sym(loads[i].symbol) not in balance.linear.coefficients}
+    return gone | {i for i in parts if (follows := loads[i].follows) and follows[0] in gone}
 
 
 def numbers(subject: Subject, balance: Balance) -> tuple[float, float]:

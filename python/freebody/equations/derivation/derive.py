@@ -8,16 +8,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.code import generate
 from freebody.equations.derivation import conserved, matrices, opening
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
 from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
+from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Subject
 from freebody.equations.derivation.wanted import wanted
-from freebody.equations.document import Block, Document, Heading
+from freebody.equations.document import Block, Document, Equation, Heading
 from freebody.equations.letters import Letters
 from freebody.equations.tree import Sym, Tree, symbols
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     import sympy
 
 FORMS = ("minimal", "brute", "constraints")
-_FUNCTIONS = {"py": "python", "c": "c"}
 _TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
 
 
@@ -66,12 +65,6 @@ class Equations:
         """b of A x = b."""
         return self.content.system.right
 
-    def code(self, language: str = "python") -> str:
-        """Source of functions ``mass_matrix`` and ``right_hand_side`` of coordinates, rates, parameters and time, in ``python``
-        (NumPy) or ``c``."""
-        functions = {"mass_matrix": self.mass_matrix, "right_hand_side": self.right_hand_side}
-        return generate(functions, self.letters, {"python": "numpy"}.get(language, language))
-
     def sympy(self) -> tuple[sympy.Matrix, sympy.Matrix, sympy.Matrix]:
         """A, x and b of A x = b as matrices of SymPy, coordinates as functions of time."""
         import sympy
@@ -96,17 +89,13 @@ class Equations:
         return self.document.markdown()
 
     def printed(self, kind: str) -> str:
-        """By the ending of a file: txt, tex, md, html or json; py or c for functions. Raises ``KeyError`` for any other."""
-        return self.code(_FUNCTIONS[kind]) if kind in _FUNCTIONS else self.document.printed(kind)
+        """By the ending of a file: txt, tex, md, html or json. Raises ``KeyError`` for any other."""
+        return self.document.printed(kind)
 
     def save(self, path: str | Path, kind: str = "") -> list[Path]:
         """Write a file by its ending or ``kind``, see ``printed``, and beside it the sketch for Markdown (.svg) and LaTeX (.pdf).
         Returns all that is written."""
-        kind = kind or Path(path).suffix.removeprefix(".")
-        if kind not in _FUNCTIONS:
-            return self.document.save(path, kind)
-        Path(path).write_text(self.printed(kind), encoding="utf-8")
-        return [Path(path)]
+        return self.document.save(path, kind or Path(path).suffix.removeprefix("."))
 
     def json(self) -> str:
         """The derivation as JSON: letters, and blocks with trees."""
@@ -163,11 +152,15 @@ class _Writer:
         if self.form != "constraints":
             first += opening.configuration(self.subject)
         blocks = (*first, *opening.letters(self.letters, used(body)), *body)
-        return Document(tuple(map(readable, blocks)), self.letters)
+        return Document(tuple(lettered(readable(block), self.letters) for block in blocks), self.letters)
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)
-        return [*kinematics, *self.content.blocks, *matrices.section(self.form, self.content, self.letters)]
+        laws = [
+            Equation(*law, "The law of friction, as the joint slides now" if not i else "")
+            for i, law in enumerate(self.subject.laws)
+        ]
+        return [*kinematics, *self.content.blocks, *laws, *matrices.section(self.form, self.content, self.letters)]
 
 
 def used(blocks: Any) -> set[str]:

@@ -10,7 +10,7 @@ from freebody.equations.derivation.meaning import joined, plain
 from freebody.equations.derivation.told import Motion, Subject
 from freebody.equations.document import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
 from freebody.equations.letters import Letter, Letters
-from freebody.equations.names import latex_name, superscript
+from freebody.equations.names import latex_name, superscript, unicode_name
 from freebody.equations.tree import Sym, is_zero
 
 _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
@@ -41,16 +41,21 @@ def sketch(subject: Subject) -> Figure:
 
 def kinematics(subject: Subject) -> list[Block]:
     """Position, velocity and acceleration of every mass centre in named unit directions."""
+    named = directions(subject)
+    made: list[Block] = [Heading("Kinematics"), Paragraph(_axes(subject.motions))]
+    if named.pairs:
+        made += [Paragraph("Unit directions that turn:"), Bullets([pair.sentence() for pair in named.pairs])]
+        made += [Equation(left, right) for left, right in named.rates() if not subject.at_rest]
+    for body in subject.motions:
+        made += _body(body, named)
+    return made
+
+
+def directions(subject: Subject) -> Directions:
+    """The unit directions in which the motions of all bodies are told."""
     motions = subject.motions
     names = [c["name"] for c in subject.coordinates]
-    directions = Directions.of(motions, [a for b in motions for a in (b.r, b.v, b.a)], [*names, "t"])
-    made: list[Block] = [Heading("Kinematics"), Paragraph(_axes(motions))]
-    if directions.pairs:
-        made += [Paragraph("Unit directions that turn:"), Bullets([pair.sentence() for pair in directions.pairs])]
-        made += [Equation(left, right) for left, right in directions.rates() if not subject.at_rest]
-    for body in motions:
-        made += _body(body, directions)
-    return made
+    return Directions.of(motions, [a for b in motions for a in (b.r, b.v, b.a)], [*names, "t"])
 
 
 def letters(known: Letters, used: Collection[str]) -> list[Block]:
@@ -100,11 +105,11 @@ def _axes(motions: Sequence[Motion]) -> str:
 def _body(body: Motion, directions: Directions) -> list[Block]:
     named = [(letter, getattr(body, letter)) for letter in "rva"]
     made: list[Block] = [
-        Equation(Written(f"{letter}_{body.body}", rf"\mathbf{{{letter}}}_{{{latex_name(body.body)}}}"), directions.vector(arrow),
+        Equation(Written(unicode_name(f"{letter}_{body.body}"), rf"\mathbf{{{letter}}}_{{{latex_name(body.body)}}}"), directions.vector(arrow),
                  f"For {body.body}" if letter == "r" else "")
         for letter, arrow in named
     ]  # fmt: skip
     if not body.particle:
-        alpha = Written(f"α_{body.body}", rf"\alpha_{{{latex_name(body.body)}}}")
+        alpha = Written(unicode_name(f"alpha_{body.body}"), rf"\alpha_{{{latex_name(body.body)}}}")
         made.append(Equation(alpha, body.alpha))
     return made

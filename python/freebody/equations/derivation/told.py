@@ -188,6 +188,11 @@ class Subject:
         return self._told([])["letters"]
 
     @cached_property
+    def laws(self) -> list[tuple[Sym, Tree]]:
+        """Loads that follow from others by a law that is not linear, with what they are."""
+        return [(Sym(law["load"]), read(law["tree"])) for law in self._told([])["laws"]]
+
+    @cached_property
     def letters(self) -> Letters:
         """The letters and what they mean."""
         from freebody.equations.derivation.meaning import meanings

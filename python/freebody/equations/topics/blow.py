@@ -1,59 +1,82 @@
-"""A blow in a run, in letters: what touches, rates before and after, impulses in place of forces."""
+"""A blow in letters: what touches, rates before and after, impulses in place of forces."""
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from freebody.balances.minimal import minimal_form
+from freebody.blow import Blow as Happened
+from freebody.blow import NoBlow
+from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
-from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.derivation.told import Balance, Row, Subject
+from freebody.equations.names import Name
 from freebody.equations.topics.common import NotHere, moving_names
 from freebody.equations.tree import Sym, Tree, add, evaluate, mul, negative
 from freebody.equations.tree import replace as put
 from freebody.free_body import GROUND, FreeBodies, Load
-from freebody.instant import State
+from freebody.naming import ImpulseNaming
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
     from freebody.switched import Change
 
-_MOMENT = 1e-9
-"""How long, in s, the motion is followed that tells what holds after the blow."""
 _NOTHING = 1e-9
 """Lengths in m, rates in m/s and arms in m below which they are 0: what an event leaves of them."""
-PRESSED = "pressed at"
-"""How the names of forces begin that only make something count as touching."""
-_LIMITS = ("contacts", "strings", "stops")
 
 
 @dataclass(frozen=True)
 class Struck(Subject):
-    """A mechanism just after a blow without bounce, when all that was struck holds; rates of the state are those before."""
+    """A mechanism during a blow, while all that was struck holds; rates are those before."""
 
-    motion: Any = None
+    happened: Happened | None = None
+
+    @property
+    def blow(self) -> Happened:
+        """What happened."""
+        assert self.happened is not None
+        return self.happened
 
     @cached_property
     def free(self) -> FreeBodies:
-        """All loads, the forces of what was struck among them."""
-        return FreeBodies.read(self.motion.free_bodies(self.state.t))
+        """All loads, those of what was struck among them."""
+        return self.blow.free
 
     def _told(self, questions: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-        return json.loads(self.motion.letters(self.state.t, json.dumps({}), json.dumps(list(questions))))
+        motion = self.blow.run.motion
+        return json.loads(motion.letters_of_blow(self.blow.place, json.dumps({}), json.dumps(list(questions))))
 
 
 @dataclass(frozen=True)
 class Blow:
-    """A blow: the ``change`` of the run, the mechanism in letters, and how much comes back (``restitution``) by name."""
+    """A blow of a run and the mechanism in letters during it."""
 
-    change: Change
     subject: Struck
-    restitution: Mapping[str, float]
+
+    @property
+    def change(self) -> Change:
+        """What the run tells of it."""
+        return self.subject.blow.change
+
+    @property
+    def restitution(self) -> Mapping[str, float]:
+        """How much comes back of the approach, by name."""
+        return {} if self.change.impulses is None else self.change.impulses.restitution
+
+    @cached_property
+    def coefficients(self) -> dict[str, Sym]:
+        """The letter of how much comes back, by name: that of the model, if it has one."""
+        spec = json.loads(self.subject.source.spec)
+        given = {limit["name"]: limit["restitution"] for kind in ("contacts", "strings", "stops") for limit in spec[kind]}
+        named = {name: x for name, x in given.items() if isinstance(x, str) and x.isidentifier()}
+        return {
+            name: Sym(named.get(name, re.sub(r"\W+", "_", f"e_{name}").strip("_"))) for name, e in self.restitution.items() if e
+        }
 
     @property
     def impulses(self) -> dict[Sym, Sym]:
@@ -63,13 +86,23 @@ class Blow:
     @property
     def forces(self) -> list[Load]:
         """Unknown loads, which may grow beyond all bounds."""
-        return [load for load in self.subject.free.loads if load.unknown and not load.follows]
+        return [load for load in self.subject.blow.acting if not load.follows]
 
     @property
-    def finite(self) -> list[Load]:
-        """Known loads of the model, which give no impulse."""
-        loads = self.subject.free.loads
-        return [load for load in loads if not load.unknown and not load.follows and not load.name.startswith(PRESSED)]
+    def slides(self) -> list[Load]:
+        """Friction of what slides throughout the blow."""
+        return [load for load in self.subject.blow.acting if load.follows]
+
+    def law(self, load: Load) -> Tree:
+        """The impulse of friction that slides, by that of the normal force: what it gives along its own direction."""
+        place, body = self.subject.free.loads.index(load), load.on[0].body
+        group = body if body != GROUND else load.on[1].body
+        [balance] = self.subject.balances([{"ask": "equation", "bodies": [group], "along": {"load": place}}])
+        share = next(c.tree for c in balance.contributions if c.load == place)
+        of, ratio = load.follows or (0, 0.0)
+        unit = {Sym(self.subject.free.loads[of].symbol): 1.0}
+        same = float(evaluate(share, self.subject.values | unit)) * ratio > 0
+        return put(share if same else negative(share), self.impulses)
 
     def after(self, tree: Tree) -> Tree:
         """An expression with the rates after the blow."""
@@ -81,21 +114,22 @@ class Blow:
 
     def acting(self, balance: Balance) -> Tree:
         """What all impulses give to a balance."""
-        forces, loads = self.impulses, self.subject.free.loads
+        loads = self.subject.blow.free.loads
         parts = [c.tree for c in balance.contributions if not c.absent and (loads[c.load].unknown or loads[c.load].follows)]
-        return put(add(*parts), forces)
+        return put(add(*parts), self.impulses)
 
     def conditions(self) -> list[tuple[str, Tree, Tree]]:
-        """Name, rate after and what it is, for all that holds after a blow without bounce."""
-        made: list[tuple[str, Tree, Tree]] = []
-        for row in self.subject.rows:
-            first = row.name not in [name for name, _, _ in made]
-            if row.rate is not None:
-                back = bool(self.restitution.get(row.name)) and first  # the first row of a limit is its gap's
-                made.append(
-                    (row.name, self.after(row.rate), mul(negative(Sym(coefficient(row.name))), row.rate) if back else add())
-                )
-        return made
+        """Name, rate after and what it is: what comes back, or 0, of all that holds after a blow."""
+        rows = [(row, row.rate) for row in self.subject.rows if row.rate is not None]
+        return [(row.name, self.after(rate), self._back(row, rate)) for row, rate in rows]
+
+    def _back(self, row: Row, rate: Tree) -> Tree:
+        """What comes back of a rate: of a gap (a row with a value) that closes."""
+        subject = self.subject
+        if row.value is None or row.name not in self.coefficients:
+            return add()
+        closing = abs(float(evaluate(rate, subject.values, subject.tables))) > _NOTHING
+        return mul(negative(self.coefficients[row.name]), rate) if closing else add()
 
     def conserved(self) -> list[tuple[str, Balance]]:
         """Balances without any impulse, with their titles, as many as stay after what holds; empty where there are none."""
@@ -117,27 +151,43 @@ class Blow:
     @property
     def zeros(self) -> dict[Sym, Tree]:
         """Coordinates, and rates before the blow, that are 0 there."""
-        names = moving_names(self.subject)
-        found = [Sym(name) for name, x in zip(names, self.subject.state.q, strict=True) if abs(x) < _NOTHING]
-        return dict.fromkeys([*found, *(Sym(name, 1) for name, x in self.change.before.u.items() if abs(x) < _NOTHING)], add())
+        state, names = self.subject.state, moving_names(self.subject)
+        found = [Sym(name) for name, x in zip(names, state.q, strict=True) if abs(x) < _NOTHING]
+        found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
+        return dict.fromkeys(found, add())
 
-    def of_coordinates(self) -> list[tuple[str, Balance]]:
-        """The balances of the coordinates, with their titles."""
-        return [(each.title, each.balance) for each in stated(self.subject)]
+    def of_coordinates(self) -> list[Stated]:
+        """The balances of the coordinates."""
+        return stated(self.subject)
+
+    def of_bodies(self) -> list[Stated]:
+        """The three balances of every body, two of a particle."""
+        made: list[tuple[dict[str, Any], str, str]] = []
+        for name, body in self.subject.free.bodies.items():
+            plain = {"ask": "equation", "bodies": [name]}
+            made += [(plain | {"along": "x"}, "x", "along"), (plain | {"along": "y"}, "y", "along")]
+            made += [] if body.particle else [(plain | {"about": "centre"}, f"the mass centre of {name}", "about")]
+        balances = self.subject.balances([question for question, _, _ in made])
+        return [Stated(balance, where, word) for balance, (_, where, word) in zip(balances, made, strict=True)]
+
+    def sizes(self) -> dict[Sym, float]:
+        """The impulses in numbers; NaN of one that the momenta do not determine."""
+        return {Sym(impulse(load)): load.value for load in self.subject.blow.impulses.loads}
+
+    @cached_property
+    def written(self) -> dict[str, Name]:
+        """How the letters of the impulses are written, by the symbols of their forces."""
+        return ImpulseNaming.of(self.subject.blow).loads
 
 
-def blow(mechanism: Builder, number: int = 1) -> Blow:
-    """The blow of a ``number``, counted from 1, in the run of a mechanism. Raises ``NotHere``."""
-    run = mechanism.simulate()
-    if not 1 <= number <= len(run.impacts):
-        raise NotHere(f"the run has {len(run.impacts)} blows, none of number {number}; let it run longer, or start it otherwise")
-    change, spec = run.impacts[number - 1], json.loads(run.source.spec)
-    limits = [each for kind in _LIMITS for each in spec[kind]]
-    p = mechanism.start()[0].p
-    back = {each["name"]: _value(run.source.core, each["restitution"], p) for each in limits if each["name"] in change.of}
-    before = change.before
-    state = State(p, change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
-    return Blow(change, Struck(mechanism.source(), state, motion=_without_bounce(mechanism, spec, state, change)), back)
+def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | float | None = None) -> Blow:
+    """The blow of a ``number``, counted from 1, in the run of a mechanism: of all, of those of one contact, string or stop, or of
+    those from a time ``at`` on (s, or ``"200 ms"``). Raises ``NotHere``."""
+    try:
+        found = mechanism.blow(number, of=of, at=at)
+    except NoBlow as error:
+        raise NotHere(str(error)) from None
+    return Blow(Struck(found.source, found.state, happened=found))
 
 
 def impulse(load: Load) -> str:
@@ -153,49 +203,3 @@ def after(name: str) -> str:
         if not name[-1:].isdigit()
         else f"{name.rstrip('0123456789')}_{name[len(name.rstrip('0123456789')) :]}_after"
     )
-
-
-def coefficient(name: str) -> str:
-    """The letter of a coefficient of restitution."""
-    return f"e_{name}" if name.isidentifier() else "e"
-
-
-def _without_bounce(mechanism: Builder, spec: dict[str, Any], state: State, change: Change) -> Any:
-    """The motion after the same blow without bounce. What would touch without a force then is pressed on, so that it counts."""
-    limits = [each for kind in _LIMITS for each in spec[kind]]
-    plain = {**spec, "events": []}
-    for each in limits:
-        each["restitution"] = 0.0
-    motion = _moment(mechanism, plain, state)
-    held = {load.name for load in FreeBodies.read(motion.free_bodies(state.t)).loads}
-    pushes = _pushes(mechanism, change, [name for name in change.of if name not in held])
-    return _moment(mechanism, {**plain, "forces": [*plain["forces"], *pushes]}, state) if pushes else motion
-
-
-def _moment(mechanism: Builder, spec: Mapping[str, Any], state: State) -> Any:
-    from freebody import _core
-    from freebody.run import Settings, simulate
-
-    text = json.dumps(spec)
-    source = replace(mechanism.source(), core=_core.Mechanism(text), spec=text)
-    return simulate(source, state, Settings(state.t + _MOMENT, step=_MOMENT, impacts="newton")).motion
-
-
-def _pushes(mechanism: Builder, change: Change, names: Sequence[str]) -> list[dict[str, Any]]:
-    """Forces against the impulses, of the size of these."""
-    made = []
-    for limit in mechanism.source().about["limits"]:
-        if limit["name"] in names and (push := change.impulses.contacts.get(limit["name"])):
-            body, sign = (limit["first"], -1.0) if limit["first"] != GROUND else (limit["second"], 1.0)
-            words = {"at": f"{body}.G", "x": repr(sign * push[0]), "y": repr(sign * push[1])}
-            made.append({"name": f"{PRESSED} {limit['name']}", "type": "force", "with": words, "engaged": True})
-    return made
-
-
-def _value(core: Any, number: Any, p: Any) -> float:
-    if not isinstance(number, str):
-        return float(number)
-    names = [each["name"] for each in json.loads(core.describe())["parameters"]]
-    from freebody.model.start import evaluate
-
-    return evaluate(number, dict(zip(names, p.tolist(), strict=True)))

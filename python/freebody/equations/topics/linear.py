@@ -2,142 +2,196 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.balances.states import nearby
+from freebody.equations.departures import Held, Linearised, Matrix, held, independent, linearised, numbers, place_of
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, MatrixEquation, Paragraph, Words
-from freebody.equations.given import exact, exact_angle, given
+from freebody.equations.equilibrium import rest_near
+from freebody.equations.given import Given, given
 from freebody.equations.letters import Letter
-from freebody.equations.solve import Singular, TooLarge, solve
+from freebody.equations.measured import shown
+from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
-from freebody.equations.text import text
-from freebody.equations.topics.common import NotHere, document, moving_names, subject_of
-from freebody.equations.tree import ONE, ZERO, Sym, Tree, add, evaluate, is_zero, mul, negative, read
+from freebody.equations.topics.common import NotHere, document, subject_of
+from freebody.equations.tree import PI, ZERO, Sym, Tree, add, evaluate, is_zero, mul, symbols
+from freebody.instant import Instant
 
 if TYPE_CHECKING:
     from freebody.instant import State
     from freebody.model.builder import Builder
 
-Matrix = list[list[Tree]]
-REST = 1e-8
-"""Out-of-balance force, relative to the largest load, below which a place is an equilibrium."""
 
-
-@dataclass(frozen=True)
-class Linearised:
-    """M ẍ + C ẋ + K x = 0 for departures x of the coordinates from ``place``; ``left`` is what is out of balance there."""
-
-    coordinates: tuple[str, ...]
-    place: Mapping[str, Tree]
-    mass: Matrix
-    damping: Matrix
-    stiffness: Matrix
-    left: list[Tree]
-
-    def first_order(self) -> Matrix:
-        """A of ż = A z with z = (x, ẋ). Raises ``TooLarge``, ``Singular``."""
-        n = len(self.coordinates)
-        columns = [[row[j] for row in matrix] for matrix in (self.stiffness, self.damping) for j in range(n)]
-        solved = [[negative(entry) for entry in solve(self.mass, column)] for column in columns]
-        upper = [[ONE if j == n + i else ZERO for j in range(2 * n)] for i in range(n)]
-        return upper + [[column[i] for column in solved] for i in range(n)]
-
-
-def linearised(subject: Subject, set_to: Mapping[str, Tree] | None = None) -> Linearised:
-    """The linear equations at the state of a subject, or where ``set_to`` says. Raises ``NotHere`` where coordinates depend on
-    each other."""
-    if subject.rows:
-        names = list(dict.fromkeys(row.name for row in subject.rows))
-        raise NotHere(f"the coordinates depend on each other ({joined(names)}); linear equations are for open trees at rest")
-    names = moving_names(subject)
-    told = subject.ask([{"ask": "linear", "at": {}}])[0]
-    place = {c["name"]: _plain(c["dimension"], x) for c, x in zip(subject.coordinates, subject.state.q, strict=True)}
-    place |= dict(set_to or {})
-
-    def there(data: Any) -> Tree:
-        return _put(read(data), place)
-
-    rows = [
-        [*map(there, (*m, *c, *k, left))] for m, c, k, left in zip(*(told[word] for word in ("M", "C", "K", "left")), strict=True)
-    ]
-    rows = [row if _is_upright(subject, row[i]) else [negative(entry) for entry in row] for i, row in enumerate(rows)]
-    n = len(names)
-    matrices = ([row[start : start + n] for row in rows] for start in (0, n, 2 * n))
-    return Linearised(tuple(names), place, *matrices, [row[-1] for row in rows])
-
-
-def _is_upright(subject: Subject, inertia: Tree) -> bool:
-    """Whether the inertia of an equation's own coordinate is positive, as a person writes it."""
-    return float(evaluate(inertia, subject.values, subject.tables)) >= 0
+_STANDS = 1e-9
+"""Rate, rad/s or m/s, below which what is prescribed stands still."""
 
 
 def linear(mechanism: Builder, state: State, **at: Any) -> Document:
-    """Linear equations about an equilibrium: that of the state, or coordinates and parameters as given (``theta="180 deg"``).
+    """Linear equations about an equilibrium: that of the state, or near it, coordinates and parameters being as given
+    (``theta="180 deg"``); where that is none, the one that Newton's method finds from there.
 
     With them the characteristic polynomial, the eigenvalues, the frequencies, and when it is stable, as far as they are short.
-    Raises ``NotHere`` where the place is no equilibrium."""
-    subject = subject_of(mechanism, state, at_rest=True)
-    set_to = given(mechanism, at).trees
-    found = linearised(subject, set_to)
-    _require_rest(subject, found)
-    made: list[Block] = [Heading("Equilibrium"), Paragraph(_place(found))]
-    made += [
-        Heading("Linear equations"),
-        Paragraph("For small departures of the coordinates from there, M ẍ + C ẋ + K x = 0, with"),
+    Where loops, motions or contacts hold, of the departures that they leave free. Raises ``NotHere`` where no equilibrium is found."""
+    chosen = given(mechanism, at)
+    first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
+    rest = _rest(mechanism, first)
+    if rest is not first:
+        chosen = Given({name: tree for name, tree in chosen.trees.items() if name not in place_of(subject_of(mechanism, first))})
+    subject = subject_of(mechanism, rest, at_rest=True)
+    _require_stillness(subject)
+    _require_regular(subject)
+    made, found = _departures(subject, chosen)
+    where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
+    title = "linear equations about an equilibrium"
+    more = [Letter("s", "parameter", "1/s", "eigenvalue"), *_letters_of(subject).values()]
+    return document(subject, title, where + made + _character(subject, found), more)
+
+
+def _rest(mechanism: Builder, state: State) -> State:
+    """The state, or the place of rest that is found near it."""
+    source = mechanism.source()
+    unrest = Instant(source.core, state, about=source.about).unrest()
+    found = rest_near(source, state) if unrest else state
+    if found is None:
+        told = "; ".join(f"{name} {how}" for name, how in unrest.items())
+        raise NotHere(
+            f"this is no equilibrium: released there, {told}; and none was found near by. "
+            "Give coordinates near one, theta=0, or a parameter that holds it"
+        )
+    return found
+
+
+def _require_stillness(subject: Subject) -> None:
+    """Raises ``NotHere`` for motions that are going on."""
+    for row in subject.rows:
+        if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
+            raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; set it to stand still")
+
+
+def _require_regular(subject: Subject) -> None:
+    """Raises ``NotHere`` where loops hold less than beside it."""
+    names = [c["name"] for c in subject.coordinates]
+    ranks = [
+        len(independent(np.array([[row.coefficients[name] for name in names] for row in free.rows])))
+        for free in nearby(subject.source, subject.state)
+        if free.rows
     ]
-    shown = (("M", found.mass), ("C", found.damping), ("K", found.stiffness))
-    made += [_matrix(letter, matrix, found, dots) for (letter, matrix), dots in zip(shown, (2, 1, 0), strict=True)]
-    return document(
-        subject,
-        "linear equations about an equilibrium",
-        made + _character(subject, found),
-        [Letter("s", "parameter", "1/s", "eigenvalue")],
+    if ranks and ranks[0] < max(ranks):
+        raise NotHere(
+            "in this place loops lose their independence: more can move for an instant than elsewhere, and what moves there is not "
+            "told by linear equations; give a place beside it"
+        )
+
+
+def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
+    """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
+    place = place_of(subject)
+    put = {name: tree for name, tree in place.items() if _is_natural(tree)} | dict(chosen.trees)
+    whole = linearised(subject, put)
+    made = _equations(subject, whole)
+    if not subject.rows:
+        return made, whole
+    numbers: list[str] = []
+    try:
+        left = held(subject, whole, put)
+    except TooLarge:
+        numbers = [name for name in subject.letters.geometric() if name not in chosen.trees]
+        subject, put = subject.with_numbers([n for n in numbers if n not in place]), place | dict(chosen.trees)
+        left = held(subject, linearised(subject, put), put)
+    return made + _left_free(subject, left, numbers), left.equations
+
+
+def _letters_of(subject: Subject) -> dict[str, Letter]:
+    """The letters of departures by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
+    coordinates = subject.coordinates
+    if not subject.rows and all(map(_is_natural, place_of(subject).values())):
+        return {c["name"]: subject.letters[c["name"]] for c in coordinates}
+    stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
+    return {
+        c["name"]: Letter(
+            f"{stem}{i}" if len(coordinates) > 1 else stem, "coordinate", c["dimension"] or "", f"departure of {c['name']}"
+        )
+        for i, c in enumerate(coordinates, 1)
+    }
+
+
+def _equations(subject: Subject, found: Linearised) -> list[Block]:
+    letters = _letters_of(subject)
+    pairs = [(name, letter.name) for name, letter in letters.items() if name != letter.name]
+    said: list[str | Tree] = ["For small departures"]
+    for i, (name, letter) in enumerate(pairs):
+        said += ["," * bool(i) + " ", Sym(letter), " of ", Sym(name)]
+    said.append(f"{'' if pairs else ' of the coordinates'} from there, M ẍ + C ẋ + K x = ")
+    said.append(
+        "what the loads that hold it change by, these loads being in K as they are at rest:" if subject.rows else "0, with"
     )
+    return [Heading("Linear equations"), Paragraph(said), *_matrices(found, letters)]
 
 
-def _plain(dimension: str | None, value: float) -> Tree:
-    return exact_angle(float(value)) if dimension == "rad" else exact(float(value))
+def _matrices(found: Linearised, letters: Mapping[str, Letter]) -> list[Block]:
+    shown = (("M", found.mass, 2), ("C", found.damping, 1), ("K", found.stiffness, 0))
+    unknowns = [letters[name].name for name in found.coordinates]
+    return [_matrix(letter, matrix, unknowns, dots) for letter, matrix, dots in shown]
 
 
-def _put(tree: Tree, place: Mapping[str, Tree]) -> Tree:
-    import sympy
+def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Block]:
+    """How the other coordinates follow, and the equations of those that are free."""
+    letters = _letters_of(subject)
+    free = [Sym(letters[name].name) for name in left.equations.coordinates]
+    names = joined(list(dict.fromkeys(row.name for row in subject.rows)))
+    made: list[Block] = [Heading("What is left free")]
+    if numbers:
+        made.append(Paragraph(["In letters this fills pages; here ", *_listed(map(Sym, numbers)), " are numbers, in SI."]))
+    if left.follow:
+        made.append(Paragraph(f"To first order {names} make these follow:"))
+    made += [
+        Equation(Sym(letters[name].name), shown(add(*(mul(entry, x) for entry, x in zip(ways, free, strict=True)))))
+        for name, ways in left.follow.items()
+    ]
+    if not free:
+        return [*made, Paragraph("Nothing is left free to move.")]
+    if left.reactions:
+        undecided = len(left.reactions) > len(left.follow)
+        made.append(Paragraph(f"The loads at rest{', of which some are not determined and taken to be 0' * undecided}:"))
+    made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
+    made.append(
+        Paragraph(["What they change by does no work there. What is left is M ẍ + C ẋ + K x = 0 of ", *_listed(free), ", with"])
+    )
+    return made + _matrices(left.equations, letters)
 
-    from freebody.equations.to_sympy import from_sympy, to_sympy
 
-    values = {sympy.Symbol(name): to_sympy(value) for name, value in place.items()}
-    return from_sympy(sympy.factor_terms(sympy.expand(to_sympy(tree).subs(values, simultaneous=True))))
-
-
-def _require_rest(subject: Subject, found: Linearised) -> None:
-    values = dict(subject.values)
-    largest = max((abs(float(evaluate(entry, values, subject.tables))) for row in found.stiffness for entry in row), default=0.0)
-    for name, tree in zip(found.coordinates, found.left, strict=True):
-        out = float(evaluate(tree, values, subject.tables))
-        if abs(out) > REST * max(largest, 1.0):
-            raise NotHere(
-                f"this is no equilibrium: {text(tree, subject.letters)} ({out:.4g}) is out of balance for {name}; "
-                "give the coordinates of one, theta=0"
-            )
+def _listed(trees: Iterable[Tree]) -> list[str | Tree]:
+    words: list[str | Tree] = []
+    for tree in trees:
+        words += [", ", tree] if words else [tree]
+    return words
 
 
-def _place(found: Linearised) -> Words:
-    said: list[str | Tree] = ["At rest with "]
-    for i, name in enumerate(found.coordinates):
-        said += [", " * bool(i), Sym(name), " = ", found.place[name]]
+def _is_natural(place: Tree) -> bool:
+    """Whether a place is one whatever the lengths are: 0, or a part of a turn."""
+    return is_zero(place) or Sym(PI) in symbols(place)
+
+
+def _place(subject: Subject, chosen: Given, near: bool) -> Words:
+    said: list[str | Tree] = ["The nearest found: at rest with " if near else "At rest with "]
+    for i, (name, tree) in enumerate(place_of(subject).items()):
+        said += [", " * bool(i), Sym(name), " = ", shown(chosen.trees.get(name, tree))]
     return [*said, " everything stays at rest."]
 
 
-def _matrix(letter: str, matrix: Matrix, found: Linearised, dots: int) -> Block:
+def _matrix(letter: str, matrix: Matrix, names: Sequence[str], dots: int) -> Block:
     if all(is_zero(entry) for row in matrix for entry in row):
         return Paragraph(f"{letter} = 0.")
     if len(matrix) == 1:
-        return Equation(Sym(letter), matrix[0][0])
-    unknowns = [Sym(name, dots) for name in found.coordinates]
+        return Equation(Sym(letter), shown(matrix[0][0]))
+    unknowns = [Sym(name, dots) for name in names]
+    matrix = [list(map(shown, row)) for row in matrix]
     product = [add(*(mul(entry, x) for entry, x in zip(row, unknowns, strict=True) if not is_zero(entry))) for row in matrix]
     return MatrixEquation(matrix, unknowns, product, ["The product with ", letter])
 
@@ -149,7 +203,7 @@ def _character(subject: Subject, found: Linearised) -> list[Block]:
     try:
         matrix = found.first_order()
         polynomial = characteristic(matrix, subject.letters)
-        made += [Heading("Eigenvalues"), Equation(_powers(polynomial), ZERO, "The characteristic equation")]
+        made += [Heading("Eigenvalues"), Equation(shown(_powers(polynomial)), ZERO, "The characteristic equation")]
         made += _eigenvalues(matrix, subject, names)
         made += _when(_reduced(polynomial), subject, names)
     except (TooLarge, Singular) as error:
@@ -176,8 +230,8 @@ def _eigenvalues(matrix: Matrix, subject: Subject, names: Sequence[str]) -> list
 
 
 def _told(value: Eigenvalue) -> Words:
-    real = [] if is_zero(value.real) and not is_zero(value.imaginary) else [value.real]
-    imaginary = [] if is_zero(value.imaginary) else [*([" + "] if real else []), value.imaginary, " i"]
+    real = [] if is_zero(value.real) and not is_zero(value.imaginary) else [shown(value.real)]
+    imaginary = [] if is_zero(value.imaginary) else [*([" + "] if real else []), shown(value.imaginary), " i"]
     return [*real, *imaginary, f", {value.count} times" * (value.count > 1)]
 
 
@@ -194,7 +248,9 @@ def _when(polynomial: list[Tree], subject: Subject, names: Sequence[str]) -> lis
         return [Paragraph("All eigenvalues are 0: nothing brings it back.")]
     found = stability(polynomial, subject.letters, positive=names)
     made: list[Block] = [Heading("Stability"), Paragraph(_verdict(found))]
-    return made + [Bullets([[condition, " > 0"] for condition in found.conditions])] * bool(found.conditions and not found.never)
+    return made + [Bullets([[shown(condition), " > 0"] for condition in found.conditions])] * bool(
+        found.conditions and not found.never
+    )
 
 
 def _verdict(found: Stability) -> str:
@@ -205,7 +261,7 @@ def _verdict(found: Stability) -> str:
 
 
 def _numbers(subject: Subject, found: Linearised) -> list[Block]:
-    m, c, k = numbers(subject, found)
+    m, c, k = (numbers(subject, matrix) for matrix in (found.mass, found.damping, found.stiffness))
     n = len(m)
     try:
         roots = np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]))
@@ -214,10 +270,3 @@ def _numbers(subject: Subject, found: Linearised) -> list[Block]:
     told = sorted({(round(float(r.real), 6), round(abs(float(r.imag)), 6)) for r in roots})
     said = [f"{a:.5g} 1/s" if not b else f"{a + 0.0:.5g} ± {b:.5g} i 1/s (period {2 * np.pi / b:.5g} s)" for a, b in told]
     return [Heading("In numbers"), Paragraph("With the parameters of the model the eigenvalues are"), Bullets(said)]
-
-
-def numbers(subject: Subject, found: Linearised) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """M, C and K with the numbers of the model, SI."""
-    values, tables = subject.values, subject.tables
-    matrices = (found.mass, found.damping, found.stiffness)
-    return tuple(np.array([[float(evaluate(e, values, tables)) for e in row] for row in matrix]) for matrix in matrices)

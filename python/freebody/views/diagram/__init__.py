@@ -72,13 +72,13 @@ def diagram(
 ) -> Diagram:
     """Free-body diagrams of groups of bodies (by default every body by itself) at a state."""
     near = free if scaled else _further(source, state, free)
-    desk = _Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective)
+    desk = Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
     return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
 
 
 @dataclass(frozen=True)
-class _Desk:
+class Desk:
     """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
 
     source: Source
@@ -103,7 +103,7 @@ class _Desk:
             bare = drawn.bare()
             panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))
         title = "all bodies" if len(group) == len(self.free.bodies) > _NAMED else " + ".join(group)
-        return Cut(group, Row(title, panels, per_newton, notes, vanishes=self.effective and not terms))
+        return Cut(group, Row(title, panels, per_newton, notes, self.effective and not terms, self.labels.unit))
 
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
         """What acts, m a and I α, and remarks."""

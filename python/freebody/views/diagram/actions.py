@@ -119,10 +119,10 @@ def to_scale(
         return [action for action in actions if action.size > least[action.turns]]
 
     shown = {load.symbol for action in seen(forces) for load in action.loads}
-    unknown = [load.symbol for load in loads if not load.determinate]
-    none = [load.symbol for load in loads if load.determinate and load.symbol not in shown]
+    unknown = [labels.plain(load) for load in loads if not load.determinate]
+    none = [labels.plain(load) for load in loads if load.determinate and load.symbol not in shown]
     notes = [f"not determined: {', '.join(unknown)}"] * bool(unknown) + [f"{', '.join(none)} = 0"] * bool(none)
-    return [_with_value(a) for a in seen(forces)], [_with_value(a) for a in seen(terms)], notes
+    return [_with_value(a, labels) for a in seen(forces)], [_with_value(a, labels) for a in seen(terms)], notes
 
 
 def _acting(loads: Collection[Load], group: Collection[str], labels: Labels, sketch: Sketch) -> Iterable[Action]:
@@ -146,8 +146,8 @@ def _together(first: Action, second: Action) -> Action:
     return replace(first, force=first.force + second.force, couple=first.couple + second.couple, loads=first.loads + second.loads)
 
 
-def _with_value(action: Action) -> Action:
-    unit = r"N\,m" if action.turns else "N"
+def _with_value(action: Action, labels: Labels) -> Action:
+    unit = (labels.turning_unit if action.turns else labels.unit).replace("·", r"\,")
     return replace(action, label=rf"{action.label} = {_figure(action.size)}\ \mathrm{{{unit}}}")
 
 
@@ -163,7 +163,7 @@ def effective(free: FreeBodies, near: FreeBodies, group: Collection[str], labels
                 yield replace(term, force=term.force / np.hypot(*term.force))
             else:
                 for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-                    yield replace(term, label=rf"{labels.mass(name)}\,a_{part}", force=np.array(way))
+                    yield replace(term, label=rf"{labels.mass(name)}\,{labels.component(part)}", force=np.array(way))
 
 
 def _terms(body: Body, labels: Labels, alone: bool) -> Iterator[Action]:

@@ -54,8 +54,8 @@ class Configuration(Picture):
 def _opened(source: Source, state: State) -> State:
     """A state where one sees what is measured: coordinates that are 0 a little off it, all by different amounts. The same state
     where coordinates depend on each other or something may touch."""
-    spec = json.loads(source.spec)
-    if any(joint["cut"] for joint in source.about["joints"]) or source.about["limits"] or spec.get("couplings"):
+    coupled = any(joint["type"] == "coupling" for joint in json.loads(source.spec)["joints"])
+    if coupled or source.about["limits"] or any(joint["cut"] for joint in source.about["joints"]):
         return state
     size = sketch_of_state(source, state).size
     least = {"rad": _TURNED, "m": size}

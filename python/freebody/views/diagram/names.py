@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from freebody.equations.latex import latex
 from freebody.equations.names import Name
@@ -20,6 +21,8 @@ class Labels:
     """What the arrows of a model are called, by the letters of its equations."""
 
     naming: Naming
+    unit: ClassVar[str] = "N"
+    turning_unit: ClassVar[str] = "N·m"
 
     def of(self, load: Load) -> str:
         """Of a load; on both sides of a cut it is the same. Friction that slides is μ times its normal force."""
@@ -31,6 +34,10 @@ class Labels:
             if ratio:
                 return f"{ratio.latex()}\\,{self.of(normal)}"
         return self.naming.loads[load.symbol].latex()
+
+    def plain(self, load: Load) -> str:
+        """Of a load, in a remark."""
+        return load.symbol
 
     def whole(self, load: Load) -> str:
         """Of a force of which a load is one component."""
@@ -53,6 +60,10 @@ class Labels:
     def acceleration(self, body: str, alone: bool) -> str:
         """Of the acceleration of a body's mass centre, by itself or among several."""
         return replace(self._of_body("a", body, alone), stem="@").latex().replace("@", r"\mathbf{a}")
+
+    def component(self, part: str) -> str:
+        """Of a component, x or y, of the acceleration of a body's mass centre."""
+        return f"a_{part}"
 
     def angular(self, body: str, alone: bool) -> str:
         """Of the angular acceleration of a body, by itself or among several."""

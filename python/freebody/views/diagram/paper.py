@@ -31,13 +31,14 @@ _LETTERS = 90  # of a remark in a line
 @dataclass(frozen=True)
 class Row:
     """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks; ``vanishes``: the panel
-    stands for nothing, a body without mass."""
+    stands for nothing, a body without mass. ``unit``: of what is drawn."""
 
     title: str
     panels: Sequence[Panel]
     per_newton: float | None
     notes: Sequence[str]
     vanishes: bool = False
+    unit: str = "N"
 
     @property
     def lines(self) -> list[str]:
@@ -121,7 +122,7 @@ def _row(ax: Axes, row: Row, laid: _Set, corner: Array) -> None:
         _panel(ax, panel, corner + shift)
     foot = corner - (0.0, laid.size[1] - _foot(row) + 4.0)
     if row.per_newton is not None:
-        _scale(ax, row.per_newton, foot - (0.0, 8.0))
+        _scale(ax, row.per_newton, row.unit, foot - (0.0, 8.0))
         foot = foot - (0.0, _LINE)
     for note in row.lines:
         ax.text(*foot, note, ha="left", va="top", fontsize=_NOTE, color=GREY)
@@ -177,14 +178,14 @@ def _axes(ax: Axes, corner: Array) -> None:
         _write(ax, text, corner + (AXES + 7.0) * way, 9.0, GREY)
 
 
-def _scale(ax: Axes, per_newton: float, corner: Array) -> None:
-    """A bar of a round number of newtons."""
+def _scale(ax: Axes, per_newton: float, unit: str, corner: Array) -> None:
+    """A bar of a round number of newtons, or of another unit."""
     newtons = round_below(60.0 / per_newton)
     end = corner + (newtons * per_newton, 0.0)
     ax.plot(*np.array([corner, end]).T, color=INK, lw=1.4)
     for x, y in (corner, end):
         ax.plot([x, x], [y - 3, y + 3], color=INK, lw=1.0)
-    ax.text(end[0] + 6, end[1], f"{newtons:.4g} N", ha="left", va="center", fontsize=9.0, color=INK)
+    ax.text(end[0] + 6, end[1], f"{newtons:.4g} {unit}", ha="left", va="center", fontsize=9.0, color=INK)
 
 
 def round_below(value: float) -> float:

@@ -257,6 +257,8 @@ def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bo
             arrow = arrow + aside
         elif not measure.angle and length > far:
             arrow, guides = _end(arrow, _STUB), []
+        elif not measure.angle:
+            guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
         found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle))
     return found
 

@@ -103,9 +103,7 @@ def _switched(run: Run, first: int = 60, last: int = 3) -> str:
             c.kind,
             ", ".join(c.of),
             _figure(c.lost) if c.before else "",
-            "; ".join(
-                f"{name} {_figure(float(np.hypot(*p)))}" for name, p in (c.impulses.contacts if c.impulses else {}).items()
-            ),
+            "; ".join(f"{name} {_figure(size)}" for name, size in (c.impulses.sizes if c.impulses else {}).items()),
             c.note,
         )
         for c in shown

@@ -60,11 +60,20 @@ impl Writer<'_> {
         if let Some(known) = self.arena.known.factored.get(poly) {
             return known.clone();
         }
-        let (content, number, rest) = Self::pulled(poly);
-        let outer = self.single(&content, number);
-        let product = match rest.len() {
-            1 => outer,
-            _ => outer.times(self.best(&rest)),
+        let content = common_factors(poly);
+        let bare = divided(poly, &content, Coefficient::ONE);
+        let product = match self.square(&bare) {
+            Some(square) => self.single(&content, Coefficient::ONE).times(square),
+            None => {
+                let number = best_number(&bare);
+                let outer = self.single(&content, number);
+                let rest = divided(&bare, &[], number);
+                if rest.len() == 1 {
+                    outer
+                } else {
+                    outer.times(self.best(&rest))
+                }
+            }
         };
         let product = Rc::new(product);
         self.arena.known.factored.insert(poly.clone(), product.clone());
@@ -109,19 +118,8 @@ impl Writer<'_> {
         cost
     }
 
-    /// What all terms share: factors, the number that is best pulled out, and what is left.
-    fn pulled(poly: &Poly) -> (Vec<Factor>, Coefficient, Poly) {
-        let common = common_factors(poly);
-        let number = best_number(poly);
-        let rest = divided(poly, &common, number);
-        (common, number, rest)
-    }
-
     /// The cheapest of the ways to write a sum of several terms without common factor.
     fn best(&mut self, poly: &Poly) -> Product {
-        if let Some(square) = self.square(poly) {
-            return square;
-        }
         let terms = poly.iter().map(|(factors, c)| self.single(factors, *c)).collect();
         let mut best = Product::of_sum(terms);
         let ways = self.groupings(poly).into_iter().filter_map(|keys| collected(poly, &keys)).enumerate();
@@ -180,48 +178,53 @@ impl Writer<'_> {
         Product::of_sum(terms)
     }
 
-    /// a² + 2ab + b² = (a + b)², with any number of letters.
+    /// n (a² + 2ab + b²) = n (a + b)², with any number of letters; n is such that the first square of what moves is bare.
     fn square(&mut self, poly: &Poly) -> Option<Product> {
-        let root_of = |c: Coefficient| {
-            let (n, d) = c.exact()?.parts();
-            let root = |x: i64| Some((x as f64).sqrt().round() as i64).filter(|r| r.checked_mul(*r) == Some(x));
-            Ratio::new(root(n)?.into(), root(d)?.into())
-        };
-        let mut root: Poly = Vec::new();
-        for (factors, c) in poly {
-            if factors.iter().all(|f| f.1.is_even()) {
-                let halves = factors.iter().map(|f| Some((f.0, f.1.times(Ratio::HALF)?))).collect::<Option<_>>()?;
-                root.push((halves, Coefficient::Exact(root_of(*c)?)));
-            }
-        }
-        if root.len() < 2 || root.len() * (root.len() + 1) / 2 != poly.len() {
-            return None;
-        }
-        let cross = |a: &[Factor], b: &[Factor]| {
-            let product = joined(a, b)?;
-            poly.iter().find(|term| term.0 == product).map(|term| term.1)
-        };
-        for i in 1..root.len() {
-            if cross(&root[0].0, &root[i].0)?.is_negative() {
-                root[i].1 = root[i].1.negated();
-            }
-        }
-        let two = Coefficient::whole(2);
-        for i in 0..root.len() {
-            for j in i + 1..root.len() {
-                if cross(&root[i].0, &root[j].0)? != root[i].1.times(root[j].1).times(two) {
-                    return None;
-                }
-            }
-        }
+        let even = |term: &&(Vec<Factor>, Coefficient)| term.0.iter().all(|f| f.1.is_even());
+        let moves = |term: &&(Vec<Factor>, Coefficient)| term.0.iter().map(|f| self.kind(f.0)).max();
+        let number = poly.iter().filter(even).rev().max_by_key(moves)?.1;
+        let root = square_root(&divided(poly, &[], number))?;
         let inner = (*self.factor(&root)).clone();
-        let cost = inner.cost + 1;
-        Some(Product {
-            number: Coefficient::ONE,
-            factors: vec![(Form::Sum(inner.into_terms().into()), Ratio::whole(2))],
-            cost,
-        })
+        let cost = inner.cost + 1 + number_cost(number);
+        Some(Product { number, factors: vec![(Form::Sum(inner.into_terms().into()), Ratio::whole(2))], cost })
     }
+}
+
+/// r of r² = a sum.
+fn square_root(poly: &Poly) -> Option<Poly> {
+    let root_of = |c: Coefficient| {
+        let (n, d) = c.exact()?.parts();
+        let root = |x: i64| Some((x as f64).sqrt().round() as i64).filter(|r| r.checked_mul(*r) == Some(x));
+        Ratio::new(root(n)?.into(), root(d)?.into())
+    };
+    let mut root: Poly = Vec::new();
+    for (factors, c) in poly {
+        if factors.iter().all(|f| f.1.is_even()) {
+            let halves = factors.iter().map(|f| Some((f.0, f.1.times(Ratio::HALF)?))).collect::<Option<_>>()?;
+            root.push((halves, Coefficient::Exact(root_of(*c)?)));
+        }
+    }
+    if root.len() < 2 || root.len() * (root.len() + 1) / 2 != poly.len() {
+        return None;
+    }
+    let cross = |a: &[Factor], b: &[Factor]| {
+        let product = joined(a, b)?;
+        poly.iter().find(|term| term.0 == product).map(|term| term.1)
+    };
+    for i in 1..root.len() {
+        if cross(&root[0].0, &root[i].0)?.is_negative() {
+            root[i].1 = root[i].1.negated();
+        }
+    }
+    let two = Coefficient::whole(2);
+    for i in 0..root.len() {
+        for j in i + 1..root.len() {
+            if cross(&root[i].0, &root[j].0)? != root[i].1.times(root[j].1).times(two) {
+                return None;
+            }
+        }
+    }
+    Some(root)
 }
 
 /// The sum collected by some of its atoms; `None` when nothing meets.
@@ -302,6 +305,14 @@ fn best_number(poly: &Poly) -> Coefficient {
     let cost = |by: &Coefficient| {
         number_cost(*by) + poly.iter().map(|term| number_cost(term.1.abs().over(*by))).sum::<usize>()
     };
+    // A half pulled out of what then holds a 2 was better left in.
+    let comes_back = |by: &Coefficient| {
+        let below = by.exact().map_or(1, |ratio| ratio.parts().1);
+        let meets =
+            |left: Ratio| Ratio::new(left.parts().0.into(), below.into()).is_some_and(|ratio| ratio.parts().1 < below);
+        poly.iter().any(|term| term.1.abs().over(*by).exact().is_some_and(meets))
+    };
+    candidates.retain(|by| !comes_back(by));
     let best = candidates.into_iter().min_by_key(cost).unwrap_or(Coefficient::ONE);
     best.times(Coefficient::whole(sign))
 }

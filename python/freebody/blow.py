@@ -1,0 +1,163 @@
+"""Blows of a run: what acts during one, its impulses, and what jumps."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.free_body import Body, FreeBodies, Load
+from freebody.instant import State
+from freebody.results import Array
+from freebody.switched import Change
+
+if TYPE_CHECKING:
+    from freebody.run import Run
+    from freebody.source import Source
+
+_ROUND_OFF = 1e-13
+"""Of the largest impulse, below which one is what is left of 0."""
+
+
+class NoBlow(ValueError):
+    """A blow that a run does not have; the sentence says why."""
+
+
+@dataclass(frozen=True)
+class Blow:
+    """A blow of a ``run``: the change that tells of it, and its ``place`` among all changes."""
+
+    run: Run
+    change: Change
+    place: int
+
+    @cached_property
+    def state(self) -> State:
+        """The state just before."""
+        before = self.change.before
+        assert before is not None
+        p = self.run.end.p
+        return State(p, self.change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
+
+    @cached_property
+    def source(self) -> Source:
+        """The mechanism, to be drawn in the state of the blow."""
+        return replace(self.run.source, core=_Places(self.run))
+
+    @cached_property
+    def free(self) -> FreeBodies:
+        """All loads during the blow: those of what was struck for a unit of each."""
+        return FreeBodies.read(self.run.motion.free_bodies_of_blow(self.place))
+
+    @property
+    def acting(self) -> list[Load]:
+        """Loads that may grow beyond all bounds and so have impulses: reactions, contacts, strings, stops, their friction."""
+        return [load for load in self.free.loads if _grows(load)]
+
+    @property
+    def finite(self) -> list[Load]:
+        """Loads of the model that stay finite: weights, springs, dampers, motors."""
+        return [load for load in self.free.loads if not _grows(load)]
+
+    def absent(self, *group: str) -> list[str]:
+        """In sentences, what has no impulse on a group of bodies (all by default), and why."""
+        chosen = set(group or self.free.bodies)
+        told = [f"{', '.join(words)}: finite, so no impulse in a time that goes to 0"] if (words := self._weak(chosen)) else []
+        sides = {each["name"]: {each["first"], each["second"]} for each in self.run.about["joints"] + self.run.about["limits"]}
+        impulses, joints = self.change.impulses, json.loads(self.run.source.spec)["joints"]
+        here = [name for name in (impulses.spared if impulses else ()) if sides[name] & chosen]
+        rubs = [joint["name"] for joint in joints if joint.get("friction") and sides[joint["name"]] & chosen]
+        told += [f"{name}, which lets go: its impulse would have to be negative" for name in here]
+        return told + [f"friction of {name}: left out, joints pass impulses on without it" for name in rubs]
+
+    def _weak(self, group: Collection[str]) -> list[str]:
+        """The names of the finite loads on a group from outside."""
+        here = (x for x in self.finite if not x.inside(group) and any(part.body in group for part in x.on))
+        return list(dict.fromkeys(f"weight of {load.of[-1]}" if load.kind == "weight" else load.name for load in here))
+
+    @cached_property
+    def impulses(self) -> FreeBodies:
+        """The impulse diagrams as data: loads are impulses, N·s and N·m·s; in place of accelerations stand the jumps of the
+        velocities, so that for each body, and each group, impulses add up to m Δv at G and I Δω."""
+        bodies = {name: _jumped(body, self._jump(body)) for name, body in self.free.bodies.items()}
+        loads, sizes = self.free.loads, self._sizes(bodies)
+        told = [replace(load, value=sizes[i]) for i, load in enumerate(loads) if _grows(load)]
+        place = {i: k for k, i in enumerate(i for i, load in enumerate(loads) if _grows(load))}
+        linked = (replace(x, follows=(place[x.follows[0]], x.follows[1])) if x.follows else x for x in told)
+        return FreeBodies(bodies, tuple(linked))
+
+    def _jump(self, body: Body) -> Array:
+        """Δv of the mass centre and Δω (3,): velocities are as linear in the rates as accelerations in theirs."""
+        before, after = self.change.before, self.change.after
+        assert before is not None and after is not None
+        parts = (np.array(by) * (after.u[name] - before.u[name]) for name, by in body.by_accelerations.items())
+        return sum(parts, np.zeros(3))
+
+    def _sizes(self, bodies: dict[str, Body]) -> Array:
+        """The impulse of every load, from the momentum of every body; NaN of one that this does not determine."""
+        loads = self.free.loads
+        unknown = [i for i, load in enumerate(loads) if _grows(load) and not load.follows]
+        gives = np.zeros((3 * len(bodies), len(loads)))
+        for k, body in enumerate(bodies.values()):
+            for i, load in enumerate(loads):
+                gives[3 * k : 3 * k + 3, i] = load.unit([body.name], body.G)
+        for i, load in enumerate(loads):
+            if load.follows:
+                gives[:, load.follows[0]] += load.follows[1] * gives[:, i]
+        jumps = np.concatenate([body.effective(body.G) for body in bodies.values()] or [np.zeros(0)])
+        sizes = np.zeros(len(loads))
+        sizes[unknown] = np.linalg.lstsq(gives[:, unknown], jumps, rcond=None)[0]
+        for i, load in enumerate(loads):
+            if load.follows:
+                sizes[i] = load.follows[1] * sizes[load.follows[0]]
+        sizes[np.abs(sizes) < _ROUND_OFF * np.abs(sizes).max(initial=0.0)] = 0.0
+        return np.where([load.determinate for load in loads], sizes, np.nan)
+
+
+@dataclass(frozen=True)
+class _Places:
+    """What drawings read of the core, from the motion at the time: by itself a state that strikes may have no answer."""
+
+    run: Run
+
+    def describe(self) -> str:
+        """As ``_core.Mechanism.describe``."""
+        return self.run.source.core.describe()
+
+    def points(self, p: Array) -> str:
+        """As ``_core.Mechanism.points``."""
+        return self.run.source.core.points(p)
+
+    def evaluate(self, texts: list[str], p: Array, t: float, q: Array, u: Array) -> Array:
+        """As ``_core.Mechanism.evaluate``."""
+        return self.run.motion.evaluate(texts, np.array([t]))[0]
+
+
+def blows(run: Run) -> Iterator[Blow]:
+    """All blows of a run, in order of time."""
+    yield from (Blow(run, change, place) for place, change in enumerate(run.changes) if change.impulses)
+
+
+def find(run: Run, number: int = 1, *, of: str | None = None, after: float | None = None) -> Blow:
+    """The blow of a ``number``, from 1: of all, of those of one contact, string or stop, or of those not before a time in s.
+    Raises ``NoBlow``."""
+    if run.recorded:
+        raise NoBlow("a run from a file does not know what acted during its blows; run it again")
+    asked = [blow for blow in blows(run) if of in (None, *blow.change.of) and (after is None or blow.change.t >= after)]
+    if not 1 <= number <= len(asked):
+        which = (f" of {of}" if of else "") + (f" from {after:g} s on" if after is not None else "")
+        raise NoBlow(f"the run has {len(asked)} blows{which}, none of number {number}; let it run longer, or start it otherwise")
+    return asked[number - 1]
+
+
+def _grows(load: Load) -> bool:
+    return load.unknown or load.follows is not None
+
+
+def _jumped(body: Body, jump: Array) -> Body:
+    x, y, turn = (float(part) for part in jump)
+    return replace(body, a=(x, y), alpha=turn)

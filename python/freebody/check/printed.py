@@ -1,0 +1,102 @@
+"""The letters of printed equations that are not the model's own: ``N_track``, ``m_rod``, ``x_rod``, ``λ_rod``, ``E_k``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from freebody import _core
+from freebody.equations.names import unicode_name
+from freebody.equations.tree import Add, Mul, Num, Sym, Tree
+from freebody.model.errors import Complaint
+from freebody.model.names import spell
+
+if TYPE_CHECKING:
+    from freebody.equations.derivation.told import Subject
+    from freebody.model.builder import Builder
+
+
+_ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
+"""The force at one place of a contact that holds at several, which the model language does not read."""
+
+
+def printed(mechanism: Builder) -> Mapping[str, str]:
+    """What each means, as a declaration. Nothing where the model does not start."""
+    from freebody.equations.derivation.told import Subject
+
+    try:
+        subject = Subject(mechanism.source(), mechanism.start()[0])
+        found = [*_loads(subject), *_numbers(subject), *_bodies(subject), *_whole(subject), *_directions(subject)]
+    except (_core.MotionError, Complaint):
+        return {}
+    return dict(found)
+
+
+def _loads(subject: Subject) -> Iterator[tuple[str, str]]:
+    from freebody.naming import load_names
+
+    names = load_names(subject.free.loads, subject.source)
+    for load in subject.free.loads:
+        if load.symbol in names and not _ONE_OF_SEVERAL.search(load.symbol):
+            yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else load.symbol
+
+
+def _numbers(subject: Subject) -> Iterator[tuple[str, str]]:
+    """Masses and inertias that are numbers in the model."""
+    for name, entry in subject.table.items():
+        if entry["kind"] == "number":
+            yield unicode_name(name), f"{entry['value']!r} {entry['unit']}"
+
+
+def _bodies(subject: Subject) -> Iterator[tuple[str, str]]:
+    """Places, velocities and accelerations of mass centres, and angles."""
+    for body in subject.source.about["bodies"]:
+        said, name = spell(body["name"]), body["name"]
+        yield from ((unicode_name(f"{letter}_{name}"), f"{letter}({said}.G)") for letter in "xy")
+        for letter, read in (("r", ""), ("v", "v"), ("a", "a")):
+            yield unicode_name(f"{letter}_{name}"), f"[{read}x({said}.G), {read}y({said}.G)]"
+        if not body["particle"]:
+            yield unicode_name(f"phi_{name}"), f"angle({said})"
+            yield unicode_name(f"alpha_{name}"), f"alpha({said})"
+
+
+def _whole(subject: Subject) -> Iterator[tuple[str, str]]:
+    yield from (("E_k", "kinetic()"), ("E_p", "potential()"), ("L_x", "momentum_x()"), ("L_y", "momentum_y()"))
+    yield from ((f"H/{point}", _momentum(spell(point))) for point in subject.points)
+    for point in list(subject.points)[:1]:
+        yield "H/G", f"{_momentum(spell(point))} - {_carried(spell(point))}"
+
+
+def _momentum(point: str) -> str:
+    return f"angular_momentum({point})"
+
+
+def _carried(point: str) -> str:
+    """What the momentum of the whole, at its mass centre, has about a point."""
+    return f"((centre_x() - x({point}))*momentum_y() - (centre_y() - y({point}))*momentum_x())"
+
+
+def _directions(subject: Subject) -> Iterator[tuple[str, str]]:
+    """Unit directions that turn, λ along the x axis of a body and n across it."""
+    from freebody.equations.derivation.opening import directions
+
+    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
+    for pair in directions(subject).pairs:
+        if (angle := _said(pair.angle, turning)) is not None:
+            yield pair.along, f"[cos({angle}), sin({angle})]"
+            yield pair.across, f"[-sin({angle}), cos({angle})]"
+
+
+def _said(tree: Tree, turning: Mapping[str, str]) -> str | None:
+    """An angle in the model language: sums of letters with numbers; None for any other. ``turning``: how angles of bodies are said."""
+    match tree:
+        case Num(value):
+            return f"({value})"
+        case Sym(name, 0):
+            return turning.get(name) or spell(name)
+        case Add(parts) | Mul(parts):
+            said = [_said(part, turning) for part in parts]
+            sign = " + " if isinstance(tree, Add) else "*"
+            return None if None in said else f"({sign.join(filter(None, said))})"
+    return None

@@ -1,0 +1,159 @@
+"""Small departures from rest: the linear equations of the coordinates, and of those that loops and motions leave free."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from freebody.equations.derivation.told import Subject
+from freebody.equations.linear import linear_in
+from freebody.equations.measured import exact, exact_angle, is_measured, measured, with_exact_numbers
+from freebody.equations.simplify import shortest
+from freebody.equations.solve import TooLarge, solve
+from freebody.equations.to_sympy import from_sympy, to_sympy
+from freebody.equations.tree import ONE, ZERO, Sym, Tree, evaluate, negative, operations, read
+from freebody.results import Array
+
+Matrix = list[list[Tree]]
+PATIENCE = 1.0
+"""Seconds for the shortest form of one entry."""
+MOST_OPERATIONS = 150
+"""Operations in an entry above which no short form of it is looked for."""
+READABLE = 40
+"""Operations in the short form of an entry above which it is left to numbers."""
+_INDEPENDENT = (0.1, 1e-3, 1e-8)
+"""What is left of a row beside those chosen before, in parts of the largest, to be chosen: as much as there is."""
+
+
+@dataclass(frozen=True)
+class Linearised:
+    """M ẍ + C ẋ + K x = 0 for departures x of the coordinates from rest; ``left`` is what is out of balance there."""
+
+    coordinates: tuple[str, ...]
+    mass: Matrix
+    damping: Matrix
+    stiffness: Matrix
+    left: list[Tree]
+
+    def first_order(self) -> Matrix:
+        """A of ż = A z with z = (x, ẋ). Raises ``TooLarge``, ``Singular``."""
+        n = len(self.coordinates)
+        columns = [[row[j] for row in matrix] for matrix in (self.stiffness, self.damping) for j in range(n)]
+        solved = [[negative(entry) for entry in solve(self.mass, column)] for column in columns]
+        upper = [[ONE if j == n + i else ZERO for j in range(2 * n)] for i in range(n)]
+        return upper + [[column[i] for column in solved] for i in range(n)]
+
+
+@dataclass(frozen=True)
+class Held:
+    """Departures of coordinates that depend on each other, J x = 0 (``jacobian``): ``follow`` gives those that follow by the free
+    ones. ``reactions`` are the loads of what holds, as they are at rest; ``equations`` those of the free ones."""
+
+    jacobian: Matrix
+    follow: Mapping[str, Sequence[Tree]]
+    reactions: Mapping[Sym, Tree]
+    equations: Linearised
+
+
+def linearised(subject: Subject, put: Mapping[str, Tree]) -> Linearised:
+    """The linear equations at the state of a subject, some letters being as ``put``. Loads of loops and motions stay letters."""
+    told = replace(subject, at_rest=False).ask([{"ask": "linear", "at": {}}])[0]  # rates must be letters for their slopes
+    names = tuple(c["name"] for c in subject.coordinates)
+    words = zip(*(told[word] for word in ("M", "C", "K", "left")), strict=True)
+    rows = [[_put(read(entry), put) for entry in (*m, *c, *k, left)] for m, c, k, left in words]
+    upright = [evaluate(row[i], subject.values, subject.tables) >= 0 for i, row in enumerate(rows)]
+    rows = [row if up else [negative(entry) for entry in row] for row, up in zip(rows, upright, strict=True)]
+    n = len(names)
+    matrices = ([row[start : start + n] for row in rows] for start in (0, n, 2 * n))
+    return Linearised(names, *matrices, [row[-1] for row in rows])
+
+
+def held(subject: Subject, found: Linearised, put: Mapping[str, Tree]) -> Held:
+    """What loops, motions and what touches leave of linear equations, the free departures being z.
+
+    In x = N z + O(z²) the second order takes no part: it meets the balances, which hold at rest with the reactions λ of rest. These
+    stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where
+    they do no work) the equations are Lᵀ (M N z̈ + C N ż + K N z) = 0. Raises ``TooLarge``, ``Singular``."""
+    names, letters = found.coordinates, subject.letters
+    slopes = [[_put(row.linear.coefficients.get(Sym(name, 2), ZERO), put) for name in names] for row in subject.rows]
+    loads = [Sym(load.symbol) for load in subject.free.loads if load.unknown]
+    parts = [linear_in(left, loads) for left in found.left]
+    loads = [x for x in loads if any(x in part.coefficients for part in parts)]
+    loading = [[negative(part.coefficients.get(x, ZERO)) for x in loads] for part in parts]
+    asked = independent(numbers(subject, slopes))
+    follows = independent(numbers(subject, [slopes[i] for i in asked]).T, last_first=True)
+    acting = independent(numbers(subject, [loading[i] for i in follows]).T)
+    chosen = [i for i in range(len(names)) if i not in follows]
+
+    def departures(inner: Matrix, outer: Matrix) -> Matrix:
+        """N of J N = 0, a row for each coordinate, from the columns of J that follow and those chosen."""
+        solved = [solve(inner, [negative(row[c]) for row in outer], letters, patience=PATIENCE) for c in range(len(chosen))]
+        return [[column[follows.index(i)] if i in follows else ONE if chosen[c] == i else ZERO for c, column in enumerate(solved)]
+                for i in range(len(names))]  # fmt: skip
+
+    ways = departures(_part(slopes, asked, follows), _part(slopes, asked, chosen))
+    inner = _part(loading, follows, acting)
+    tests = departures(_turned(inner), _turned(_part(loading, chosen, acting)))
+    rests = solve(inner, [parts[i].rest for i in follows], letters, patience=PATIENCE)
+    reactions = dict.fromkeys(loads, ZERO) | dict(zip([loads[i] for i in acting], rests, strict=True))
+    stiffness = [[_put(entry, {x.name: tree for x, tree in reactions.items()}) for entry in row] for row in found.stiffness]
+    matrices = (_between(tests, matrix, ways, subject) for matrix in (found.mass, found.damping, stiffness))
+    equations = Linearised(tuple(names[i] for i in chosen), *matrices, [ZERO] * len(chosen))
+    return Held([slopes[i] for i in asked], {names[i]: ways[i] for i in follows}, reactions, equations)
+
+
+def place_of(subject: Subject) -> dict[str, Tree]:
+    """Where the coordinates of a subject are, as a person writes it, parts of π among them."""
+    values = zip(subject.coordinates, subject.state.q.tolist(), strict=True)
+    return {c["name"]: (exact_angle if c["dimension"] == "rad" else exact)(x) for c, x in values}
+
+
+def numbers(subject: Subject, matrix: Matrix) -> Array:
+    """A matrix with the numbers of a subject, SI."""
+    return np.array([[float(evaluate(entry, subject.values, subject.tables)) for entry in row] for row in matrix])
+
+
+def independent(rows: Array, last_first: bool = False) -> list[int]:
+    """The places of as many independent rows as there are; early rows are preferred, or late ones, where they do as well."""
+    largest = np.linalg.norm(rows, axis=1).max(initial=0.0)
+    order = range(len(rows))[::-1] if last_first else range(len(rows))
+    chosen: list[int] = []
+    basis = np.zeros((0, rows.shape[-1]))
+    for enough in _INDEPENDENT:
+        for i in order:
+            rest = rows[i] - basis.T @ (basis @ rows[i])
+            if i not in chosen and np.linalg.norm(rest) > enough * largest:
+                chosen.append(i)
+                basis = np.vstack([basis, rest / np.linalg.norm(rest)])
+    return sorted(chosen)
+
+
+def _put(tree: Tree, place: Mapping[str, Tree]) -> Tree:
+    import sympy
+
+    values = {sympy.Symbol(name): to_sympy(value) for name, value in place.items()}
+    found = sympy.expand(to_sympy(with_exact_numbers(tree)).subs(values, simultaneous=True))
+    return measured(found) if is_measured(found) else from_sympy(sympy.factor_terms(found))
+
+
+def _part(matrix: Matrix, rows: Sequence[int], columns: Sequence[int]) -> Matrix:
+    return [[matrix[i][j] for j in columns] for i in rows]
+
+
+def _turned(matrix: Matrix) -> Matrix:
+    return [list(column) for column in zip(*matrix, strict=True)]
+
+
+def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: Subject) -> Matrix:
+    """Leftᵀ matrix right, each entry shortly. Raises ``TooLarge``."""
+    import sympy
+
+    a, m, b = (sympy.Matrix([[to_sympy(entry) for entry in row] for row in part]) for part in (left, matrix, right))
+    product = a.T * m * b
+    if all(entry.count_ops() <= MOST_OPERATIONS for entry in product):
+        made = [[shortest(entry, subject.letters, PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
+        if all(operations(entry) <= READABLE for row in made for entry in row):
+            return made
+    raise TooLarge("the linear equations of what is left free are too long in letters")

@@ -1,0 +1,85 @@
+"""Impulse diagrams: what acts on each body during a blow, and the jump of its momentum."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar
+
+from freebody.blow import Blow
+from freebody.free_body import Body, FreeBodies, Load
+from freebody.naming import ImpulseNaming
+from freebody.views.diagram import Cut, Desk, Diagram
+from freebody.views.diagram.names import Labels
+from freebody.views.diagram.paper import Row
+from freebody.views.diagram.picture import Picture
+
+
+@dataclass(frozen=True)
+class _Jumps(Labels):
+    """What is written at impulses, m Δv and I Δω."""
+
+    unit: ClassVar[str] = "N·s"
+    turning_unit: ClassVar[str] = "N·m·s"
+
+    def plain(self, load: Load) -> str:
+        """Of an impulse, in a remark."""
+        return self.naming.loads[load.symbol].unicode()
+
+    def acceleration(self, body: str, alone: bool) -> str:
+        """Of the jump of the velocity of a body's mass centre."""
+        below = replace(self._of_body("v", body, alone), stem="@").latex().replace("@", r"\mathbf{v}")
+        return rf"\Delta{below}"
+
+    def component(self, part: str) -> str:
+        """Of a component of that jump."""
+        return rf"\Delta v_{part}"
+
+    def angular(self, body: str, alone: bool) -> str:
+        """Of the jump of the angular velocity."""
+        return rf"\Delta{self._of_body('omega', body, alone).latex()}"
+
+
+@dataclass(frozen=True)
+class Impulses(Picture):
+    """The impulse diagrams of every body during a blow, drawn when they are asked for."""
+
+    name: str
+    blow: Blow
+
+    @cached_property
+    def drawn(self) -> Diagram:
+        """The diagrams."""
+        return impulse_diagram(self.blow)
+
+    @property
+    def rows(self) -> list[Row]:
+        """A row for every body."""
+        return self.drawn.rows
+
+    @property
+    def description(self) -> str:
+        """In words, what acts on each body."""
+        return self.drawn.description
+
+
+def impulse_diagram(
+    blow: Blow, groups: Sequence[Sequence[str]] | None = None, scaled: bool = False, effective: bool = True
+) -> Diagram:
+    """Impulse diagrams of groups of bodies (by default every body by itself) during a blow, with what is absent and why."""
+    free, source = blow.impulses, blow.source
+    touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
+    desk = Desk(source, blow.state, touched, touched, _Jumps(ImpulseNaming.of(blow)), scaled, effective)
+    chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
+    return Diagram(f"impulse diagrams of {source.name}", tuple(_told(desk.cut(group), blow) for group in chosen))
+
+
+def _still(body: Body) -> Body:
+    """A body that no impulse acts on: nothing of its momentum jumps."""
+    return replace(body, mass=0.0, inertia=0.0)
+
+
+def _told(cut: Cut, blow: Blow) -> Cut:
+    absent = [f"Absent: {sentence}." for sentence in blow.absent(*cut.group)]
+    return replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent]))

@@ -1,0 +1,157 @@
+"""Blows in letters: closed forms of textbooks, and the numbers of the run."""
+
+import numpy as np
+import pytest
+import sympy
+from struck import ALL, mechanism, struck
+
+from freebody.equations import Sym, evaluate, from_sympy
+from freebody.equations.simplify import equal
+from freebody.equations.solve import TooLarge
+from freebody.equations.topics import topic
+from freebody.equations.topics.blow import after, blow
+from freebody.equations.topics.impact import _values, impulses_of_joints, rates_after
+from freebody.equations.tree import replace
+
+LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
+"""Too long to be solved in letters."""
+SLOW = {"19.3.30/model", "19.3.30/hinged", "19.3.30/slippery"}
+"""Solved in letters in a minute; tests/equations/topics does one of them."""
+REDUNDANT = {"plate"}
+"""Friction on two feet at once is more than it takes."""
+
+
+def solved(name):
+    found = blow(mechanism(name))
+    rates = rates_after(found)
+    return rates | impulses_of_joints(found, rates)
+
+
+def letters(text):
+    """SymPy of a text in which ``u'`` is a rate before and e the restitution of the one contact."""
+    names = ("m", "M", "l", "b", "d", "n", "e", "mu", "R", "y'", "x'", "s'", "w'")
+    spelt = {name.replace("'", "_before"): sympy.Symbol(name) for name in names}
+    return from_sympy(sympy.sympify(text, spelt))
+
+
+CLOSED = {
+    # A ball on a bar: moments of momentum about the pin, I = M l²/3, and e v = b ω⁺ + …; the reaction of the pin changes its sense
+    # where the ball strikes at the centre of percussion, b = 2 l/3 (Meriam & Kraige, Dynamics, 7th ed., art. 6/8).
+    "ball_on_bar": {
+        Sym("phi_after", 1): "(1 + e)*m*b*y_before/(M*l**2/3 + m*b**2)",
+        Sym("y_after", 1): "(m*b**2 - e*M*l**2/3)*y_before/(M*l**2/3 + m*b**2)",
+        Sym("knock.J_N"): "-(1 + e)*m*M*l**2/3*y_before/(M*l**2/3 + m*b**2)",
+        Sym("pin.J_y"): "(1 + e)*m*M*(l*b/2 - l**2/3)*y_before/(M*l**2/3 + m*b**2)",
+    },
+    # A bullet in a hanging rod: ω = m d v/(M l²/3 + m d²) (Ruina & Pratap, Introduction to Mechanics, the ballistic pendulum).
+    "bullet": {
+        Sym("theta_after", 1): "m*d*x_before/(M*l**2/3 + m*d**2)",
+        Sym("x_after", 1): "m*d**2*x_before/(M*l**2/3 + m*d**2)",
+        Sym("pivot.J_x"): "m*M*(l*d/2 - l**2/3)*x_before/(M*l**2/3 + m*d**2)",
+    },
+    # Two rods struck at the end: velocity 7 J/(2 m) of that end, J/4 at the hinge (Routh, Elementary Rigid Dynamics, on impulses
+    # on a chain of rods), where J = (1 + e) v/(1/n + 7/(2 m)).
+    "links": {
+        Sym("knock.J_N"): "-(1 + e)*s_before/(1/n + 7/(2*m))",
+        Sym("y_after", 1): "5/(4*m)*(1 + e)*s_before/(1/n + 7/(2*m))",
+        Sym("phi_after", 1): "6/(m*l)*(1 + e)*s_before/(1/n + 7/(2*m))",
+    },
+    # A disk that slides throughout: friction μ (1 + e) m v (Brach, Mechanical Impact Dynamics, ch. 2).
+    "slides": {
+        Sym("disk.x_after", 1): "x_before + mu*(1 + e)*y_before",
+        Sym("floor.J_N"): "-(1 + e)*m*y_before",
+    },
+}
+
+
+PLACES = {
+    "links": {Sym("x"): from_sympy(sympy.Symbol("l") / 2)},
+    "slides": {Sym("disk.x", 1): Sym("x", 1), Sym("disk.y", 1): Sym("y", 1)},
+}
+"""Where the models are at the blow, and shorter names."""
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_closed_forms(name):
+    made = solved(name)
+    for letter, text in CLOSED[name].items():
+        found = replace(made[letter], PLACES.get(name, {}))
+        assert equal(found, letters(text)), (letter, found)
+
+
+def test_a_rod_caught_at_its_end():
+    """It turns about that end with 3 v/(2 l), its centre keeps ¾ v, and the string takes ¼ m v (Ruina & Pratap, on collisions of
+    rods with what they hang on)."""
+    found, v = blow(mechanism("caught")), Sym("rod.y", 1)
+    # The string is upright, the rod at its lower end.
+    below = {Sym("rod.x"): from_sympy(sympy.Symbol("l") / 2), Sym("rod.y"): from_sympy(-sympy.Symbol("s"))}
+    made = {letter: replace(tree, below) for letter, tree in solved("caught").items()}
+    m, l, u = (sympy.Symbol(x) for x in ("m", "l", "rod.y'"))
+    known = {"rod.y_after": 3 * u / 4, "rod.angle_after": 3 * u / (2 * l)}
+    for name, expression in known.items():
+        assert equal(made[Sym(name, 1)], from_sympy(expression)), made[Sym(name, 1)]
+    [(cord, size)] = [(x, n) for x, n in found.sizes().items() if x.name.startswith("cord")]
+    assert equal(made[cord], from_sympy(-m * u / 4)) and size == pytest.approx(-2 * _values(found)[v] / 4, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", sorted(set(ALL) - LONG - SLOW - REDUNDANT))
+def test_in_letters_are_the_numbers_of_the_run(name):
+    found = blow(mechanism(name))
+    made, values, sizes = rates_after(found), _values(found), found.sizes()
+    for coordinate, u in found.change.after.u.items():
+        assert float(evaluate(made[Sym(after(coordinate), 1)], values)) == pytest.approx(u, abs=1e-7)
+    if not any(map(np.isnan, sizes.values())):
+        made |= impulses_of_joints(found, made)
+    most = np.nanmax(np.abs(list(sizes.values())))
+    for letter in made.keys() & sizes.keys():
+        assert float(evaluate(made[letter], values)) == pytest.approx(sizes[letter], abs=1e-7 * most), letter
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_equation_holds_in_the_run(name):
+    """Balances of coordinates and of bodies, what comes back or holds, and the law of friction."""
+    for number in range(1, len(struck(name, 2)) + 1):
+        found = blow(mechanism(name), number)
+        values = _values(found) | {Sym(after(c), 1): u for c, u in found.change.after.u.items()} | found.sizes()
+        if any(np.isnan(x) for x in found.sizes().values()):
+            continue
+        rounding = 1e-8 * max(1.0, *map(abs, found.sizes().values()))
+        for each in [*found.of_coordinates(), *found.of_bodies()]:
+            gap = evaluate(found.acting(each.balance), values) - evaluate(found.jump(each.balance), values)
+            assert abs(float(gap)) < rounding, each.title
+        for what, left, right in found.conditions():
+            assert float(evaluate(left, values)) == pytest.approx(float(evaluate(right, values)), abs=1e-8), what
+
+
+@pytest.mark.parametrize("name", sorted(LONG))
+def test_what_is_too_long_is_refused(name):
+    found = blow(mechanism(name))
+    with pytest.raises(TooLarge):
+        impulses_of_joints(found, rates_after(found))
+
+
+def test_friction_says_its_law():
+    slides, rolls = (topic(mechanism(name), "impact").text() for name in ("slides", "rolls"))
+    assert "slides throughout the blow" in slides and "Coulomb's law" in slides
+    assert "does not slide any more after the blow" in rolls
+
+
+def test_slip_that_turns_is_refused_with_its_reason():
+    """A leaning rod whose tip stops sliding within the blow, where Newton's law would make energy (Kane 1984)."""
+    from freebody import Mechanism
+
+    text = """freebody: 1
+gravity: none
+bodies: {stick: {shape: rod, length: 1 m, mass: 1.5 kg}}
+ground: {lines: {floor: {through: ground.O, angle: 0}}}
+contacts: {tip: {of: [stick.start, ground.floor], friction: 1.5, restitution: 0.9}}
+initial: {points: {stick.start: [0, 1e-3]}, stick.angle: 50 deg, rates: {stick.x: 0.4, stick.y: -1, stick.angle: 0}}
+run: {until: 2 ms, impacts: poisson}
+"""
+    said = topic(Mechanism.loads(text, "stick"), "impact").text()
+    assert "neither all the impulse" in said
+
+
+def test_a_document_has_its_drawings_even_where_the_state_alone_jams():
+    """A foot that strikes may jam by Coulomb's law if it stayed; the configuration and the impulses of every body are drawn."""
+    assert topic(mechanism("GEN-STEP/model"), "impact", of="other").html().count("<svg") == 2

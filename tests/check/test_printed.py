@@ -1,0 +1,71 @@
+"""Every equation that is printed is read back, and true: freebody's own words are those that the check understands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import freebody as fb
+from freebody.check import Checker, Kind
+from freebody.equations.derivation.derive import FORMS
+from freebody.equations.document import Block, Document, Equation, MatrixEquation, Written
+
+SYSTEMS = Path(fb.__file__).parent / "systems"
+NAMED = (
+    "19.3.1/side",  # particles
+    "EX-ARM/held",  # prescribed motions with names of two words
+    "19.3.16/model",  # one degree of freedom, wheels
+    "S19.18/rod_as_body",  # a body without a mass
+    "GEN-FOURBAR/model",  # a loop, angles of a joint that closes it
+)
+WORDS = """
+freebody: 1
+name: names with blanks, brackets and numbers
+parameters: {k: 30 N/m}
+bodies:
+  upper arm: {shape: rod, length: 0.4 m, mass: 2 kg}
+  tip[1]: {shape: particle, mass: 0.5 kg}
+joints:
+  left shoulder: {type: hinge, of: [ground.O, upper arm.start], coordinate: theta}
+  guide[1]: {type: slot, along: [upper arm.start, upper arm.end], point: "tip[1].centre", coordinate: s}
+forces:
+  coil: {type: spring, along: s - 0.2 m, stiffness: k}
+initial: {theta: 0.4, s: 0.3 m, rates: {theta: 1, s: 0.2}}
+"""
+
+
+@pytest.fixture(scope="module", params=[*NAMED, "words"])
+def model(request: pytest.FixtureRequest) -> fb.Mechanism:
+    return fb.Mechanism.loads(WORDS) if request.param == "words" else fb.Mechanism.load(SYSTEMS / f"{request.param}.yaml")
+
+
+def _stated(document: Document) -> Iterator[Block]:
+    """The equations of a document but for schemes, whose letters stand for whole matrices."""
+    for block in document.blocks:
+        scheme = isinstance(block, Equation) and isinstance(block.left, Written) and isinstance(block.right, Written)
+        if isinstance(block, Equation | MatrixEquation) and not scheme:
+            yield replace(block, name="", note="")
+
+
+def _printed(block: Block, document: Document) -> Iterator[str]:
+    alone = Document((block,), document.letters)
+    if isinstance(block, Equation):
+        yield from (alone.text(), alone.text(ascii=True, width=60))
+    yield from (alone.latex(), alone.markdown())
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: str) -> None:
+    checker, document = Checker(model), model.equations(form).document
+    lines = list(dict.fromkeys(text for block in _stated(document) for text in _printed(block, document)))
+    assert len(lines) > 8
+    for line in lines:
+        assert checker.check(line).kind is Kind.TRUE, line
+
+
+def test_a_printed_letter_does_not_hide_one_of_the_model() -> None:
+    model = fb.Mechanism.loads(WORDS.replace("{k: 30 N/m}", "{k: 30 N/m, r_tip: 2 N}"))
+    assert Checker(model).check("r_tip = 2 N").kind is not Kind.DIMENSIONS
