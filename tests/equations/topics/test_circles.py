@@ -6,14 +6,15 @@ import pytest
 from models import SYSTEMS
 
 import freebody as fb
-from freebody import _core
 from freebody.equations.collect import pythagorean
 from freebody.equations.derivation import FORMS
 from freebody.equations.solve import TooLarge
-from freebody.equations.topics import TOPICS, topic
+from freebody.equations.topics import TOPICS, NotHere, topic
 from freebody.equations.tree import Add, Fn, Sym, Tree, add, children, mul, number, power
 
-ALL = sorted(path.parent.name for path in SYSTEMS.glob("*/model.yaml"))
+SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")
+KINDS = [kind for kind in TOPICS if kind != "impact"]  # impacts are stated by points that move, and not yet in short
+GUN = SYSTEMS.parents[2] / "examples" / "new_gun.yaml"
 
 
 def trees(part):
@@ -47,12 +48,17 @@ def test_a_circle_is_seen():
     assert not list(circles(add(mul(number(2), sin), mul(number(3), cos))))
 
 
-@pytest.mark.parametrize("name", ALL)
-@pytest.mark.parametrize("kind", [*FORMS, *TOPICS])
+@pytest.mark.parametrize("name", SOME)
+@pytest.mark.parametrize("kind", [*FORMS, *KINDS])
 def test_no_squares_of_sine_and_cosine_are_added(name, kind):
     mechanism = fb.load(SYSTEMS / name / "model.yaml")
     try:
         made = topic(mechanism, kind) if kind in TOPICS else mechanism.equations(kind).document
-    except (ValueError, TooLarge, _core.MotionError) as reason:
+    except (NotHere, TooLarge) as reason:
         pytest.skip(str(reason))
+    assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]
+
+
+def test_the_momentum_of_a_sliding_collar_has_none():
+    made = topic(fb.load(GUN), "moment", about="collar.C")
     assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]
