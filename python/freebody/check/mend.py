@@ -135,7 +135,9 @@ class _Search:
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
         self.fit = case.meaning.fits
-        self.other = case.elsewhere(self.few)
+        self.said = {n.key for n in letters(equation)}
+        self.free = case.elsewhere(self.few, bound=False)
+        self.other = case.elsewhere(self.few) if self.said - case.meaning.given() else self.free
         self.fits = Fits(self.values, self.vocabulary)
         self.right = self._worst(equation, self.values) < HOLDS
 
@@ -185,7 +187,9 @@ class _Search:
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is not None and mark not in kept and not self._is_idle(each) and self._confirmed(each.after):
+            if mark is None or mark in kept or self._is_idle(each) or self._is_vacuous(each.after):
+                continue
+            if self._confirmed(each.after):
                 least = size if not kept else least
                 kept[mark] = each
         return list(kept.values())[:_SHOWN]
@@ -197,6 +201,11 @@ class _Search:
     def _is_idle(self, found: _Found) -> bool:
         """Whether it takes a term away by a factor that is always 0."""
         return any(e.kind == "missing factor" and e.new is not None and not self._moves(e.new) for e in found.edits)
+
+    def _is_vacuous(self, equation: Equation) -> bool:
+        """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
+        kept = self.said & {n.key for n in letters(equation)}
+        return bool(kept) and self._worst(equation, self.few | {key: self.free[key] for key in kept}) < HOLDS
 
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""
