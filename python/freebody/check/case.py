@@ -84,7 +84,9 @@ class Case:
         rng, draws = np.random.default_rng(5), {}  # always the same places
         for key, value in sizes.items():
             draws.setdefault(names.get(key, key), value * rng.uniform(0.7, 1.4, value.shape))
-        return {key: value if key in given and np.any(values[key]) else draws[names.get(key, key)] for key, value in sizes.items()}
+        return {
+            key: value if key in given and np.any(values[key]) else draws[names.get(key, key)] for key, value in sizes.items()
+        }
 
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""

@@ -126,8 +126,9 @@ class OnRuns(Described):
 
     def _slopes(self, state: State, closed: Sequence[int]) -> Array:
         """Gradients of the gaps of limits, a row each."""
-        steps = np.diag(_STEP * self._sizes)
-        return np.array([(self._gaps(state, state.q + h) - self._gaps(state, state.q - h)) / (2 * h.sum()) for h in steps]).T[closed]
+        steps, q = np.diag(_STEP * self._sizes), state.q
+        columns = [(self._gaps(state, q + step) - self._gaps(state, q - step)) / (2 * step.sum()) for step in steps]
+        return np.array(columns).T[closed]
 
     def _gaps(self, state: State, q: Array) -> Array:
         """How far every limit is from closing, less than 0 where it is violated."""
