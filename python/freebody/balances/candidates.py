@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.balances.groups import Group, groups
 from freebody.balances.system import DEPENDENT, Problem
-from freebody.balances.twists import NamedPoints, Twist, Twists, mass_centre, named_twists, pair_twists
+from freebody.balances.twists import NamedPoints, Twist, Twists, clear_shifts, mass_centre, named_twists, pair_twists
 from freebody.results import Array
 
 ABSENT = 1e-9
@@ -82,7 +82,7 @@ def _of_group(problem: Problem, group: Group, named: Twists, counted: int) -> li
     sizes = np.max([np.linalg.norm(system.columns, axis=2).max(axis=1) for system in problem.systems], axis=0)
     columns = np.where(np.linalg.norm(columns, axis=2, keepdims=True) > ABSENT * sizes[:, None], columns, 0.0)
     boundary = np.flatnonzero(np.abs(columns).max(axis=(0, 2)) > 0)
-    tried = [named, pair_twists(columns, boundary), mass_centre(problem, group)]
+    tried = [named, pair_twists(columns, boundary), mass_centre(problem, group), clear_shifts(problem, columns, boundary)]
     twists = [twist for some, _ in tried for twist in some]
     motions = np.concatenate([motions for _, motions in tried])
     work = np.einsum("csk,suk->csu", motions, columns)

@@ -15,6 +15,7 @@ from freebody.balances.states import nearby
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph
 from freebody.equations.given import Given, given
@@ -63,7 +64,7 @@ class Answers:
         return self.document.text()
 
     def _repr_html_(self) -> str:
-        return self.document.html()
+        return self.document._repr_html_()
 
     def _repr_latex_(self) -> str:
         return self.document.latex()
@@ -116,7 +117,8 @@ def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapp
     values = {name: found[_letter(subject, name)] for name in names}
     checked = _check(subject, chosen, {_letter(subject, name): tree for name, tree in values.items()})
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
-    document = Document((*_title(subject, chosen), *made, *_limits(subject, at, limits)), letters)
+    told = (*_title(subject, chosen), *made, *_limits(subject, at, limits))
+    document = Document(tuple(lettered(block, letters) for block in told), letters)
     return Answers(values, at, letters, document, checked)
 
 

@@ -14,6 +14,7 @@ from freebody.equations.derivation.constrained import constrained
 from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
+from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Subject
 from freebody.equations.derivation.wanted import wanted
 from freebody.equations.document import Block, Document, Equation, Heading
@@ -104,11 +105,11 @@ class Equations:
         return self.text()
 
     def html(self) -> str:
-        """The derivation as a fragment of HTML, for MathJax or KaTeX."""
+        """The derivation as a page of HTML, formulas as MathML."""
         return self.document.html()
 
     def _repr_html_(self) -> str:
-        return self.html()
+        return self.document._repr_html_()
 
     def _repr_latex_(self) -> str:
         return self.latex()
@@ -151,7 +152,7 @@ class _Writer:
         if self.form != "constraints":
             first += opening.configuration(self.subject)
         blocks = (*first, *opening.letters(self.letters, used(body)), *body)
-        return Document(tuple(map(readable, blocks)), self.letters)
+        return Document(tuple(lettered(readable(block), self.letters) for block in blocks), self.letters)
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)
