@@ -11,7 +11,7 @@ import pytest
 import freebody as fb
 from freebody.check import Checker, Kind
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.document import Block, Document, Equation, MatrixEquation, Written
+from freebody.equations.document import Block, Document, Equation, Matrices, MatrixEquation, Written
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 NAMED = (
@@ -43,9 +43,9 @@ def model(request: pytest.FixtureRequest) -> fb.Mechanism:
 
 
 def _stated(document: Document) -> Iterator[Block]:
-    """The equations of a document but for schemes, whose letters stand for whole matrices."""
+    """The equations of a document but for schemes, and what the letters are that stand there for whole matrices."""
     for block in document.blocks:
-        scheme = isinstance(block, Equation) and isinstance(block.left, Written) and isinstance(block.right, Written)
+        scheme = isinstance(block, Equation) and isinstance(block.left, Written) and isinstance(block.right, Written | Matrices)
         if isinstance(block, Equation | MatrixEquation) and not scheme:
             yield replace(block, name="", note="")
 
