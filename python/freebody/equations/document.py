@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
@@ -217,6 +217,11 @@ def is_tree(side: Any) -> bool:
 def pieces(words: Words) -> list[str | Side]:
     """The words as a list of texts and mathematics."""
     return [words] if isinstance(words, str) else list(words)
+
+
+def listed(sides: Iterable[Side]) -> list[str | Side]:
+    """Mathematics in a sentence, commas between."""
+    return [piece for i, side in enumerate(sides) for piece in ([", ", side] if i else [side])]
 
 
 def letters_table(letters: Letters) -> Table:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.balances.states import nearby
-from freebody.equations.departures import Held, Linearised, Matrix, held, independent, linearised, numbers, place_of
+from freebody.equations.departures import Held, Linearised, Matrix, held, independent, is_natural, linearised, numbers, place_of
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Bullets, Document, Equation, Heading, MatrixEquation, Paragraph, Words
+from freebody.equations.document import Block, Bullets, Document, Equation, Heading, MatrixEquation, Paragraph, Words, listed
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letter
@@ -20,7 +20,7 @@ from freebody.equations.measured import shown
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
 from freebody.equations.topics.common import NotHere, document, subject_of
-from freebody.equations.tree import PI, ZERO, Sym, Tree, add, evaluate, is_zero, mul, symbols
+from freebody.equations.tree import ZERO, Sym, Tree, add, evaluate, is_zero, mul
 from freebody.instant import Instant
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _require_regular(subject: Subject) -> None:
 def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
     """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
     place = place_of(subject)
-    put = {name: tree for name, tree in place.items() if _is_natural(tree)} | dict(chosen.trees)
+    put = {name: tree for name, tree in place.items() if is_natural(tree)} | dict(chosen.trees)
     whole = linearised(subject, put)
     made = _equations(subject, whole)
     if not subject.rows:
@@ -110,7 +110,7 @@ def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearise
 def _letters_of(subject: Subject) -> dict[str, Letter]:
     """The letters of departures by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
     coordinates = subject.coordinates
-    if not subject.rows and all(map(_is_natural, place_of(subject).values())):
+    if not subject.rows and all(map(is_natural, place_of(subject).values())):
         return {c["name"]: subject.letters[c["name"]] for c in coordinates}
     stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
     return {
@@ -147,7 +147,7 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     names = joined(list(dict.fromkeys(row.name for row in subject.rows)))
     made: list[Block] = [Heading("What is left free")]
     if numbers:
-        made.append(Paragraph(["In letters this fills pages; here ", *_listed(map(Sym, numbers)), " are numbers, in SI."]))
+        made.append(Paragraph(["In letters this fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
         made.append(Paragraph(f"To first order {names} make these follow:"))
     made += [
@@ -161,21 +161,9 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
         made.append(Paragraph(f"The loads at rest{', of which some are not determined and taken to be 0' * undecided}:"))
     made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
     made.append(
-        Paragraph(["What they change by does no work there. What is left is M ẍ + C ẋ + K x = 0 of ", *_listed(free), ", with"])
+        Paragraph(["What they change by does no work there. What is left is M ẍ + C ẋ + K x = 0 of ", *listed(free), ", with"])
     )
     return made + _matrices(left.equations, letters)
-
-
-def _listed(trees: Iterable[Tree]) -> list[str | Tree]:
-    words: list[str | Tree] = []
-    for tree in trees:
-        words += [", ", tree] if words else [tree]
-    return words
-
-
-def _is_natural(place: Tree) -> bool:
-    """Whether a place is one whatever the lengths are: 0, or a part of a turn."""
-    return is_zero(place) or Sym(PI) in symbols(place)
 
 
 def _place(subject: Subject, chosen: Given, near: bool) -> Words:
