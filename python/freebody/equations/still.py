@@ -10,7 +10,7 @@ import numpy as np
 from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.given import Given
-from freebody.equations.tree import Sym, Tree, is_zero, symbols
+from freebody.equations.tree import Tree, is_zero, symbols
 from freebody.free_body import FreeBodies
 
 _HELD = 1e-7
@@ -24,11 +24,12 @@ def held_still(subject: Subject, chosen: Given, states: Sequence[FreeBodies]) ->
     fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Given({}, still=frozenset(names)))]
     free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
     still = frozenset(name for i, name in enumerate(names) if fixed and all(holds(rows, i) for rows in free))
+    held = Given({}, still=still)
     natural = {
         name: place for name, place in place_of(subject).items() if is_natural(place) and name in still - chosen.trees.keys()
     }
-    closed = [chosen.put(value) for i in fixed if (value := subject.rows[i].value) is not None]
-    return _placed(Given({}, still=still), closed, natural)
+    closed = [held.put(chosen.put(value)) for i in fixed if (value := subject.rows[i].value) is not None]
+    return replace(held, trees=_closing(closed, natural))
 
 
 def holds(rows: np.ndarray, place: int) -> bool:
@@ -43,12 +44,8 @@ def _is_fixed(row: Row, rest: Given) -> bool:
     return not (row.rate is None and row.kind == "motion") and all(is_zero(rest.put(tree)) for tree in asked)
 
 
-def _placed(held: Given, closed: Sequence[Tree], natural: Mapping[str, Tree]) -> Given:
-    """With the places that follow one after the other from what vanishes, each by an equation in that coordinate alone."""
-    for value in map(held.put, closed):
-        moving = [name for name in held.still if Sym(name) in symbols(value)]
-        if len(moving) == 1 and moving[0] in natural:
-            more = replace(held, trees={**held.trees, moving[0]: natural[moving[0]]})
-            if is_zero(more.put(value)):
-                return _placed(more, closed, natural)
-    return held
+def _closing(closed: Sequence[Tree], places: Mapping[str, Tree]) -> Mapping[str, Tree]:
+    """Of these places those with which everything that they are in vanishes, whatever the letters are."""
+    there = Given(places)
+    open_by = {x.name for value in closed if not is_zero(there.put(value)) for x in symbols(value)}
+    return _closing(closed, {n: place for n, place in places.items() if n not in open_by}) if open_by & places.keys() else places
