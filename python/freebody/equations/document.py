@@ -90,6 +90,14 @@ class MatrixEquation:
 
 
 @dataclass(frozen=True)
+class MatrixOf:
+    """letter = a matrix, row by row."""
+
+    letter: Written
+    matrix: Sequence[Sequence[Tree]]
+
+
+@dataclass(frozen=True)
 class Table:
     """Rows of words under heads."""
 
@@ -129,7 +137,7 @@ class Figure:
     name: str = "figure"
 
 
-Block: TypeAlias = Heading | Paragraph | Equation | MatrixEquation | Table | Bullets | Figure
+Block: TypeAlias = Heading | Paragraph | Equation | MatrixEquation | MatrixOf | Table | Bullets | Figure
 
 
 @dataclass(frozen=True)

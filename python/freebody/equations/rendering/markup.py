@@ -16,6 +16,7 @@ from freebody.equations.document import (
     Figure,
     Heading,
     MatrixEquation,
+    MatrixOf,
     Paragraph,
     Side,
     Table,
@@ -93,6 +94,8 @@ class Markup(ABC):
                 return self.stated(block, self.equation(block))
             case MatrixEquation():
                 return self.stated(block, self.matrices(block))
+            case MatrixOf(letter, matrix):
+                return self.display(f"{letter.latex} = {matrix_latex(matrix, self.letters)}", "")
             case Bullets(items):
                 return self.bullets([self.words(item) for item in items])
             case Table():

@@ -15,6 +15,7 @@ from freebody.equations.document import (
     Figure,
     Heading,
     MatrixEquation,
+    MatrixOf,
     Paragraph,
     Side,
     Table,
@@ -90,6 +91,8 @@ class _Writer:
                 return self.stated(block, self.equation(block))
             case MatrixEquation():
                 return self.stated(block, self.matrices(block))
+            case MatrixOf(letter, matrix):
+                return textwrap.indent(self.matrix(letter, matrix), _INDENT)
             case Bullets(items):
                 return "\n".join(self.filled(item, "- ") for item in items)
             case Table():
@@ -140,6 +143,18 @@ class _Writer:
         if all(columns(line) <= self.width - len(_INDENT) - 8 for line in lines):
             return "\n".join(lines)
         return self.listed(block)
+
+    def matrix(self, letter: Written, matrix: Sequence[Sequence[Tree]]) -> str:
+        """Letter = matrix; what is too wide for brackets entry by entry."""
+        rows = [[text(entry, self.letters, ascii=self.ascii) for entry in row] for row in matrix]
+        lines, middle = self.bracketed(rows), (len(rows) - 1) // 2
+        lead = [f"{letter.text} = " if i == middle else " " * (columns(letter.text) + 3) for i in range(len(rows))]
+        if columns(lead[0] + lines[0]) <= self.width - len(_INDENT):
+            return "\n".join(map(str.__add__, lead, lines))
+        entries = [(i, j, entry) for i, row in enumerate(rows, 1) for j, entry in enumerate(row, 1) if entry != "0"]
+        return "\n".join(
+            folded(f"{self.indexed(letter.text, f'{i}{j}')} = ", entry, self.width - len(_INDENT)) for i, j, entry in entries
+        )
 
     def bracketed(self, rows: Sequence[Sequence[str]]) -> list[str]:
         widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
