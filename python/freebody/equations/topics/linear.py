@@ -53,7 +53,7 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     made, found = _departures(subject, chosen)
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
-    more = [Letter("s", "parameter", "1/s", "eigenvalue"), *_letters_of(subject).values()]
+    more = [Letter("s", "indeterminate", "1/s", "eigenvalue"), *_letters_of(subject).values()]
     return document(subject, title, where + made + character(subject, found, _letters_of(subject)), more)
 
 
@@ -145,8 +145,8 @@ def _stated(found: Linearised, letters: Mapping[str, Letter], said: Sequence[str
         return [Equation(Add(tuple(terms)), ZERO, said)]
     names = [Written(*pair) for pair in _BOLD]
     whole = [names[0], " ", _VECTOR[2], " + ", names[1], " ", _VECTOR[1], " + ", names[2], " ", _VECTOR[0], " = ", right or "0"]
-    where = [", ", _VECTOR[0], " = (", *listed(map(Sym, departures)), "), with"]
-    return [Paragraph([*said, ", ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(names, parts, strict=True))]
+    where = [" with ", _VECTOR[0], " = (", *listed(map(Sym, departures)), ") and"]
+    return [Paragraph([*said, " ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(names, parts, strict=True))]
 
 
 def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Block]:

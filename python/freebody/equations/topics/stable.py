@@ -27,7 +27,10 @@ def character(subject: Subject, found: Linearised, letters: Mapping[str, Letter]
     try:
         matrix = found.first_order()
         parts = factors(characteristic(matrix, subject.letters), subject.letters)
-        made += [Heading("Eigenvalues"), Equation(shown(_product(parts)), ZERO, "The characteristic equation")]
+        made += [
+            Heading("Eigenvalues"),
+            Equation(shown(_product(parts)), ZERO, ["The characteristic equation of the eigenvalues ", Sym("s")]),
+        ]
         made += _eigenvalues(matrix, subject, positive)
         made += _stability(parts, subject, found, letters, positive)
     except (TooLarge, Singular) as error:
@@ -44,7 +47,8 @@ def _product(parts: Factors) -> Tree:
 def _sum(coefficients: Sequence[Tree]) -> Tree:
     order = len(coefficients) - 1
     terms = [mul(factor, power(Sym("s"), order - i)) for i, factor in enumerate(coefficients) if not is_zero(factor)]
-    return terms[0] if len(terms) == 1 else Add(tuple(terms))
+    spread = [part for term in terms for part in (term.terms if isinstance(term, Add) else (term,))]
+    return spread[0] if len(spread) == 1 else Add(tuple(spread))
 
 
 def _eigenvalues(matrix: Matrix, subject: Subject, positive: Sequence[str]) -> list[Block]:
@@ -107,20 +111,12 @@ def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
     """What nothing brings back."""
     made: list[Block] = []
     if near.drifting:
+        drifts = "they drift on, and do not" if len(near.drifting) > 1 else "it drifts on, and does not"
         names = listed(Sym(letters[name].name) for name in near.drifting)
-        made.append(
-            Paragraph(
-                [
-                    "Nothing brings back ",
-                    *names,
-                    ": with any small speed it drifts on, at constant speed, so this departure does not stay small.",
-                ]
-            )
-        )
+        made.append(Paragraph(["Nothing brings back ", *names, f": with any small constant speed {drifts} stay near."]))
     if rest := [name for name in near.free if name not in near.drifting]:
-        made.append(
-            Paragraph(["Nothing brings back ", *listed(Sym(letters[name].name) for name in rest), ": what it is moved by stays."])
-        )
+        names = listed(Sym(letters[name].name) for name in rest)
+        made.append(Paragraph(["Nothing brings back ", *names, ": a small departure stays as it is."]))
     return made
 
 
