@@ -124,7 +124,8 @@ class Search:
         table = np.array(
             [[float(evaluate(each.coefficients.get(x, ZERO), values, subject.tables)) for x in unknowns] for _, each in made]
         )
-        table = table / np.abs(table).max(axis=1, keepdims=True)
+        sizes = np.abs(table).max(axis=1, keepdims=True, initial=0.0)
+        table = table / np.where(sizes > 0, sizes, 1.0)  # nothing unknown is left in an equation of what is known
         return table / np.abs(table).max(axis=0)
 
 

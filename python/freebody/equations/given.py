@@ -67,7 +67,8 @@ class Given:
         return mechanism.start(initial, **changes)[0]
 
     def near(self, subject: Subject, rng: np.random.Generator) -> State | None:
-        """Another state, at rest if the subject is, in which the same letters are set; None where it cannot be assembled."""
+        """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
+        None where it cannot be assembled."""
         from freebody import _core
 
         source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
@@ -75,11 +76,12 @@ class Given:
         set_to = self._numbers(_parameters(source.about, p))
         q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}
         fixed = {name: x for name, x in set_to.items() if name in q}
-        rates = {} if subject.at_rest else {n: float(x) for n, x in zip(names, rng.uniform(-1, 1, len(names)), strict=True)}
+        parts = rng.uniform(-1, 1, len(names))
+        rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
             q, u, _ = source.core.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
             if rates and source.about["freedom"]["count"] == len(names):
-                u = np.array(list(rates.values()))
+                u = np.array(rates)
             return State(p, state.t, q, u)
         except _core.MotionError:
             return None

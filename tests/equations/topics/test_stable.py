@@ -41,7 +41,7 @@ def said(text: str) -> str:
 
 
 def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
-    """s² (s² + (M + m) g/(M l)) = 0: the mass centre keeps its speed. Meirovitch, Elements of Vibration Analysis, §4.12 (s = 0 twice)."""
+    """s² (s² + (M + m) g/(M l)) = 0: the mass centre keeps its speed. Meirovitch, Elements of Vibration Analysis, ch. 4, of semidefinite systems."""
     told = said(CART)
     assert "s² (s² + (M + m) g/(M l)) = 0" in told and "± √((M + m) g/(M l)) i" in told
     assert "Nothing brings back x: with any small constant speed it drifts on" in told
