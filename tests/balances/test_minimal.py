@@ -9,8 +9,10 @@ import pytest
 from test_smallest import MODELS, connected, null_space, states
 
 import freebody as fb
+from freebody import _core
 from freebody.balances.minimal import minimal_form
 from freebody.balances.show import show
+from freebody.balances.states import nearby
 from freebody.balances.system import problem
 
 SYSTEMS = Path(__file__).parents[2] / "systems"
@@ -59,6 +61,44 @@ def test_what_is_said_not_to_be_kept_out_is_in_every_set(name):
             assert np.linalg.matrix_rank(rows, tol=1e-9) < len(kept)
 
 
+FILES = [path for path in sorted(SYSTEMS.glob("*/*.yaml")) if "statements" not in path.stem]
+
+
+def every_set(given, kept):
+    """The rank of all balances of all connected sets in the unknowns ``kept``, whatever the motions, at the last state."""
+    out = [i for i in range(len(given.unknowns)) if i not in kept]
+    columns = given.systems[-1].columns
+    columns = columns / (np.linalg.norm(columns, axis=(1, 2), keepdims=True) + 1e-300)
+    sums = np.array([columns[:, list(group)].sum(axis=1) for group in connected(given)])
+    rows = np.vstack([null_space(group[out].reshape(-1, 3)) @ group[kept].T for group in sums])
+    return np.linalg.matrix_rank(rows, tol=1e-7)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
+def test_of_every_system_the_set_has_the_fewest_reactions_and_nothing_smaller_exists(path):
+    mechanism = fb.load(path)
+    try:
+        start = mechanism.start()[0]
+        seen = nearby(mechanism.source(), start)
+    except _core.MotionError:
+        pytest.skip("the model has no motion at all")
+    given = problem(seen)
+    form = minimal_form(seen, forces=True)
+    if len(given.bodies) > 5 or not form.wanted:
+        return
+    names = [*(f"accel({name})" for name in form.coordinates), *form.forces]
+    wanted = [i for i, unknown in enumerate(given.unknowns) if unknown.name in names]
+    loads = [i for i in range(len(given.unknowns)) if i not in wanted]
+    assert every_set(given, wanted) == len(wanted) or form.least > 0
+    for k in range(min(form.least, 3)):
+        for stays in combinations(loads, k):
+            assert every_set(given, [*wanted, *stays]) < len(wanted) + k
+    if form.equations:
+        stay = [i for i, unknown in enumerate(given.unknowns) if unknown.name in form.stays]
+        assert len(stay) == form.least
+        assert every_set(given, [*wanted, *stay]) == len(wanted) + len(stay)
+
+
 def titles(form):
     return [equation.title for equation in form.equations]
 
@@ -80,6 +120,11 @@ def test_an_arm_from_a_file_and_how_it_is_told():
     told = show(form)
     assert "elbow.Fx, elbow.Fy: they act at elbow" in told
     assert "they are internal to upper + forearm" in told
+
+
+def test_the_force_of_a_motion_takes_the_place_of_the_acceleration_that_it_prescribes():
+    form = minimal_form(states(planar.four_bar), forces=True)
+    assert (form.coordinates, form.forces, len(form.equations), form.least) == ((), ("T.force",), 3, 2)
 
 
 def test_a_mechanism_that_motions_move_has_no_equation_of_motion():

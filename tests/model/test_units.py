@@ -165,3 +165,8 @@ def test_evaluation():
         "sign(-3)": -1,
     }.items():
         assert syntax.evaluate(syntax.parse(text).tree, values.__getitem__) == wanted
+
+
+def test_the_units_of_every_day_are_those_of_the_registry():
+    for word in units._EVERYDAY:
+        assert units.word(word) == units.registered(word), word

@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.balances.groups import Group, groups
 from freebody.balances.system import DEPENDENT, Problem
-from freebody.balances.twists import NamedPoints, Twist, Twists, mass_centre, named_twists, pair_twists
+from freebody.balances.twists import NamedPoints, Twist, Twists, clear_shifts, mass_centre, named_twists, pair_twists
 from freebody.results import Array
 
 ABSENT = 1e-9
@@ -64,12 +64,8 @@ def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: 
 
 
 def has_letters(problem: Problem, twist: Twist) -> bool:
-    """Whether the core can tell a point or direction in letters: not one of inertia, nor of a force and its friction together."""
-    if twist.pair is None:
-        return twist.question is not None
-    followed = {load.follows[0] for load in problem.free.loads if load.follows}
-    loads = [problem.unknowns[i].load for i in twist.pair]
-    return None not in loads and not followed & set(loads)
+    """Whether the core can tell a point or direction in letters: not one of inertia."""
+    return twist.question is not None if twist.pair is None else None not in [problem.unknowns[i].load for i in twist.pair]
 
 
 def bits(places: Iterable[int]) -> int:
@@ -92,7 +88,7 @@ def _of_group(problem: Problem, group: Group, named: Twists, counted: int) -> li
     sizes = np.max([np.linalg.norm(system.columns, axis=2).max(axis=1) for system in problem.systems], axis=0)
     columns = np.where(np.linalg.norm(columns, axis=2, keepdims=True) > ABSENT * sizes[:, None], columns, 0.0)
     boundary = np.flatnonzero(np.abs(columns).max(axis=(0, 2)) > 0)
-    tried = [named, pair_twists(columns, boundary), mass_centre(problem, group)]
+    tried = [named, pair_twists(columns, boundary), mass_centre(problem, group), clear_shifts(problem, columns, boundary)]
     twists = [twist for some, _ in tried for twist in some]
     motions = np.concatenate([motions for _, motions in tried])
     work = np.einsum("csk,suk->csu", motions, columns)

@@ -26,7 +26,7 @@ class BalanceEquation:
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
     touches the bodies, but is not in the equation, each with the reason. ``question`` asks the core for the equation in
-    letters (``_core.Mechanism.letters``); None where the point has no letters, being one of inertia or of friction.
+    letters (``_core.Mechanism.letters``); None where the point has no letters, being one of inertia.
     """
 
     kind: str
@@ -82,7 +82,7 @@ def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, 
     loads = [problem.unknowns[i].load for i in candidate.twist.pair or ()]
     if loads and has_letters(problem, candidate.twist):
         forces = [i for i in loads if np.hypot(*problem.free.loads[i].on[-1].force) > 0]
-        place = {"about": {"meeting": loads}} if turns else {"along": {"across": forces[0]}}
+        place = {"about": {"meeting": loads}} if turns else {"along": {"clear": forces[0]}}
     return place and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **place}
 
 

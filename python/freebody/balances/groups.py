@@ -9,9 +9,10 @@ MOST = 255
 """Sets beyond which only small ones, and those that one cut leaves, are looked at: all that eight bodies can have."""
 
 
-def groups(problem: Problem) -> tuple[list[Group], bool]:
-    """Connected sets of bodies, by their places, small ones first; and whether these are all."""
-    near = _neighbours(problem)
+def groups(problem: Problem, known: bool = False) -> tuple[list[Group], bool]:
+    """Connected sets of bodies, by their places, small ones first; and whether these are all. ``known``: known loads, as those
+    of springs, connect as well."""
+    near = _neighbours(problem, known)
     known = {frozenset([i]) for i in near}
     layer, every = set(known), True
     while layer and every:
@@ -21,11 +22,12 @@ def groups(problem: Problem) -> tuple[list[Group], bool]:
     return sorted((tuple(sorted(group)) for group in known), key=lambda group: (len(group), group)), every
 
 
-def _neighbours(problem: Problem) -> dict[int, set[int]]:
+def _neighbours(problem: Problem, known: bool) -> dict[int, set[int]]:
     near: dict[int, set[int]] = {i: set() for i in range(len(problem.bodies))}
-    for unknown in problem.unknowns:
-        load = problem.load(unknown)
-        touched = [problem.bodies.index(part.body) for part in load.on if part.body in problem.bodies] if load else []
+    for load in problem.free.loads:
+        touched = (
+            [problem.bodies.index(part.body) for part in load.on if part.body in problem.bodies] if load.unknown or known else []
+        )
         for body in touched:
             near[body] |= set(touched) - {body}
     return near

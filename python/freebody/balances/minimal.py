@@ -5,25 +5,47 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from freebody.balances.candidates import WORTH, Candidate, bits, candidates
 from freebody.balances.equation import BalanceEquation, equation
-from freebody.balances.search import Supports, grown, plainest, set_cost, within
-from freebody.balances.system import problem
+from freebody.balances.exact import fewest, without_reactions
+from freebody.balances.groups import groups
+from freebody.balances.search import Supports, plainest, set_cost, unions, within
+from freebody.balances.system import DEPENDENT, Problem, problem
 from freebody.balances.twists import NamedPoints
 from freebody.free_body import FreeBodies
 
 
 @dataclass(frozen=True)
 class MinimalForm:
-    """Independent equations that hold the accelerations of ``coordinates``, as many as there are, and no other unknowns.
+    """Independent equations that hold the accelerations of ``coordinates``, and the ``forces`` of prescribed motions if these
+    were asked for: as many as there are, and no other unknowns.
 
     Where loops leave no such set, it is larger by the fewest reactions that cannot be kept out, ``stays``; ``equations`` is
-    empty where these are more than four.
+    empty where these are more than four. ``least``: no set of balances of connected groups holds fewer reactions, whatever
+    the points and directions; ``groups``: how many groups that was shown of, ``exact`` if these are all.
+    ``virtual``: how many independent equations without reactions virtual power gives.
     """
 
     coordinates: tuple[str, ...]
     equations: tuple[BalanceEquation, ...]
     stays: tuple[str, ...]
+    forces: tuple[str, ...] = ()
+    least: int = 0
+    groups: int = 0
+    exact: bool = True
+    virtual: int = 0
+
+    @property
+    def proven(self) -> bool:
+        """Whether no set of balances does with fewer reactions."""
+        return self.exact and bool(self.equations) and self.least == len(self.stays)
+
+    @property
+    def wanted(self) -> int:
+        """How many accelerations and forces the equations are for."""
+        return len(self.coordinates) + len(self.forces)
 
     def __str__(self) -> str:
         from freebody.balances.show import show
@@ -31,25 +53,57 @@ class MinimalForm:
         return show(self)
 
 
-def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None) -> MinimalForm:
-    """The minimal form at ``states[0]``; the arguments are those of ``smallest_set``."""
-    given = problem(states)
-    coordinates = tuple(unknown.coordinate for unknown in given.unknowns if unknown.coordinate)
-    loads = bits(i for i, unknown in enumerate(given.unknowns) if not unknown.coordinate)
-    by_loads: dict[int, list[Candidate]] = {}
-    for support, alike in candidates(given, points or {}, counted=loads).by_support.items():
-        by_loads.setdefault(support & loads, []).extend(alike)
-    accelerations = bits(range(len(given.unknowns))) & ~loads
-    for size in range(WORTH + 1 if coordinates else 0):
-        if found := _form(by_loads, accelerations, size, len(coordinates)):
-            chosen, stays = found
-            names = tuple(unknown.name for i, unknown in enumerate(given.unknowns) if stays >> i & 1)
-            return MinimalForm(coordinates, tuple(equation(given, candidate) for candidate in chosen), names)
-    return MinimalForm(coordinates, (), ())
+def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None, forces: bool = False) -> MinimalForm:
+    """The minimal form at ``states[0]``; ``states`` and ``points`` are those of ``smallest_set``. ``forces``: equations for the
+    forces of prescribed motions are wanted as well. Where the loops are singular at ``states[0]``, the numbers are those of the next."""
+    given = problem(_regular(states))
+    moving = [i for i, unknown in enumerate(given.unknowns) if unknown.coordinate]
+    driving = [i for i in range(len(given.unknowns)) if forces and i not in moving and _drives(given, i)]
+    wanted = [*moving, *driving]
+    coordinates = tuple(given.unknowns[i].coordinate or "" for i in moving)
+    driven = tuple(given.unknowns[i].name for i in driving)
+    sets, every = groups(given)
+    if not wanted:
+        return MinimalForm(coordinates, (), (), driven)
+    shown = fewest(given, sets, wanted, WORTH)
+    told = (driven, shown, len(sets), every, without_reactions(given, wanted))
+    chosen, stays = _best(given, points or {}, wanted, bits(moving), shown)
+    names = tuple(unknown.name for i, unknown in enumerate(given.unknowns) if stays >> i & 1)
+    return MinimalForm(coordinates, tuple(equation(given, candidate) for candidate in chosen), names, *told)
 
 
-def _form(by_loads: Supports, accelerations: int, size: int, freedom: int) -> tuple[list[Candidate], int] | None:
-    """The best set in all accelerations and ``size`` loads, and these loads as bits."""
-    sets = ((unknowns, within(by_loads, unknowns)) for unknowns in grown(by_loads, 0, size, size))
-    solved = ((plainest(equations, size + freedom, accelerations), unknowns) for unknowns, equations in sets)
+def _regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
+    """Without the first where its loops hold less than they do near by, and so do not tell which coordinates are free."""
+    ranks = [_rank(state) for state in states]
+    return states[1:] if len(states) > 1 and ranks[0] < ranks[1] else states
+
+
+def _rank(state: FreeBodies) -> int:
+    table = np.array([list(row.coefficients.values()) for row in state.rows])
+    return int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max())) if table.size else 0
+
+
+def _drives(given: Problem, place: int) -> bool:
+    load = given.load(given.unknowns[place])
+    return load is not None and load.kind == "motion"
+
+
+def _best(
+    given: Problem, points: NamedPoints, wanted: Sequence[int], accelerations: int, least: int
+) -> tuple[list[Candidate], int]:
+    """The plainest set with the fewest reactions, from ``least`` on, and these as bits."""
+    reactions = bits(range(len(given.unknowns))) & ~bits(wanted)
+    by_reactions: dict[int, list[Candidate]] = {}
+    for support, alike in candidates(given, points, counted=reactions).by_support.items():
+        by_reactions.setdefault(support & reactions, []).extend(alike)
+    for size in range(least, WORTH + 1):
+        if found := _of_size(by_reactions, accelerations, size, len(wanted)):
+            return found
+    return [], 0
+
+
+def _of_size(by_reactions: Supports, accelerations: int, size: int, wanted: int) -> tuple[list[Candidate], int] | None:
+    """The best set with ``size`` reactions, and these as bits."""
+    sets = ((unknowns, within(by_reactions, unknowns)) for unknowns in unions(by_reactions, size))
+    solved = ((plainest(equations, size + wanted, accelerations), unknowns) for unknowns, equations in sets)
     return min(((chosen, stays) for chosen, stays in solved if chosen), key=lambda f: set_cost(f[0], accelerations), default=None)

@@ -80,13 +80,18 @@ def _why(problem: Problem, candidate: Candidate, place: Place, unknown: Unknown)
         if place.kind == "AMB":
             return f"it makes no moment of inertia about {place.short}"
         return f"it accelerates no mass centre along {place.short}"
-    return why_absent(load, names, place, problem.length)
+    rubs = any(other.follows and other.follows[0] == unknown.load for other in problem.free.loads)
+    return why_absent(load, names, place, problem.length, rubs)
 
 
-def why_absent(load: Load, names: Sequence[str], place: Place, length: float) -> str:
-    """Why a load is not in the balance of a group (``names``); ``length`` is the size of the mechanism, m."""
+def why_absent(load: Load, names: Sequence[str], place: Place, length: float, rubs: bool = False) -> str:
+    """Why a load is not in the balance of a group (``names``); ``length`` is the size of the mechanism, m; ``rubs``: friction
+    follows from it, and is meant with it."""
     if load.inside(names):
         return f"it is internal to {' + '.join(names)}"
+    if rubs and not (place.kind == "AMB" and _acts_at(load, names, place.at, length)):
+        sum_is = "passes through" if place.kind == "AMB" else "is perpendicular to"
+        return f"its sum with its friction {sum_is} {place.short}"
     unit = load.unit(names, place.at if place.kind == "AMB" else (0.0, 0.0))
     if np.hypot(unit[0], unit[1]) <= ABSENT * max(1.0, abs(unit[2])):
         return "it is a couple, which has no part in a force balance"

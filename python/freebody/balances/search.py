@@ -37,6 +37,14 @@ def grown(by_support: Supports, start: int, size: int, least: int = 0) -> Iterat
                 edge.append(more)
 
 
+def unions(by_support: Supports, size: int) -> list[int]:
+    """All sets of ``size`` unknowns that are put together from whole equations, those of the last unknowns first."""
+    made = {0}
+    for support in by_support:
+        made |= {more for unknowns in made if (more := unknowns | support).bit_count() <= size}
+    return sorted((unknowns for unknowns in made if unknowns.bit_count() == size), reverse=True)
+
+
 def within(by_support: Supports, unknowns: int) -> list[Candidate]:
     """The equations with no unknown outside a set."""
     found, part = list(by_support.get(0, ())), unknowns

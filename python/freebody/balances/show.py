@@ -10,7 +10,7 @@ from freebody.balances.minimal import MinimalForm
 from freebody.balances.smallest import SmallestSet, VirtualPower
 from freebody.tables import figure
 
-_COUNT = ("no", "one", "two", "three", "four")
+COUNT = ("no", "one", "two", "three", "four", "five")
 
 
 def show(found: SmallestSet | MinimalForm) -> str:
@@ -29,7 +29,7 @@ def _smallest(found: SmallestSet) -> str:
     else:
         number = len(found.equations)
         plural = "balance equation gives" if number == 1 else f"balance equations in {names} give"
-        lines = [f"{_COUNT[number].capitalize()} {plural} {found.wanted}:"]
+        lines = [f"{COUNT[number].capitalize()} {plural} {found.wanted}:"]
         for i, equation in enumerate(found.equations, 1):
             lines += ["", *_equation(i, equation)]
     lines += ["", *(f"{name} = {figure(value)}" for name, value in found.values.items())]
@@ -44,18 +44,24 @@ def _smallest(found: SmallestSet) -> str:
 
 
 def _minimal(found: MinimalForm) -> str:
-    names = ", ".join(found.coordinates)
+    names = ", ".join([*found.coordinates, *found.forces])
     if not names:
         return "Motions and loops prescribe every acceleration: there is no equation of motion."
-    if not found.equations:
-        return f"No set in {names} alone: more than four reactions cannot be kept out."
-    head = f"Minimal form in {names}, without reactions:"
-    if found.stays:
-        head = f"No set in {names} alone: {', '.join(found.stays)} cannot be kept out."
-    lines = [head]
+    lines = [f"Minimal form in {names}, without reactions:"]
+    if found.stays or not found.equations:
+        stay = f"here {', '.join(found.stays)}" if found.stays else "and more are not worth it"
+        lines = [f"No set in {names} alone: {fewest_words(found)}, {stay}."]
     for i, equation in enumerate(found.equations, 1):
         lines += ["", *_equation(i, equation)]
     return "\n".join(lines)
+
+
+def fewest_words(found: MinimalForm) -> str:
+    """How many reactions stay in every set of balances, and of which sets of bodies that was shown."""
+    some = f"{found.groups} connected sets of bodies"
+    tried = f"all {some} were tried" if found.exact else f"{some} were tried, there are too many to try all: this is no proof"
+    stay = "reaction stays" if found.least == 1 else "reactions stay"
+    return f"at least {COUNT[found.least]} {stay} in every set of balances ({tried}, with every point and direction)"
 
 
 def _equation(number: int, equation: BalanceEquation) -> list[str]:

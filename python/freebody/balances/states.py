@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody import _core
-from freebody.balances.system import alike
-from freebody.free_body import FreeBodies
+from freebody.balances.system import DEPENDENT, alike
+from freebody.free_body import FreeBodies, Load, Row
 from freebody.instant import State
 from freebody.results import Array
 
@@ -22,7 +22,10 @@ SEED = 20
 OTHERS = 3
 TRIES = 12
 NEARER = 0.7
-CORRECTIONS = 40
+CORRECTIONS = 60
+NEARLY, OUT = 0.98, 0.05
+"""Part of a gap by which it is closed at once; part by which one that is pierced is opened."""
+PLACES, RATES = 3, 4
 STEP = {"rad": 0.3, "m": 0.2}
 """How far a coordinate is moved: an angle in rad, a length as a part of the size of the mechanism."""
 CLOSED = 1e-12
@@ -54,6 +57,23 @@ def nearby(source: Source, state: State, parameters: Sequence[Array] = ()) -> li
     return found
 
 
+def wandering(source: Source, state: State) -> list[FreeBodies]:
+    """The free bodies at a state, and at others where the same things act: there and at places near by, with random rates that
+    keep closed what is closed, each at a time of its own."""
+    first = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
+    rng = np.random.default_rng(SEED)
+    scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.about["coordinates"]])
+    closing, found = _Closing(source, state, first), [first]
+    steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
+    for q in (closing.place(state.q + step) for step in steps):
+        for _ in range(RATES if q is not None else 0):
+            rates, t = scale * rng.uniform(-1, 1, len(scale)), state.t + rng.uniform(0, 1)
+            other = closing.moving(q, rates, t)
+            if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
+                found.append(other)
+    return found
+
+
 class _Closing:
     """Brings coordinates onto closed loops, and what touches or is taut back to a gap of 0."""
 
@@ -62,35 +82,74 @@ class _Closing:
         self.loose = _without_motions(source)
         self.names = [c["name"] for c in source.about["coordinates"]]
         limits = [limit["name"] for limit in source.about["limits"]]
-        normals = {row.name: row for row in reversed(first.rows) if row.name in limits}  # the first row of a limit is its gap's
-        self.closed = [limits.index(name) for name in normals]
-        self.slopes = np.array([[row.coefficients[name] for name in self.names] for row in normals.values()])
-        self.slopes = self.slopes.reshape(len(normals), len(self.names))
-        self.back = np.linalg.pinv(self.slopes) if normals else np.zeros((len(self.names), 0))
+        held = [(row, load) for row, load in _in_pairs(first) if row.name in limits]
+        self.closed = [limits.index(row.name) for row, _ in held]
+        self.normal = np.array([load.kind != "friction" for _, load in held], bool)
+        self.slopes = np.array([[row.coefficients[name] for name in self.names] for row, _ in held])
+        self.slopes = self.slopes.reshape(len(held), len(self.names))
+        self.back = np.linalg.pinv(self.slopes, rcond=DEPENDENT) if held else np.zeros((len(self.names), 0))
         self.size = _size(first)
 
     def near(self, q: Array) -> FreeBodies | None:
         """The free bodies where loops and gaps are closed near ``q``; None where they do not close."""
-        s = self.state
+        s, found = self.state, self.place(q)
+        if found is None:
+            return None
+        try:
+            return FreeBodies.read(self.core.free_bodies(s.p, s.t, found, s.u - self.back @ (self.slopes @ s.u)))
+        except _core.MotionError:
+            return None
+
+    def place(self, q: Array) -> Array | None:
+        """The coordinates near ``q`` where loops and gaps are closed, these from outside; None where they do not close."""
+        s, outward = self.state, self.back @ self.normal
         q = s.q + (np.eye(len(q)) - self.back @ self.slopes) @ (q - s.q)
+        out = OUT * self.size
         try:
             for _ in range(CORRECTIONS):
                 q, _, _ = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)))
                 gaps = self._gaps(q)
-                if np.abs(gaps).max(initial=0.0) < CLOSED * self.size:
-                    u = s.u - self.back @ (self.slopes @ s.u)
-                    return FreeBodies.read(self.core.free_bodies(s.p, s.t, q, u))
-                q = q - self.back @ gaps
+                if gaps is None:
+                    q, out = q + out * outward, 2 * out
+                elif (largest := np.abs(gaps).max(initial=0.0)) < CLOSED * self.size:
+                    return q
+                else:
+                    q, out = q - NEARLY * (self.back @ gaps), OUT * largest
         except _core.MotionError:
             pass
         return None
 
-    def _gaps(self, q: Array) -> Array:
+    def moving(self, q: Array, rates: Array, t: float) -> FreeBodies | None:
+        """The free bodies at a place and a time, at the rates nearest to some that keep closed what is closed."""
+        try:
+            still = FreeBodies.read(self.core.free_bodies(self.state.p, t, q, np.zeros_like(rates)))
+            held = np.array([[row.coefficients[name] for name in self.names] for row in still.rows]).reshape(-1, len(self.names))
+            rates = rates - np.linalg.pinv(held, rcond=DEPENDENT) @ (held @ rates)
+            return FreeBodies.read(self.core.free_bodies(self.state.p, t, q, rates))
+        except _core.MotionError:
+            return None
+
+    def _gaps(self, q: Array) -> Array | None:
+        """What is left of the gap of every row, 0 for one of friction; None where something is pierced, or stretched too far."""
         if not self.closed:
             return np.zeros(0)
         s = self.state
-        told = json.loads(self.core.instant(s.p, s.t, q, np.zeros_like(s.u)).limits)
-        return np.array([told[i]["gap"] for i in self.closed])
+        try:
+            told = json.loads(self.core.instant(s.p, s.t, q, np.zeros_like(s.u)).limits)
+        except _core.MotionError as error:
+            if error.args[0] == "penetration":
+                return None
+            raise
+        return np.array([told[i]["gap"] for i in self.closed]) * self.normal
+
+
+def _in_pairs(free: FreeBodies) -> Iterator[tuple[Row, Load]]:
+    """The rows with the loads that hold them, which come in the same order, those of each name."""
+    for name in dict.fromkeys(row.name for row in free.rows):
+        rows = [row for row in free.rows if row.name == name]
+        yield from zip(
+            rows, [load for load in free.loads if load.name == name and load.unknown and not load.follows], strict=False
+        )
 
 
 def _without_motions(source: Source) -> _core.Mechanism:

@@ -63,6 +63,32 @@ def mass_centre(problem: Problem, group: Sequence[int]) -> Twists:
     return [twist], np.array([np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])])
 
 
+def clear_shifts(problem: Problem, columns: Array, boundary: Sequence[int]) -> Twists:
+    """The shifts across all that one load of a boundary does to the group, be it in several places. ``columns`` (ns, nu, 3)."""
+    found: list[tuple[Twist, Array]] = []
+    for i in boundary:
+        load, force = problem.load(problem.unknowns[i]), columns[:, i, :2]
+        size = np.linalg.norm(force, axis=1, keepdims=True)
+        if load is None or size.min() == 0:
+            continue
+        motion = np.column_stack([-force[:, 1], force[:, 0], np.zeros(len(force))]) / size
+        question = {"along": {"clear": problem.unknowns[i].load}}
+        found.append((Twist(f"the direction across {load.symbol}", rank=4, question=question), motion))
+    return [twist for twist, _ in found], np.array([motion for _, motion in found]).reshape(len(found), len(columns), 3)
+
+
+def known_shifts(problem: Problem) -> Twists:
+    """The shifts across every known force."""
+    found: list[tuple[Twist, Array]] = []
+    for i, load in enumerate(problem.free.loads):
+        f = None if load.unknown else _directions(problem, i)
+        if f is not None:
+            words = f"the direction across {'gravity' if load.kind == 'weight' else load.name}"
+            twist = Twist(words, rank=4, question={"along": {"across": i}})
+            found.append((twist, np.column_stack([-f[:, 1], f[:, 0], np.zeros(len(f))])))
+    return [twist for twist, _ in found], np.array([motion for _, motion in found]).reshape(len(found), len(problem.systems), 3)
+
+
 def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
     """For every two unknowns of a boundary the motion in which neither does work. ``columns`` (ns, nu, 3)."""
     sizes = np.linalg.norm(columns, axis=2, keepdims=True)
@@ -128,10 +154,17 @@ def _joint_directions(problem: Problem) -> list[tuple[Twist, Array]]:
 
 
 def _directions(problem: Problem, load: int) -> Array | None:
-    """Unit direction of the force of a load at every state (ns, 2); None if it has no force."""
-    forces = np.array([system.free.loads[load].on[-1].force for system in problem.systems])
-    size = np.linalg.norm(forces, axis=1, keepdims=True)
-    return forces / size if size.min() > 0 else None
+    """Unit direction of the force of a load at every state (ns, 2); None if it has no force, or several, as a cable over pulleys."""
+    parts = np.array([[part.force for part in system.free.loads[load].on] for system in problem.systems])
+    if not parts.size:
+        return None
+    size = np.linalg.norm(parts, axis=2, keepdims=True)
+    if size.min() == 0:
+        return None
+    units = parts / size
+    last = units[:, -1]
+    across = units[:, :, 0] * last[:, None, 1] - units[:, :, 1] * last[:, None, 0]
+    return last if np.abs(across).max() < ONE_LINE else None
 
 
 def _direction_words(problem: Problem, load: Load, f: Array) -> tuple[str, str]:

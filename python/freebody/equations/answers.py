@@ -13,6 +13,7 @@ from freebody.balances.states import nearby
 from freebody.balances.system import NotUnknown
 from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.equations.enough import Enough, Search
@@ -120,7 +121,8 @@ def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapp
     values = {name: found[x] for name, x in wanted.items()}
     checked = _check(subject, chosen, {x: found[x] for x in wanted.values()})
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
-    document = Document((*said, *made, *_limits(subject, at, limits)), letters)
+    told = (*said, *made, *_limits(subject, at, limits))
+    document = Document(tuple(lettered(block, letters) for block in told), letters)
     return Answers(values, at, letters, document, checked)
 
 

@@ -109,16 +109,28 @@ class Quantity(NamedTuple):
 
 
 # What most models use, so that they need not wait for the registry.
-_COHERENT = {
-    "m": LENGTH,
-    "kg": MASS,
-    "s": TIME,
-    "rad": ANGLE,
-    "N": FORCE,
-    "J": ENERGY,
-    "W": Dimension(2, 1, -3),
-    "Pa": Dimension(-1, 1, -2),
+_THOUSAND = Fraction(1000)
+_EVERYDAY = {
+    "m": Unit(Fraction(1), LENGTH),
+    "mm": Unit(1 / _THOUSAND, LENGTH),
+    "cm": Unit(Fraction(1, 100), LENGTH),
+    "km": Unit(_THOUSAND, LENGTH),
+    "kg": Unit(Fraction(1), MASS),
+    "g": Unit(1 / _THOUSAND, MASS),
+    "s": Unit(Fraction(1), TIME),
+    "ms": Unit(1 / _THOUSAND, TIME),
+    "min": Unit(Fraction(60), TIME),
+    "rad": Unit(Fraction(1), ANGLE),
+    "deg": Unit(Fraction(math.pi) / 180, ANGLE),
+    "°": Unit(Fraction(math.pi) / 180, ANGLE),
+    "N": Unit(Fraction(1), FORCE),
+    "kN": Unit(_THOUSAND, FORCE),
+    "J": Unit(Fraction(1), ENERGY),
+    "W": Unit(Fraction(1), Dimension(2, 1, -3)),
+    "Pa": Unit(Fraction(1), Dimension(-1, 1, -2)),
+    "Hz": Unit(Fraction(1), Dimension(0, 0, -1)),
 }
+"""What most models do with, so that they need not wait for the registry to be read."""
 _MORE = (
     f"pi = {Decimal(math.pi)} = π",
     "lbm = pound",
@@ -159,8 +171,11 @@ def _not_a_unit() -> tuple[type[Exception], ...]:
 @cache
 def word(text: str) -> Unit | None:
     """The unit of one word, e.g. ``mm``; None when there is none of mechanics."""
-    if text in _COHERENT:
-        return Unit(Fraction(1), _COHERENT[text])
+    return _EVERYDAY.get(text) or registered(text)
+
+
+def registered(text: str) -> Unit | None:
+    """The unit of one word as the registry knows it."""
     if text in _NO_UNITS or not (text.isidentifier() or text == "°"):
         return None
     registry = _registry()

@@ -8,8 +8,8 @@ use super::vectors::{tree, tree_by};
 use super::Letters;
 use crate::algebra::{Letter, Tree};
 use crate::balance::Trouble;
-use crate::free_bodies::{Load, Part};
-use crate::plane::{vec2, Vec2};
+use crate::free_bodies::{Load, Part, Size};
+use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::{Scalar, Symbol};
 use serde_json::{json, Value};
 
@@ -68,6 +68,24 @@ impl Letters<'_> {
         part.copied().ok_or_else(|| Trouble::new("unknown_name", format!("`{}` acts on nothing", load.symbol)))
     }
 
+    /// What a load does to a group, with the friction that follows from it: its force, and its moment about the origin.
+    fn wrench(&self, index: usize, bodies: &[usize]) -> Result<Wrench<Symbol>, Trouble> {
+        let own = self.acts_on(index, bodies)?.body;
+        let with = |load: &Load<Symbol>| match load.size {
+            Size::Follows(of, ratio) if of == index => Some(ratio),
+            _ => None,
+        };
+        let followers = self.loads.iter().filter_map(|load| with(load).map(|ratio| (load, ratio)));
+        let mut sum = Wrench::zero();
+        for (load, ratio) in std::iter::once((self.load(index)?, Symbol::one())).chain(followers) {
+            for part in load.parts.iter().filter(|part| part.body == own || bodies.contains(&part.body)) {
+                let force = Wrench::force(part.force, part.point);
+                sum += Wrench { m: force.m + part.couple, ..force } * ratio;
+            }
+        }
+        Ok(sum)
+    }
+
     fn turned_about(&self, about: &About, bodies: &[usize]) -> Result<Test, Trouble> {
         let at = self.at();
         let point = match about {
@@ -76,7 +94,7 @@ impl Letters<'_> {
                 self.k.pose[self.m.body_of(site)].place(at.n.arms[site])
             }
             About::Load(index) => self.acts_on(*index, bodies)?.point,
-            About::Meeting(a, b) => return Ok(meeting(self.acts_on(*a, bodies)?, self.acts_on(*b, bodies)?)),
+            About::Meeting(a, b) => return Ok(meeting(self.wrench(*a, bodies)?, self.wrench(*b, bodies)?)),
             About::Centre => self.centre_of(bodies),
         };
         Ok(Test::about(point))
@@ -101,6 +119,7 @@ impl Letters<'_> {
             Along::Y => vec2(zero, one),
             Along::Load(index) => self.acts_on(*index, bodies)?.force,
             Along::Across(index) => self.acts_on(*index, bodies)?.force.perp(),
+            Along::Clear(index) => self.wrench(*index, bodies)?.f.perp(),
             Along::Body(name) => {
                 let turn = self.k.pose[self.body(name)?].turn;
                 vec2(turn.cos, turn.sin)
@@ -239,10 +258,9 @@ impl Letters<'_> {
     }
 }
 
-/// A turn about the place where two lines meet.
-fn meeting(a: Part<Symbol>, b: Part<Symbol>) -> Test {
-    let scale = a.force.cross(b.force);
-    Test::Moment { about: a.point * scale + a.force * (b.point - a.point).cross(b.force), scale }
+/// A turn about the place where two lines meet: neither load has power in it.
+fn meeting(a: Wrench<Symbol>, b: Wrench<Symbol>) -> Test {
+    Test::Moment { about: a.f * b.m - b.f * a.m, scale: a.f.cross(b.f) }
 }
 
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> Trouble {

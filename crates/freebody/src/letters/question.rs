@@ -19,7 +19,7 @@ pub enum About {
     Point(String),
     /// Where a load acts, by its place in the list of loads.
     Load(usize),
-    /// Where the lines of two loads meet.
+    /// Where the lines of two loads meet, each with the friction that follows from it.
     Meeting(usize, usize),
     /// The mass centre of the group.
     Centre,
@@ -37,6 +37,8 @@ pub enum Along {
     Load(usize),
     /// Across that of a load, a right angle counter-clockwise on.
     Across(usize),
+    /// Across all that a load does to the group, with the friction that follows from it.
+    Clear(usize),
     /// The x axis of a body.
     Body(String),
 }
@@ -98,6 +100,13 @@ pub enum Question {
     Energy,
     /// Lagrange's equations.
     Lagrange,
+    /// Virtual power in motions that keep closed what is closed: one equation for each coordinate that is not bound.
+    VirtualPower {
+        /// The coordinates that follow from the rows.
+        bound: Vec<String>,
+        /// The rows by their places, as many.
+        rows: Vec<usize>,
+    },
     /// The equations of the coordinates for small departures from rest at given coordinates.
     Linear {
         /// Coordinates that are numbers there; the others stay letters.
@@ -162,6 +171,7 @@ impl Letters<'_> {
             Question::Frame { point, body } => self.frame(point, body),
             Question::Energy => Ok(self.energy()),
             Question::Lagrange => Ok(self.lagrange()),
+            Question::VirtualPower { bound, rows } => self.virtual_power(bound, rows),
             Question::Linear { at } => Ok(self.linearised(at)),
         }
     }

@@ -14,6 +14,7 @@ from freebody.equations.derivation.constrained import constrained
 from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
+from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Subject
 from freebody.equations.derivation.wanted import wanted
 from freebody.equations.document import Block, Document, Equation, Heading
@@ -151,7 +152,7 @@ class _Writer:
         if self.form != "constraints":
             first += opening.configuration(self.subject)
         blocks = (*first, *opening.letters(self.letters, used(body)), *body)
-        return Document(tuple(map(readable, blocks)), self.letters)
+        return Document(tuple(lettered(readable(block), self.letters) for block in blocks), self.letters)
 
     def _body(self) -> list[Block]:
         kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)

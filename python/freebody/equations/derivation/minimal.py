@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
 
 from freebody.balances.equation import BalanceEquation
-from freebody.balances.minimal import minimal_form
+from freebody.balances.minimal import MinimalForm, minimal_form
+from freebody.balances.show import fewest_words
 from freebody.balances.states import nearby
-from freebody.equations.derivation import closing
+from freebody.equations.derivation import closing, virtual
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
@@ -17,72 +17,84 @@ from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Heading, Paragraph
 
 
+@dataclass(frozen=True)
+class _Chosen:
+    """The equations, and the search that they come from: None for those of the coordinates of a tree, which need none."""
+
+    stated: list[Stated]
+    search: MinimalForm | None
+
+
 def minimal(subject: Subject) -> Form:
     """The minimal form of a subject.
 
     In a tree these are the balances of the coordinates. With loops they are looked for among all connected sets of bodies; where
-    none exist, or only about points of inertia, the balances of the coordinates stand with the reactions of what closes loops."""
+    all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows = subject.rows
-    rubs = any(load.follows for load in subject.free.loads)
-    chosen = None if all(row.kind == "motion" for row in rows) and not rubs else _searched(subject)
-    stated = chosen or of_coordinates(subject)
-    stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(stated, 1)]
+    chosen = _chosen(subject)
+    stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(chosen.stated, 1)]
     equations = [_printed(s) for s in stated]
     form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
-    made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, bool(chosen), len(stated)))]
+    made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, chosen))]
     for s in stated:
         made += blocks(subject, s)
+    if chosen.search and (chosen.search.stays or not chosen.search.equations) and stated:
+        made += virtual.section(subject, chosen.search.wanted)
     return Form(form.equations, tuple(made), form.system, form.reactions)
 
 
 def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stated] | None:
     """Equations that a search found, in letters; None if one of them has no question."""
     asked = [equation.question for equation in equations]
-    if any(question is None or _several(subject, question) for question in asked):
+    if None in asked:
         return None
     found = subject.balances([question for question in asked if question])
     return [_of_search(subject, balance, equation) for balance, equation in zip(found, equations, strict=True)]
 
 
-def _several(subject: Subject, question: Mapping[str, Any]) -> bool:
-    """Whether a load that makes the point or direction acts on the group in several places, as a cable over pulleys does."""
-    about, along = question.get("about"), question.get("along")
-    named = about.get("meeting", ()) if isinstance(about, Mapping) else along.values() if isinstance(along, Mapping) else ()
-    loads = [subject.free.loads[i] for i in named if isinstance(i, int)]
-    return any(sum(part.body in question["bodies"] for part in load.on) > 1 for load in loads)
-
-
 def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) -> Stated:
-    gone = {name for item in equation.dropped for name in item.unknowns}
-    places = [i for i, load in enumerate(subject.free.loads) if load.symbol in gone]
-    return Stated(balance.without(places, gone), equation.about, "about" if balance.turns else "along", "", equation.constructed)
+    """What the search knows to drop out may be seen in the letters only where loops are closed."""
+    gone = {name for item in equation.dropped for name in item.unknowns} & {x.name for x in balance.linear.coefficients}
+    loads = subject.free.loads
+    leading = {i for i, load in enumerate(loads) if load.symbol in gone}
+    places = [i for i, load in enumerate(loads) if i in leading or (load.follows and load.follows[0] in leading)]
+    where = "about" if balance.turns else "along"
+    return Stated(balance.without(places, gone), equation.about, where, "", equation.constructed)
 
 
-def _searched(subject: Subject) -> list[Stated] | None:
-    found = minimal_form(nearby(subject.source, subject.state), subject.points)
-    return from_search(subject, list(found.equations)) if found.equations else None
+def _chosen(subject: Subject) -> _Chosen:
+    rubs = any(load.follows for load in subject.free.loads)
+    if all(row.kind == "motion" for row in subject.rows) and not rubs:
+        return _Chosen(of_coordinates(subject), None)
+    search = minimal_form(nearby(subject.source, subject.state), subject.points, forces=True)
+    found = from_search(subject, list(search.equations))
+    return _Chosen(found if found or not search.wanted else of_coordinates(subject), search)
 
 
 def _printed(stated: Stated) -> Printed:
     return Printed(stated.title, *stated.sides, stated.balance.linear)
 
 
-def _introduction(subject: Subject, form: Form, searched: bool, number: int) -> str:
+def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
+    number, search = len(chosen.stated), chosen.search
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
     others = [name for name in form.reactions if name not in prescribed]
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
-        return "There is nothing to balance."
+        return "Nothing is free to move: no equation of motion is left. What holds it is found by brute force."
     each = "" if number == 1 else ", one for each degree of freedom,"
     said = [f"{count}{each} in which no reaction stands."]
-    if others and searched:
-        more = "so there is one" if number == 1 else f"so there are {number}"
-        said = [f"No set of balance equations is free of reactions: {joined(others)} cannot be kept out, {more}."]
-    elif others:
-        said = [f"{count}, one for each coordinate. {joined(others)} cannot be kept out: they hold what is closed above."]
+    if others and search:
+        said = [f"No set of balance equations is free of reactions: {fewest_words(search)}."]
+        said.append(
+            f"Here {joined(others)} {'stays' if len(others) == 1 else 'stay'}, so there {'is' if number == 1 else 'are'} {number}."
+            if search.equations
+            else f"So the balances of the coordinates stand, and in them {joined(others)}, which hold what is closed above."
+        )
     elif prescribed:
-        said = [f"{count}, one for each coordinate, in which no reaction of a joint stands."]
+        said = [f"{count}{each} in which no reaction of a joint stands."]
     if prescribed:
-        said.append(f"The accelerations of prescribed motions are known; {joined(prescribed)} is unknown in their place.")
+        verb = "is" if len(prescribed) == 1 else "are"
+        said.append(f"The accelerations of prescribed motions are known; {joined(prescribed)} {verb} unknown in their place.")
     return " ".join(said)

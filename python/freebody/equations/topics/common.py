@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from freebody.equations.collect import factored
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.derive import used
+from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Arrow, Subject
 from freebody.equations.document import Block, Document, Heading
 from freebody.equations.letters import Letter, Letters
@@ -34,7 +35,8 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
     sketch = [opening.sketch(subject)] if subject.coordinates else []
-    return Document((first, *sketch, *opening.letters(letters, used(list(blocks))), *blocks), letters)
+    made = (first, *sketch, *opening.letters(letters, used(list(blocks))), *blocks)
+    return Document(tuple(lettered(block, letters) for block in made), letters)
 
 
 def moving_names(subject: Subject) -> list[str]:

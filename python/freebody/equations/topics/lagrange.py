@@ -2,24 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import random
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from typing import TYPE_CHECKING, TypeAlias
 
+import numpy as np
+
+from freebody.equations.collect import quotient
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, Written
+from freebody.equations.linear import linear_in
 from freebody.equations.simplify import equal
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
-from freebody.equations.tree import ZERO, Num, Sym, Tree, add, is_zero, minus, mul, negative, read
+from freebody.equations.tree import ZERO, Num, Sym, Tree, add, evaluate, is_zero, minus, mul, negative, read, symbols, walk
+from freebody.results import Array
 
 if TYPE_CHECKING:
     from freebody.instant import State
     from freebody.model.builder import Builder
 
+Coefficients: TypeAlias = Mapping[Sym, Tree]
+_MOST_SIGNS = 400
+"""Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for in letters."""
+_SAMPLES, _NOTHING = 3, 1e-8
 _KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
 
 
@@ -52,6 +63,11 @@ def combination(subject: Subject, of: Sequence[Lagrange], balances: Sequence[Sta
     inertia = [[balance.balance.linear.coefficients.get(x, ZERO) for x in accelerations] for balance in balances]
     made: list[list[Tree]] = []
     for each in of:
+        if row := _plain(each, balances, accelerations):
+            made.append(row)
+            continue
+        if sum(1 for entry in (each.residual, *(x for row in inertia for x in row)) for _ in walk(entry)) > _MOST_SIGNS:
+            return None
         own = _coefficients(each.residual, accelerations)
         try:
             made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.letters))
@@ -61,6 +77,34 @@ def combination(subject: Subject, of: Sequence[Lagrange], balances: Sequence[Sta
         if not equal(each.residual, add(*sides)):
             return None
     return made
+
+
+def _plain(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[Sym]) -> list[Tree] | None:
+    """The factors where they are whole numbers, or all but one are 0: numbers tell, and nothing need be solved in letters."""
+    try:
+        own = linear_in(each.residual, accelerations).coefficients
+    except ValueError:
+        return None
+    theirs = [balance.balance.linear.coefficients for balance in balances]
+    seen = np.array([_factors(own, theirs, accelerations, seed) for seed in range(_SAMPLES)])
+    present = np.flatnonzero(np.abs(seen).max(axis=0) > _NOTHING)
+    row = [Num(Fraction(round(x))) for x in seen[0]]
+    if np.abs(seen - np.round(seen[0])).max() > _NOTHING:
+        if len(present) != 1:
+            return None
+        x = next(x for x in own if x in theirs[present[0]] and not is_zero(own[x]))
+        row = [quotient(own[x], theirs[i][x]) if i == present[0] else ZERO for i in range(len(balances))]
+    sides = [mul(row[i], balances[i].balance.residual) for i in present]
+    return row if equal(each.residual, add(*sides)) else None
+
+
+def _factors(own: Coefficients, theirs: Sequence[Coefficients], accelerations: Sequence[Sym], seed: int) -> Array:
+    """The factors at random values of all letters."""
+    draw = random.Random(seed)
+    letters = sorted(symbols(*own.values(), *(tree for row in theirs for tree in row.values())), key=str)
+    values = {letter: draw.uniform(0.3, 1.9) for letter in letters}
+    rows = [[evaluate(row.get(x, ZERO), values) for x in accelerations] for row in (own, *theirs)]
+    return np.linalg.lstsq(np.array(rows[1:], float).T, np.array(rows[0], float), rcond=None)[0]
 
 
 def lagrange(mechanism: Builder, state: State) -> Document:
@@ -114,8 +158,6 @@ def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated
 
 
 def _at_state(subject: Subject, found: Sequence[Lagrange]) -> str:
-    from freebody.equations.tree import evaluate
-
     values, tables = subject.values, subject.tables
     largest = max(abs(float(evaluate(each.residual, values, tables))) for each in found)
     return (

@@ -1,0 +1,128 @@
+"""Momenta that stay constant, in letters, each with the reason for every load that could change it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody.balances.lasting import Lasting, independent, lasting
+from freebody.balances.reasons import Place, agree, why_absent
+from freebody.balances.states import wandering
+from freebody.equations.collect import factored
+from freebody.equations.derivation.balancing import size
+from freebody.equations.derivation.meaning import joined, load_words
+from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.document import Block, Equation, Paragraph, Written
+from freebody.equations.names import upright
+from freebody.equations.tree import Mul, Tree, is_zero, mul, symbols
+from freebody.free_body import Load
+
+_ABSENT = 1e-9
+"""Part of a load below which it has none in a balance."""
+_NONE = (
+    "No momentum is conserved, of no set of bodies that are joined: along no direction, about no fixed point and no mass centre."
+)
+_CANCEL = "in this they cancel each other"
+
+
+@dataclass(frozen=True)
+class Momentum:
+    """A constant ``momentum`` of some bodies, ``found`` in numbers; the balance says that its rate is 0."""
+
+    found: Lasting
+    momentum: Tree
+
+    @property
+    def where(self) -> str:
+        """``about ground.O``, ``along x``."""
+        return f"{'about' if self.found.turns else 'along'} {_name(self.found)}"
+
+
+def momenta(subject: Subject) -> list[Momentum]:
+    """All that do not follow from each other. Numbers say which may be constant, letters whether they are."""
+    may_be = lasting(wandering(subject.source, subject.state), subject.points)
+    told: dict[int, Balance] = {}
+    while asked := [each for each in independent(may_be) if id(each) not in told]:
+        questions = [{"ask": "equation", "bodies": list(each.bodies), **(each.twist.question or {})} for each in asked]
+        told |= {id(each): balance for each, balance in zip(asked, subject.balances(questions), strict=True)}
+        may_be = [each for each in may_be if id(each) not in told or _holds(subject, each, told[id(each)])]
+    return [Momentum(each, _written(subject, each, told[id(each)])) for each in independent(may_be)]
+
+
+def _holds(subject: Subject, found: Lasting, balance: Balance) -> bool:
+    """Whether a balance has no loads in letters; or has none in numbers, and loops and contacts are closed, which letters do not see.
+    The numbers are enough only if they were taken at several places."""
+    moving = {c["name"] for c in subject.coordinates}
+    stands = found.twist.question == {"about": "centre"} or not any(x.name in moving for x in symbols(*balance.place.xy))
+    return (is_zero(balance.left) and stands) or (found.elsewhere and bool(subject.rows))
+
+
+def section(subject: Subject, in_letters: bool) -> list[Block]:
+    """Each with its reason; ``in_letters``: and what it is in the coordinates."""
+    made: list[Block] = []
+    for each in momenta(subject):
+        made.append(Paragraph(_sentence(subject, each)))
+        if in_letters:
+            made.append(Equation(_letter(subject, each.found), each.momentum))
+    return made or [Paragraph(_NONE)]
+
+
+def _letter(subject: Subject, found: Lasting) -> Written:
+    """``L_x``, ``H/ground.O``, about the mass centre of the whole ``H/G``; plain for a part of the whole, or another direction."""
+    question = found.twist.question or {}
+    about, along = question.get("about"), question.get("along")
+    whole = len(found.bodies) == len(subject.free.bodies)
+    point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
+    if whole and isinstance(along, str):
+        return Written(f"L_{along}", f"L_{along}")
+    if whole and point:
+        return Written(f"H/{point}", rf"H_{{/{upright(point)}}}")
+    plain = "H" if found.turns else "L"
+    return Written(plain, plain)
+
+
+def _written(subject: Subject, found: Lasting, balance: Balance) -> Tree:
+    """The momentum; along a direction that is that of a load, without the constant factors that this has."""
+    if balance.turns or isinstance((found.twist.question or {}).get("along"), str):
+        return balance.momentum
+    moving = {c["name"] for c in subject.coordinates}
+    made = factored(balance.momentum)
+    if not isinstance(made, Mul):
+        return made
+    return mul(*(f for f in made.factors if any(x.name in moving for x in symbols(f))))
+
+
+def _sentence(subject: Subject, each: Momentum) -> str:
+    bodies = each.found.bodies
+    whole = 1 < len(bodies) == len(subject.free.bodies)
+    of = "" if whole else f" of {' + '.join(bodies)}"
+    what = "angular momentum" if each.found.turns else "momentum"
+    return f"The {what}{of} {each.where} is conserved: {_reason(subject, each.found)}."
+
+
+def _name(found: Lasting) -> str:
+    alone = len(found.bodies) == 1 and found.twist.question == {"about": "centre"}
+    return "its mass centre" if alone else found.twist.name
+
+
+def _reason(subject: Subject, found: Lasting) -> str:
+    place = Place("AMB" if found.turns else "LMB", _name(found), found.at, False)
+    said: dict[str, list[str]] = {}
+    for i, load in enumerate(subject.free.loads):
+        if load.follows or load.inside(found.bodies) or not np.any(load.unit(found.bodies)):
+            continue
+        rubs = any(other.follows and other.follows[0] == i for other in subject.free.loads)
+        why = why_absent(load, found.bodies, place, size(subject), rubs) if load.unknown or not _works(load, found) else _CANCEL
+        said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load))
+    if not said:
+        return "nothing acts from outside"
+    return f"from outside act {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"
+
+
+def _works(load: Load, found: Lasting) -> bool:
+    """Whether a known load has a part in the balance by itself."""
+    x, y, moment = load.unit(found.bodies, found.at if found.turns else (0.0, 0.0))
+    power = moment if found.turns else x * found.at[0] + y * found.at[1]
+    return bool(abs(power) > _ABSENT * max(1.0, abs(x), abs(y), abs(moment)))

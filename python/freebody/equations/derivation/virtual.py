@@ -1,0 +1,107 @@
+"""Virtual power: equations without reactions where no balance of a rigid group gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody import _core
+from freebody.balances.states import nearby
+from freebody.balances.system import DEPENDENT
+from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.told import Subject
+from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
+from freebody.equations.linear import Linear
+from freebody.equations.names import latex_name, unicode_name
+from freebody.equations.tree import Tree, is_zero, minus, read
+from freebody.results import Array
+
+
+@dataclass(frozen=True)
+class VirtualPower:
+    """The power of all loads, ``left``, is that of all inertia, ``right``, where the coordinates change at virtual ``rates``
+    that keep closed what is closed; ``linear`` is right − left in what is unknown."""
+
+    rates: dict[str, Tree]
+    left: Tree
+    right: Tree
+    linear: Linear
+
+    @property
+    def residual(self) -> Tree:
+        """right − left."""
+        return minus(self.right, self.left)
+
+    @property
+    def reactions(self) -> list[str]:
+        """Unknown loads that have power even so: forces of motions, and what friction follows from."""
+        return [letter.name for letter in self.linear.coefficients if not letter.dots]
+
+
+def virtual_power(subject: Subject) -> list[VirtualPower]:
+    """One equation for each degree of freedom, prescribed ones among them. Raises ``_core.MotionError`` where they grow too large."""
+    names = [c["name"] for c in subject.coordinates]
+    rows = [i for i, row in enumerate(subject.rows) if row.kind != "motion"]
+    told = nearby(subject.source, subject.state)[-1].rows
+    table = np.array([[told[i].coefficients[name] for name in names] for i in rows]).reshape(len(rows), len(names))
+    bound = [len(names) - 1 - place for place in _independent(table[:, ::-1].T)]
+    kept = _independent(table[:, bound])
+    asked = {"ask": "virtual_power", "bound": [names[i] for i in bound], "rows": [rows[i] for i in kept]}
+    return [_read(each, names) for each in subject.ask([asked])[0]]
+
+
+def section(subject: Subject, wanted: int) -> list[Block]:
+    """The equations, or why there are none; ``wanted``: how many would be enough."""
+    said = "The principle of virtual power does without: the bodies move all at once, so that what is closed stays closed, and no reaction has power"
+    head = Heading("Virtual power", 3)
+    try:
+        found = virtual_power(subject)
+    except _core.MotionError as error:
+        if error.args[0] != "too_large":
+            raise
+        return [head, Paragraph(f"{said}. In letters the equations are too long to be written.")]
+    driving = {load.symbol for load in subject.free.loads if load.kind == "motion"}
+    working = list(dict.fromkeys(name for each in found for name in each.reactions if name not in driving))
+    if working:
+        return [
+            head,
+            Paragraph(
+                f"The principle of virtual power does not do without either: {joined(working)} {'has' if len(working) == 1 else 'have'} power, by friction or by a law of the force."
+            ),
+        ]
+    made: list[Block] = [head, Paragraph(f"{said}. {_count(wanted)}")]
+    for each in found:
+        made += _blocks(each)
+    return made
+
+
+def _read(data: dict, names: Sequence[str]) -> VirtualPower:
+    rates = {name: read(data["rates"][name]) for name in names}
+    return VirtualPower(rates, read(data["left"]), read(data["right"]), Linear.read(data["linear"]))
+
+
+def _independent(rows: Array) -> list[int]:
+    """The first rows of which none follows from those before."""
+    found: list[int] = []
+    for i in range(len(rows)):
+        sizes = np.linalg.svd(rows[[*found, i]], compute_uv=False)
+        if len(sizes) == len(found) + 1 and sizes[-1] > DEPENDENT * np.abs(rows).max():
+            found.append(i)
+    return found
+
+
+def _count(number: int) -> str:
+    return "There is one such equation." if number == 1 else f"There are {number} such equations, one for each degree of freedom."
+
+
+def _blocks(power: VirtualPower) -> list[Block]:
+    moved = {name: tree for name, tree in power.rates.items() if not is_zero(tree)}
+    lead = "Where the coordinates change at the virtual rates"
+    made: list[Block] = [Equation(_rate(name), tree, "" if i else lead) for i, (name, tree) in enumerate(moved.items())]
+    return [*made, Equation(power.right, power.left, "the power of inertia is that of the loads")]
+
+
+def _rate(name: str) -> Written:
+    return Written(f"δ{unicode_name(name)}", rf"\delta {latex_name(name)}")
