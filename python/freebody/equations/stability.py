@@ -164,9 +164,20 @@ def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
 
     real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
-        real, imaginary = root, sympy.S.Zero
+        real, imaginary = _apart(root)
     parts = (_one_root(shortest(sympy.radsimp(sympy.simplify(part)), letters)) for part in (real, imaginary))
     return Eigenvalue(*parts, count)
+
+
+def _apart(root: Any) -> tuple[Any, Any]:
+    """Real and imaginary part of a root of which SymPy cannot tell them: (0, ± b) if its square is −b², else as it is."""
+    import sympy
+
+    square = sympy.simplify(sympy.expand(-(root**2)))
+    if not square.is_positive:
+        return root, sympy.S.Zero
+    upward = complex(root.subs(dict.fromkeys(root.free_symbols, 1))).imag > 0
+    return sympy.S.Zero, sympy.sqrt(square) if upward else -sympy.sqrt(square)
 
 
 def _one_root(tree: Tree) -> Tree:

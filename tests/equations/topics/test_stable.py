@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from models import SYSTEMS
 
 import freebody as fb
 from freebody.equations.topics import topic
@@ -89,3 +90,13 @@ def test_upside_down_it_falls() -> None:
     """Upright the polynomial is s² (s² − (M + m) g/(M l))."""
     told = " ".join(topic(fb.Mechanism.loads(CART), "linear", theta="180 deg").text().split())
     assert "grow, whatever the values of the letters: it is unstable" in told
+
+
+def test_two_equal_rods_hang_from_each_other() -> None:
+    """ω² = (3 ± 6/√7) g/l. Timoshenko & Young, Advanced Dynamics, of two bars."""
+    path = SYSTEMS / "19.3.28" / "model.yaml"
+    told = topic(fb.load(path), "linear", phi1=0, phi2=0).text()
+    l = fb.load(path).start()[0].p[[p["name"] for p in fb.load(path).source().about["parameters"]].index("l")]
+    for sign in (1, -1):
+        assert f"± {np.sqrt((3 + sign * 6 / np.sqrt(7)) * 9.81 / l):.5g} i" in told
+    assert told.count("± √(") == 2 and "stay small and oscillate for all values" in " ".join(told.split())
