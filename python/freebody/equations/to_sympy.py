@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.document import Equation, MatrixEquation, MatrixOf, is_tree
+from freebody.equations.document import Equation, MatrixEquation, is_tree
 from freebody.equations.letters import Letters
 from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree
 
@@ -65,9 +65,6 @@ def equations(blocks: Iterable[Any], letters: Letters | None = None, *, time: bo
             matrix = sympy.Matrix([[to_sympy(entry, letters, time=time) for entry in row] for row in block.matrix])
             x, b = (sympy.Matrix([to_sympy(e, letters, time=time) for e in side]) for side in (block.unknowns, block.right))
             made.append(sympy.Eq(sympy.MatMul(matrix, x, evaluate=False), b, evaluate=False))
-        elif isinstance(block, MatrixOf):
-            matrix = sympy.Matrix([[to_sympy(entry, letters, time=time) for entry in row] for row in block.matrix])
-            made.append(sympy.Eq(sympy.MatrixSymbol(block.letter.text, *matrix.shape), matrix, evaluate=False))
     return made
 
 

@@ -25,7 +25,7 @@ def wanted(subject: Subject, name: str) -> Form:
     stated = from_search(subject, list(found.equations)) if found.equations else None
     if stated is None:
         return Form.of(subject.letters, [], [*_numeric(found), *_numbers(found)])
-    equations = [Printed(s.title, *s.sides, s.balance.linear) for s in stated]
+    equations = [Printed(s.title, *s.sides, s.linear) for s in stated]
     made: list[Block] = [Heading("Balance equations"), Paragraph(_introduction(found))]
     for s in stated:
         made += blocks(subject, s)

@@ -12,7 +12,8 @@ from freebody.balances.states import nearby
 from freebody.equations.departures import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Document, Equation, Heading, MatrixOf, Paragraph, Side, Words, Written, listed
+from freebody.equations.document import Block, Document, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
+from freebody.equations.document import Matrix as Rows
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letter
@@ -184,4 +185,4 @@ def _place(subject: Subject, chosen: Given, near: bool) -> Words:
 def _matrix(name: Written, matrix: Matrix) -> Block:
     if all(is_zero(entry) for row in matrix for entry in row):
         return Equation(name, ZERO)
-    return MatrixOf(name, [list(map(shown, row)) for row in matrix])
+    return Equation(name, Matrices((Rows([list(map(shown, row)) for row in matrix], name.text),)))
