@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -32,9 +32,10 @@ CLOSED = 1e-12
 """Gap over size of the mechanism below which what touches does so, and the reasons for zeros hold to round-off."""
 
 
-def nearby(source: Source, state: State) -> list[FreeBodies]:
+def nearby(source: Source, state: State, parameters: Sequence[Array] = ()) -> list[FreeBodies]:
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
-    there: what drops out of a balance does not depend on where a drive has brought the mechanism."""
+    there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have
+    ``parameters``, one after the other, or come as near to these as they can."""
     first = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
     coordinates = source.about["coordinates"]
     in_order = {c["name"]: first.accelerations[c["name"]] for c in coordinates}
@@ -42,13 +43,15 @@ def nearby(source: Source, state: State) -> list[FreeBodies]:
     found = [first]
     rng = np.random.default_rng(SEED)
     steps = np.array([STEP["rad"] if c["dimension"] == "rad" else STEP["m"] * _size(first) for c in coordinates])
-    closing = _Closing(source, state, first)
+    changes = [p - state.p for p in parameters] or [np.zeros_like(state.p)]
+    part = 1.0
     for _ in range(TRIES):
-        other = closing.near(state.q + steps * rng.uniform(-1, 1, len(steps)))
+        closing = _Closing(source, replace(state, p=state.p + part * changes[len(found) % len(changes)]), first)
+        other = closing.near(state.q + steps * part * rng.uniform(-1, 1, len(steps)))
         if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
             found.append(other)
         else:
-            steps = steps * NEARER
+            part *= NEARER
         if len(found) > OTHERS:
             break
     return found

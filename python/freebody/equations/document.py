@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
@@ -231,9 +231,9 @@ def pieces(words: Words) -> list[str | Side]:
     return [words] if isinstance(words, str) else list(words)
 
 
-def listed(trees: Sequence[Tree]) -> list[str | Side]:
-    """Mathematics in a sentence, with commas."""
-    return [piece for i, tree in enumerate(trees) for piece in (*([", "] if i else []), tree)]
+def listed(sides: Iterable[Side]) -> list[str | Side]:
+    """Mathematics in a sentence, commas between."""
+    return [piece for i, side in enumerate(sides) for piece in ([", ", side] if i else [side])]
 
 
 def letters_table(letters: Letters) -> Table:
