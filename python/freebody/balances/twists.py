@@ -107,8 +107,12 @@ def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[Twist, li
     for i, load in enumerate(problem.free.loads):
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
+    rolling = touching(problem.free)
     found = [
-        (Twist(name, question={"about": {"load": i}}), [_last_point(s.free, i) for s in problem.systems])
+        (
+            Twist("the point of contact" if rolling == [name] else name, question={"about": {"load": i}}),
+            [_last_point(s.free, i) for s in problem.systems],
+        )
         for name, i in joints.items()
     ]
     for body in problem.bodies:
@@ -153,6 +157,11 @@ def _joint_directions(problem: Problem) -> list[tuple[Twist, Array]]:
     return found
 
 
+def touching(free: FreeBodies) -> list[str]:
+    """The names of what touches: contacts that hold, and joints that roll."""
+    return list(dict.fromkeys(load.name for load in free.loads if load.kind == "contact" or load.component == "friction force"))
+
+
 def _directions(problem: Problem, load: int) -> Array | None:
     """Unit direction of the force of a load at every state (ns, 2); None if it has no force, or several, as a cable over pulleys."""
     parts = np.array([[part.force for part in system.free.loads[load].on] for system in problem.systems])
@@ -171,6 +180,10 @@ def _direction_words(problem: Problem, load: Load, f: Array) -> tuple[str, str]:
     """Words for the direction of a force and for the one at right angles to it."""
     if load.symbol.endswith(".tension"):
         return load.name, f"the normal of {load.name}"
+    normal, tangent = f"the normal of {load.name}", f"the tangent of {load.name}"
+    if load.name in touching(problem.free):
+        rubs = load.kind == "friction" or load.component == "friction force"
+        return (tangent, normal) if rubs else (normal, tangent)
     alike = [_directions(problem, i) for i, other in enumerate(problem.free.loads) if other.path == load.path and other.unknown]
     if all(g is None or np.abs(f[:, 0] * g[:, 1] - f[:, 1] * g[:, 0]).max() < ONE_LINE for g in alike):
         return f"the normal of {load.name}", load.name

@@ -66,7 +66,7 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
     unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
     acting: list[Words] = [
-        [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)]
+        [f"{load_words(subject.free.loads[c.load], balance.bodies)}: ", factored(c.tree)]
         for c in balance.contributions
         if not c.absent and c.load not in cancelled
     ]
