@@ -44,6 +44,15 @@ def load_names(loads: Iterable[Load], source: Source) -> dict[str, Name]:
     return {s: name if s in own or taken[_folded(name.ascii())] == 1 else Name(s) for s, name in made.items()}
 
 
+def coefficient(source: Source, name: str) -> str:
+    """The letter that the model has for the friction of a contact or joint, if it has one."""
+    spec = json.loads(source.spec)
+    told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == name)
+    value = (told | told.get("with", {})).get("friction")
+    value = value["kinetic"] if isinstance(value, dict) else value
+    return value if isinstance(value, str) and _PLAIN.fullmatch(value) else ""
+
+
 def _name(load: Load, force: _Law) -> Name:
     given, last = _given(force), load.symbol.rpartition(".")[2]
     if given:
@@ -56,11 +65,11 @@ def _name(load: Load, force: _Law) -> Name:
 
 
 def _stem(load: Load, force: _Law) -> str:
-    told = _STEMS.get(load.component or "") or _KINDS.get(load.kind)
-    if told:
-        return told
     pushes = any(any(part.force) for part in load.on)
     turns = any(part.couple for part in load.on) and not pushes
+    told = _STEMS.get(load.component or "") or _KINDS.get(load.kind)
+    if told and not turns:
+        return told
     return "M" if turns or (force or {}).get("type") in _TURNING else "F"
 
 
@@ -118,10 +127,8 @@ class Naming:
 
     def friction(self, load: Load) -> Name | None:
         """The letter that the model has for the coefficient of a contact's or joint's friction, if it has one."""
-        spec = json.loads(self.source.spec)
-        told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == load.name)
-        value = (told | told.get("with", {})).get("friction")
-        return Name.parse(value) if isinstance(value, str) and _PLAIN.fullmatch(value) else None
+        letter = coefficient(self.source, load.name)
+        return Name.parse(letter) if letter else None
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ _NUMBERS = {"g": "gravity"}
 _BY_PREFIX = {"m": "mass", "I": "inertia about the mass centre"}
 _COMPONENTS = {"x": "force along x", "y": "force along y"}
 _KINDS = {"contact": "normal force", "friction": "friction", "string": "tension"}
-_UNITS = {"couple": "N*m"}
 
 
 def meanings(subject: Subject) -> Letters:
@@ -27,7 +26,8 @@ def meanings(subject: Subject) -> Letters:
     written = load_names(subject.free.loads, subject.source)
     for load in subject.free.loads:
         if load.unknown and not load.follows:
-            unit, doc = _UNITS.get(load.component or "", ""), f"{load_words(load)} ({load.symbol})"
+            turns = not any(any(part.force) for part in load.on) and any(part.couple for part in load.on)
+            unit, doc = "N*m" if turns else "", f"{load_words(load)} ({load.symbol})"
             found[load.symbol] = Letter(load.symbol, "unknown", unit, doc, written[load.symbol])
     return Letters(found | {"t": Letter("t", "time", "s", "time")})
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 
+import numpy as np
+
+from freebody.balances.system import DEPENDENT
+from freebody.equations.derivation.closing import holding
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.meaning import joined, plain
 from freebody.equations.derivation.told import Motion, Subject
@@ -18,18 +22,34 @@ _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a l
 
 def configuration(subject: Subject) -> list[Block]:
     """The coordinates, and what each measures."""
-    freedom, coordinates = subject.source.about["freedom"], subject.coordinates
+    coordinates = subject.coordinates
     if not coordinates:
         return [Heading("Configuration"), Paragraph("Nothing can move: there are no coordinates.")]
     rows = [([Sym(c["name"])], _doc(c), c["dimension"] or "1") for c in coordinates]
-    degrees = "one degree" if freedom["count"] == 1 else f"{freedom['count'] or 'no'} degrees"
-    prescribed = f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     return [
         Heading("Configuration"),
-        Paragraph(f"The mechanism has {degrees} of freedom{prescribed}. {_count(len(coordinates))} where it is:"),
+        Paragraph(f"{_freedom(subject)} {_count(len(coordinates))} where it is:"),
         Table(("coordinate", "what it measures", "unit"), rows),
         sketch(subject),
     ]
+
+
+def _freedom(subject: Subject) -> str:
+    """How many degrees of freedom there are; fewer while something holds."""
+    freedom, held = subject.source.about["freedom"], holding(subject.rows)
+    count = degrees(subject) if held else freedom["count"]
+    said = "one degree" if count == 1 else f"{count or 'no'} degrees"
+    prescribed = f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
+    lead = f"While {held}, the" if held else "The"
+    return f"{lead} mechanism has {said} of freedom{prescribed}."
+
+
+def degrees(subject: Subject) -> int:
+    """Degrees of freedom, prescribed ones among them, with what holds now."""
+    names = [c["name"] for c in subject.coordinates]
+    free = [row for row, told in zip(subject.free.rows, subject.rows, strict=True) if told.kind != "motion"]
+    table = np.array([[row.coefficients[name] for name in names] for row in free]).reshape(-1, len(names))
+    return len(names) - int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max(initial=1.0)))
 
 
 def sketch(subject: Subject) -> Figure:
