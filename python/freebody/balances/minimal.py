@@ -58,7 +58,7 @@ class MinimalForm:
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None, forces: bool = False) -> MinimalForm:
     """The minimal form at ``states[0]``; ``states`` and ``points`` are those of ``smallest_set``. ``forces``: equations for the
     forces of prescribed motions are wanted as well. Where the loops are singular at ``states[0]``, the numbers are those of the next."""
-    given = problem(_regular(states))
+    given = problem(regular(states))
     moving = [i for i, unknown in enumerate(given.unknowns) if unknown.coordinate]
     driving = [i for i in range(len(given.unknowns)) if forces and i not in moving and _drives(given, i)]
     leading = {load.follows[0] for load in given.free.loads if load.follows}
@@ -76,7 +76,7 @@ def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None
     return MinimalForm(coordinates, tuple(equation(given, candidate) for candidate in chosen), names, *told)
 
 
-def _regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
+def regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
     """Without the first where its loops hold less than they do near by, and so do not tell which coordinates are free."""
     ranks = [_rank(state) for state in states]
     return states[1:] if len(states) > 1 and ranks[0] < ranks[1] else states
