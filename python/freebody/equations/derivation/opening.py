@@ -9,9 +9,9 @@ import numpy as np
 
 from freebody.balances.system import DEPENDENT
 from freebody.equations.derivation.closing import holding
-from freebody.equations.derivation.directions import Directions
+from freebody.equations.derivation.directions import Directions, Link
 from freebody.equations.derivation.meaning import joined, plain
-from freebody.equations.derivation.told import Motion, Subject
+from freebody.equations.derivation.told import Arrow, Motion, Subject
 from freebody.equations.document import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.names import latex_name, superscript, unicode_name
@@ -71,11 +71,23 @@ def kinematics(subject: Subject) -> list[Block]:
     return made
 
 
-def directions(subject: Subject) -> Directions:
-    """The unit directions in which the motions of all bodies are told."""
+def directions(subject: Subject, arrows: Sequence[Arrow] = ()) -> Directions:
+    """The unit directions in which some vectors are told, or the motions of all bodies."""
     motions = subject.motions
     names = [c["name"] for c in subject.coordinates]
-    return Directions.of(motions, [a for b in motions for a in (b.r, b.v, b.a)], [*names, "t"])
+    arrows = arrows or [a for b in motions for a in (b.r, b.v, b.a)]
+    return Directions.of(motions, arrows, [*names, "t"], _links(subject), subject.values)
+
+
+def _links(subject: Subject) -> list[Link]:
+    """Every link of the tree, from its first end to its second."""
+    found = []
+    for joint in subject.source.about["joints"]:
+        load = next((load for load in subject.free.loads if load.kind == "joint" and load.name == joint["name"]), None)
+        if joint["type"] == "link" and joint["coordinates"] and load:
+            x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first
+            found.append(Link(joint["name"], joint["first"], joint["second"], joint["coordinates"][0], float(np.arctan2(-y, -x))))
+    return found
 
 
 def letters(known: Letters, used: Collection[str]) -> list[Block]:
