@@ -87,7 +87,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened: time in s, ``crossing`` or ``touch``, ±1 rising or falling, the state then."""
+    """Something that happened: time in s, ``crossing``, ``touch`` or ``start``, ±1 rising or falling, the state just before."""
 
     name: str
     t: float

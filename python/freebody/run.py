@@ -232,8 +232,7 @@ class Run:
         if at in ("start", "end"):
             return [float(self.edges[0 if at == "start" else -1])]
         if isinstance(at, str):
-            opened = [self.start.t] if at in self.source.openings else []
-            return opened + [event.t for event in self.events if event.name == at and event.t not in opened]
+            return [event.t for event in self.events if event.name == at]
         return [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
 
     @cached_property

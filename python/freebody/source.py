@@ -31,12 +31,6 @@ class Source:
         return with_dimensions(json.loads(self.core.describe()), json.loads(self.spec))
 
     @cached_property
-    def openings(self) -> set[str]:
-        """Names of the events that happen at the start whatever it is."""
-        events = json.loads(self.spec).get("events", [])
-        return {event["name"] for event in events if event.get("opening") and event.get("condition") is None}
-
-    @cached_property
     def name(self) -> str:
         """Title for reports."""
         return json.loads(self.spec).get("name") or "mechanism"

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from seen import changes, kinds, motion
+from seen import changes, kinds, model, motion
 
 G = 9.81
 
@@ -164,3 +164,60 @@ def test_a_bob_that_does_not_reach_the_top(v):
     q = np.array(taut.before["q"])
     assert taut.lost == pytest.approx((u @ q) ** 2 / 2, rel=1e-9)
     assert np.array(taut.after["u"]) == pytest.approx(u - (u @ q) * q, abs=1e-9)
+
+
+EYELET = """
+gravity: none
+parameters: {b: 0}
+bodies: {bead: {shape: particle, mass: 1 kg}, load: {shape: particle, mass: 3 kg}}
+ground: {points: {eye: [0, 0]}}
+strings: {leash: {ends: [bead.centre, load.centre], over: [ground.eye]}}
+initial: {bead.x: -1, bead.y: b, load.x: 0, load.y: -0.5, rates: {bead.x: 1, load.y: -LOAD}}
+"""
+
+
+RAIL = """
+bodies: {bead: {shape: particle, mass: 1 kg}, load: {shape: particle, mass: 3 kg}}
+ground: {points: {eye: [0, 0], right: [1, 0]}}
+joints: {rail: {type: slot, along: [ground.eye, ground.right], point: bead.centre, coordinate: s}}
+strings: {leash: {ends: [bead.centre, load.centre], over: [ground.eye]}}
+initial: {s: -1, load.x: 0, load.y: -0.5, at_rest: true}
+"""
+
+
+def test_a_bead_drawn_through_its_eyelet_is_a_named_end():
+    """Straight into the eyelet, which the load draws it to with M g/(M + m), the taut string loses its direction: the run ends there,
+    with the energy that it had."""
+    run = model(RAIL).simulate(until=3)
+    assert run.outcome.name == "string_drawn_in" and run.outcome.path == "strings.leash"
+    assert run.outcome.t == pytest.approx(math.sqrt(2 / (0.75 * G)), abs=1e-8)
+    assert run.evaluate("energy()", run.outcome.t) == pytest.approx(run.evaluate("energy()", 0.0), rel=1e-10)
+
+
+@pytest.mark.parametrize("b", [1e-2, 1e-4])
+def test_a_bead_that_passes_beside_swings_round(b):
+    """However close it passes, energy and the moment of momentum about the eyelet stay."""
+    run = motion(EYELET.replace("LOAD", f"{1 / math.sqrt(1 + b * b)!r}"), 1.8, {"rtol": 1e-12}, b=b)
+    assert run.evaluate("energy()", 1.8) == pytest.approx(run.evaluate("energy()", 0.0), rel=1e-8)
+    spin = run.evaluate("bead.x*rate(bead.y) - bead.y*rate(bead.x)", [0.0, 1.8])
+    assert spin[1] == pytest.approx(spin[0], rel=1e-6)
+    assert min(run["distance(ground.eye, bead.centre)"]) > 0
+
+
+UNWINDING = """
+parameters: {R: 0.2 m}
+bodies: {load: {shape: particle, mass: 1 kg}, drum: {shape: disk, radius: R, mass: 2 kg}}
+joints: {axle: {type: hinge, of: [ground.O, drum.centre], coordinate: turn}}
+strings: {cable: {ends: [load.centre, {drum: drum.centre, radius: R, sense: ccw, wound: 1 m}]LENGTH}}
+initial: {load.x: -R, load.y: 0, turn: 0, at_rest: true}
+"""
+
+
+def test_a_string_without_free_length_is_as_long_as_what_is_wound():
+    """The load hangs at the rim, with all of the string on the drum: it falls with g/2 beside a disk of twice its mass, whether the
+    length is given or not."""
+    runs = [motion(UNWINDING.replace("LENGTH", length), 0.3) for length in ("", ", length: 1 m")]
+    for run in runs:
+        assert run.evaluate("load.y", 0.3) == pytest.approx(-G / 4 * 0.09, abs=1e-9)
+        assert [kind for kind, _ in kinds(run)].count("taut") <= 1
+    assert abs(runs[1].evaluate("cable.gap", 0.0)) < 1e-15

@@ -4,6 +4,7 @@ use crate::instant::Instant;
 use crate::mechanism::Shared;
 use crate::{array, errors};
 use freebody::letters::answer;
+use freebody::motion::{Happening, Kind};
 use freebody::simulation;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -26,10 +27,14 @@ impl Trajectory {
     fn events(&self) -> String {
         let m = self.of.mechanism();
         let n = m.freedom();
-        let told = |h: &freebody::motion::Happening| {
-            let (name, crossing) = self.run.event(&m, h);
+        let told = |h: &Happening| {
+            let kind = match h.kind {
+                Kind::Crossing => "crossing",
+                Kind::Touch => "touch",
+                Kind::Opening => "start",
+            };
             serde_json::json!({
-                "name": name, "t": h.t, "kind": if crossing { "crossing" } else { "touch" },
+                "name": m.events[h.index].name, "t": h.t, "kind": kind,
                 "direction": h.direction, "q": h.y[..n], "u": h.y[n..2 * n],
             })
         };

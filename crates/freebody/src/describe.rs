@@ -1,7 +1,8 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
+use crate::balance::Source;
 use crate::joints::Joint as _;
-use crate::mechanism::{Joint, Level, Mechanism, Part};
+use crate::mechanism::{Joint, Level, Mechanism, Part, Rubbing};
 use crate::numbers::Numbers;
 use serde_json::{json, Map, Value};
 
@@ -137,7 +138,8 @@ fn notes(m: &Mechanism, n: &Numbers) -> Vec<String> {
         0.0 => notes.push("No gravity acts in the plane.".to_string()),
         _ => notes.push(format!("Gravity is ({}, {}) m/s².", n.gravity.x, n.gravity.y)),
     }
-    let rubbing: Vec<_> = m.rubs.iter().map(|rub| format!("`{}`", m.joints[rub.joint].name)).collect();
+    let joints = (0..m.rubs.len()).filter(|&rub| matches!(m.rubs[rub].of, Rubbing::Joint { .. }));
+    let rubbing: Vec<_> = joints.map(|rub| format!("`{}`", Source::Rub(rub).name(m))).collect();
     notes.push(match rubbing.is_empty() {
         true => "Bodies are rigid, joints are ideal: no friction, no clearance.".to_string(),
         false => format!("Bodies are rigid; joints have no clearance, and no friction but {}.", rubbing.join(", ")),

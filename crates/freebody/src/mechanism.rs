@@ -56,6 +56,8 @@ pub struct Mechanism {
     pub groups: Vec<Group>,
     /// Joints that rub.
     pub rubs: Vec<Rub>,
+    /// Joints along curves that can be released.
+    pub runners: Vec<Runner>,
     /// Parts that are not in place at the start.
     pub idle: Vec<Part>,
     /// What to watch for.
@@ -256,20 +258,43 @@ pub struct Drive {
     pub feedback: bool,
 }
 
-/// Coulomb friction along a coordinate of a joint: at most a coefficient times the size of the force that the joint
-/// carries (times the radius of its bearing).
+/// Coulomb friction that is known once the force that presses is: at most a coefficient times its size.
 #[derive(Clone, Debug)]
 pub struct Rub {
-    /// The joint.
-    pub joint: usize,
-    /// The coordinate along which it rubs.
-    pub along: Law,
+    /// What rubs.
+    pub of: Rubbing,
     /// Coefficient at rest.
     pub fixed: Slot,
     /// Coefficient of sliding.
     pub kinetic: Slot,
-    /// Radius of the bearing of a hinge.
-    pub radius: Option<Slot>,
+}
+
+/// What rubs.
+#[derive(Clone, Debug)]
+pub enum Rubbing {
+    /// A joint, by the force that it carries (times the radius of its bearing).
+    Joint {
+        /// The joint.
+        joint: usize,
+        /// The coordinate along which it rubs.
+        along: Law,
+        /// Radius of the bearing of a hinge.
+        radius: Option<Slot>,
+    },
+    /// A limit for which a spring stands, by the force of the spring and its damper.
+    Limit(usize),
+}
+
+/// A massless particle that runs on a curve and carries a pin, in place of a joint along the curve that can be released:
+/// then the pin is, and the particle is held where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Runner {
+    /// The joint along the curve, which carries the particle.
+    pub joint: usize,
+    /// The joint by which the particle carries the second body.
+    pub pin: usize,
+    /// The row that holds the particle.
+    pub hold: usize,
 }
 
 /// Something that can be released and engaged during a motion.
@@ -327,7 +352,14 @@ pub enum Deed {
     /// Put a part in place; what does not fit at once comes together with a plastic impact.
     Engage(Part),
     /// Give a gauge a rate at once, with the least change of momentum.
-    Reset(Law, Law),
+    Reset {
+        /// The gauge in its user's words.
+        gauge: String,
+        /// The gauge.
+        of: Law,
+        /// Its rate.
+        rate: Law,
+    },
 }
 
 impl Mechanism {
@@ -355,6 +387,7 @@ impl Mechanism {
             limits: vec![],
             groups: vec![],
             rubs: vec![],
+            runners: vec![],
             idle: vec![],
             events: vec![],
             kinks: vec![],
@@ -367,6 +400,15 @@ impl Mechanism {
         let switches = |deed: &Deed| matches!(deed, Deed::Release(_) | Deed::Engage(_));
         !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty())
             || self.events.iter().any(|e| e.then.iter().any(switches))
+    }
+    /// The row that holds what runs on a curve once its pin, a part, is released.
+    pub fn held_without(&self, part: Part) -> Option<Part> {
+        let runner = self.runners.iter().find(|runner| part == Part::Joint(runner.pin))?;
+        Some(Part::Drive(runner.hold))
+    }
+    /// The friction of a limit for which a spring stands.
+    pub fn rub_of(&self, limit: usize) -> Option<usize> {
+        self.rubs.iter().position(|rub| matches!(rub.of, Rubbing::Limit(l) if l == limit))
     }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {

@@ -337,6 +337,9 @@ pub enum Surface {
         /// Whether the free side is inside.
         #[serde(default)]
         hollow: bool,
+        /// Of an arc the directions of its ends from the centre, counter-clockwise, in the body's frame, rad.
+        #[serde(default)]
+        ends: Option<[Number; 2]>,
     },
     /// A straight line without ends; the free side is on its left.
     Line(Place),

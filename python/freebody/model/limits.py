@@ -70,13 +70,18 @@ class LimitWriter:
         if isinstance(surface, list) or surface.through is not None:
             return {"line": self.write.line(path, surface)}
         if surface.centre is not None:
-            return {"circle": self.write.circle(path, surface) | {"hollow": surface.hollow}}
+            return {"circle": self.write.circle(path, surface) | {"hollow": surface.hollow} | self._arc(path, surface)}
         kind = "polyline" if surface.polyline is not None else "polygon"
         corners = getattr(surface, kind)
         found = [self.write.point((*path, kind, i), corner) for i, corner in enumerate(corners)]
         if len({body_of(point) for point in found}) > 1:
             self.write.scope.complain((*path, kind), f"the corners of a {kind} belong to several bodies", "take those of one")
         return {kind: found}
+
+    def _arc(self, path: Path, circle: SurfaceShape) -> Spec:
+        if circle.ends is None:
+            return {}
+        return {"ends": [self.write.number((*path, "ends", i), end, "rad") for i, end in enumerate(circle.ends)]}
 
     def _named(self, path: Path, name: str) -> Spec:
         """A body, a point or a line by its name."""

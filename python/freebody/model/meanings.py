@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from . import elements, guides, syntax
+from . import cards, elements, guides, syntax
 from .errors import Complaint, Path
 from .names import TOKEN, fault, suggestion, unquote
 from .schema import Body
@@ -213,13 +213,19 @@ class _Declaring:
                 known.add(f"{owner}{name}")
 
     def joined(self) -> set[str]:
-        """The bodies that the joints of this file name which are there from the start."""
+        """The bodies that the joints of this file name which are there from the start; one along a curve leaves a body its own
+        coordinates if it can be released."""
         if not hasattr(self, "_joined"):
-            there = [joint for joint in self.model.joints.values() if joint.engaged]
+            loose = {name for event in self.model.events.values() for name in event.released()}
+            there = [j for name, j in self.model.joints.items() if j.engaged and not (name in loose and _on_curve(j))]
             texts = [text for joint in there for text in _texts(joint.written())]
             heads = (unquote(t[0]).rpartition(".")[0] for text in texts for t in TOKEN.finditer(text) if t.lastgroup == "name")
             self._joined = set(heads)
         return self._joined
+
+
+def _on_curve(joint: elements.Element) -> bool:
+    return any(field.kind == "curve" for field in cards.joints()[joint.type].fields)
 
 
 def _texts(data: object) -> Iterable[str]:

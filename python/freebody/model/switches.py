@@ -41,16 +41,21 @@ class SurfaceShape(Section):
     centre: Name = Field(None, description="Centre of a circle.")
     radius: Length = Field(None, description="Radius of that circle.")
     hollow: bool = Field(False, description="Whether the free side of the circle is inside.")
+    ends: two_of(Angle, "an arc has two ends: `[30 deg, 150 deg]`") = Field(
+        None, description="Of an arc the directions of its ends from the centre, in the body's frame, counter-clockwise."
+    )
     polyline: Points = Field(None, description="Corners of a polyline; the free side is on its left.")
     polygon: Points = Field(None, description="Corners of a convex polygon, in order, either way round.")
 
     @model_validator(mode="after")
     def _one_shape(self) -> SurfaceShape:
-        given = self.model_fields_set - {"hollow"}
+        given = self.model_fields_set - {"hollow", "ends"}
         if given not in ({"through", "angle"}, {"centre", "radius"}, {"polyline"}, {"polygon"}):
             raise refuse(*_NO_SURFACE)
         if self.hollow and self.centre is None:
             raise refuse("`hollow` belongs to a circle", "the free side of a line is on its left: turn it round")
+        if self.ends is not None and self.centre is None:
+            raise refuse("`ends` belong to a circle", "a `polyline` ends by itself")
         if self.polygon is not None and len(self.polygon) < 3:
             raise refuse(f"a polygon has 3 corners or more, not {len(self.polygon)}", "two corners make a `polyline`")
         return self
@@ -59,7 +64,7 @@ class SurfaceShape(Section):
 _NO_SURFACE = (
     "this is no surface",
     "write a body, `body.point`, `body.line`, `[P, Q]`, `{through: P, angle: a}`, `{centre: P, radius: r}`, "
-    "`{polyline: [P, …]}` or `{polygon: [P, …]}`",
+    "with `ends` for an arc, `{polyline: [P, …]}` or `{polygon: [P, …]}`",
 )
 Surface = one_of(*_NO_SURFACE, text=Name, pair=TwoPoints, mapping=SurfaceShape)
 Surfaces = two_of(Surface, "a contact is of two surfaces: `[ball, ground.floor]`")
@@ -205,6 +210,10 @@ class Event(Section):
     def actions(self) -> list[str | Deeds]:
         """What happens then, as a list."""
         return list(self.then) if isinstance(self.then, list) else [self.then]
+
+    def released(self) -> list[str]:
+        """The names of what it takes away."""
+        return [name for deeds in self.actions() if isinstance(deeds, Deeds) for name in listed(deeds.release)]
 
     def welds(self, name: str) -> Iterator[tuple[str, str, str]]:
         """The joints that it makes when the event is called so: name and two bodies."""

@@ -80,7 +80,7 @@ def _lines_of(scene: Scene) -> list[Array]:
     placed = [line for pair in scene.pairs for line in scene.pair_lines(pair)]
     placed += [cord.path[0] for cord in scene.cords if cord.shown[0]]
     for i, figure in enumerate(scene.figures):
-        for stroke in figure.strokes:
+        for stroke in (s for s in figure.strokes if s.is_there(0)):
             line = scene.place(i, np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points)
             middle = line.mean(axis=0)
             placed += [middle + part * (line - middle) for part in ((1.0, 0.7, 0.4) if stroke.style == "mass" else (1.0,))]

@@ -20,7 +20,7 @@ def paint(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
     artists: list[Artist] = []
     for i, figure in enumerate(scene.figures):
         tint = GROUND if i == 0 else colour(i - 1)
-        for stroke in figure.strokes:
+        for stroke in (s for s in figure.strokes if s.is_there(frame)):
             points = scene.place(i, stroke.points, frame)
             artists.append(ax.add_patch(patch(stroke.style, points, tint, stroke.closed)))
     for pair in scene.pairs:

@@ -31,12 +31,17 @@ class Stroke:
 
     Styles: ``body`` and ``block`` (filled in the body's colour), ``band`` (a thick line), ``mass`` (solid), ``mark``
     (a line in the body's colour), ``slot`` and ``pin`` (filled with the paper), ``weld`` (solid dark), ``rail``,
-    ``hatch`` and ``dash`` (lines in the colour of ground).
+    ``hatch`` and ``dash`` (lines in the colour of ground). ``shown`` (nt,): whether it is there; None: always.
     """
 
     points: Array
     style: str
     closed: bool = True
+    shown: Array | None = None
+
+    def is_there(self, frame: int) -> bool:
+        """Whether it is drawn."""
+        return self.shown is None or bool(self.shown[frame])
 
 
 @dataclass(frozen=True)
@@ -136,7 +141,8 @@ class Scene:
                 {
                     "name": figure.name,
                     "strokes": [
-                        {"points": s.points.round(digits).tolist(), "style": s.style, "closed": s.closed} for s in figure.strokes
+                        {"points": s.points.round(digits).tolist(), "style": s.style, "closed": s.closed, **_shown(s)}
+                        for s in figure.strokes
                     ],
                 }
                 for figure in self.figures
@@ -153,8 +159,8 @@ class Scene:
         }
 
 
-def _shown(item: Pair | Cord) -> dict[str, Any]:
-    return {} if item.shown.all() else {"shown": item.shown.tolist()}
+def _shown(item: Stroke | Pair | Cord) -> dict[str, Any]:
+    return {} if item.shown is None or item.shown.all() else {"shown": item.shown.tolist()}
 
 
 class Sketch:

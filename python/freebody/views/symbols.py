@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,22 @@ Fields = Mapping[str, Any]
 
 
 def draw_joints(sketch: Sketch) -> None:
-    """The symbol of every joint that has one."""
+    """The symbol of every joint that has one; what holds is drawn only as long as the joint is there."""
     for joint in sketch.spec["joints"]:
-        symbol = JOINTS.get(joint["type"])
+        symbol, there = JOINTS.get(joint["type"]), sketch.there(joint["name"], joint.get("engaged", True))
         if symbol:
+            known = {id(stroke) for figure in sketch.figures.values() for stroke in figure.strokes}
             symbol(sketch, joint["name"], joint["with"])
+            if not there.all():
+                _fade(sketch, known, there)
+
+
+def _fade(sketch: Sketch, known: set[int], there: Array) -> None:
+    """Pins and welds that are not among those ``known`` before are shown only at times (nt,) at which they are ``there``."""
+    for figure in sketch.figures.values():
+        for i, stroke in enumerate(figure.strokes):
+            if id(stroke) not in known and stroke.style in ("pin", "weld"):
+                figure.strokes[i] = replace(stroke, shown=there)
 
 
 def draw_forces(sketch: Sketch) -> None:

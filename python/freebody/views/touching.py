@@ -75,7 +75,12 @@ def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, flo
 def _draw_circle(sketch: Sketch, circle: Surface) -> None:
     body, at = sketch.at[circle["centre"]]
     radius = sketch.number(circle["radius"])
-    if circle.get("hollow"):
+    if circle.get("ends"):
+        start, end = (sketch.number(angle) for angle in circle["ends"])
+        # What is solid lies on the right as one goes along it.
+        way = np.linspace(start, end, 121) if circle.get("hollow") else np.linspace(end, start, 121)
+        hatched_path(sketch, body, at + radius * np.column_stack([np.cos(way), np.sin(way)]))
+    elif circle.get("hollow"):
         hatched_path(sketch, body, at + radius * np.column_stack([np.cos(_ROUND), np.sin(_ROUND)]))
     else:
         _wheel(sketch, body, at, radius)

@@ -5,8 +5,8 @@ use super::rows::{closing_rows, joint_rows, pair};
 use super::{Balance, Row, Source, Trouble};
 use crate::gauges::Placed;
 use crate::kinematics::{relative, JointView};
-use crate::mechanism::Part;
-use crate::plane::{vec2, Twist, Wrench};
+use crate::mechanism::{Joint, Part};
+use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Jet, Scalar};
 use crate::solve::{Factor, Lu, Matrix, Pattern};
 
@@ -67,7 +67,7 @@ impl Balance<'_> {
         for (j, joint) in self.m.joints.iter().enumerate().filter(|(j, _)| at.mode.has(Part::Joint(*j))) {
             match (joint.rows.is_empty(), joint.curve.is_some()) {
                 (true, _) => {}
-                (_, true) => rows.push(curve_row(at, j)),
+                (_, true) => rows.push(curve_row(at, j).0),
                 _ => joint_rows(at, j, None, &mut rows),
             }
         }
@@ -313,33 +313,48 @@ fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
     rates
 }
 
-/// The row of a joint along a curve, which has no residual: the second body's point has, across the curve, the
-/// acceleration of a point that runs along the curve as the coordinate does.
-pub fn curve_row<S: Scalar>(at: Placed<'_, S>, index: usize) -> Row<S> {
+/// The row of a joint along a curve, which has no residual: a force across the curve where it touches. The second body's marker
+/// has, against that force, the acceleration that the coordinates give it as they go on at their rates. With it the place where
+/// the force acts.
+pub fn curve_row<S: Scalar>(at: Placed<'_, S>, index: usize) -> (Row<S>, Vec2<S>) {
     let joint = &at.m.joints[index];
     let child = joint.child.expect("a joint along a curve is in the tree");
     let start = at.m.bodies[child].branch.expect("a body of the tree").start;
-    let c = &joint.coordinates[0];
-    let s = at.n.slots[c.zero] + at.q[start].scale(c.sense);
-    let unit = [Jet::new(s, S::one(), S::zero()), Jet::constant(S::zero())];
-    let run = JointView::new(at.m, at.n, joint, Jet::constant).pose(&unit[..joint.size], false);
+    let view = JointView::new(at.m, at.n, joint, Jet::constant);
     let (axes, _) = relative(joint, at.m, &at);
     let fixed = |x: S, y: S| axes.turn.apply(vec2(x, y));
-    let place = axes.at + fixed(run.x.d0, run.y.d0);
+    // The place of touch, with the way along the curve.
+    let mut q = [Jet::constant(S::zero()); 2];
+    q[0] = Jet { d1: S::one(), ..own_place(at, joint, start, 0) };
+    let run = view.pose(&q[..joint.size], false);
+    let touch = axes.at + fixed(run.x.d0, run.y.d0);
     let slope = fixed(run.x.d1, run.y.d1);
     let across = slope.perp() * (S::one() / slope.norm());
+    // The marker, as the coordinates go on; a turn about it moves nothing.
+    for (k, c) in joint.coordinates.iter().enumerate().filter(|(_, c)| c.dimension != "rad") {
+        q[c.card] = Jet { d1: at.k.nu[start + k], ..own_place(at, joint, start, k) };
+    }
+    let going = view.pose(&q[..joint.size], false);
+    let place = axes.at + fixed(going.x.d0, going.y.d0);
     let [first, second] = at.m.ends(joint).map(|body| {
         let (arm, w) = (place - at.k.pose[body].at, at.k.twist[body].w);
         -arm * (w * w)
     });
-    let (rate, w) = (at.k.nu[start], at.k.twist[at.m.ends(joint)[0]].w);
-    let along = fixed(run.x.d2, run.y.d2) * (rate * rate) + slope.perp() * (w * rate).scale(2.0);
-    Row {
+    let w = at.k.twist[at.m.ends(joint)[0]].w;
+    let along = fixed(going.x.d2, going.y.d2) + fixed(going.x.d1, going.y.d1).perp() * w.scale(2.0);
+    let row = Row {
         source: Source::Joint(index, 0),
         value: None,
         rate: None,
-        bias: across.dot(second - first - along),
-        motion: pair(at, joint, place, Wrench { f: across, m: S::zero() }),
+        bias: across.dot(second - first - along) - (touch - place).cross(across) * going.angle.d2,
+        motion: pair(at, joint, touch, Wrench { f: across, m: S::zero() }),
         force: None,
-    }
+    };
+    (row, touch)
+}
+
+/// Coordinate `k` of a joint of the tree by the joint's own measure, at rest.
+fn own_place<S: Scalar>(at: Placed<'_, S>, joint: &Joint, start: usize, k: usize) -> Jet<S> {
+    let c = &joint.coordinates[k];
+    Jet::constant(at.n.slots[c.zero] + at.q[start + k].scale(c.sense))
 }

@@ -33,7 +33,10 @@ impl Mechanism {
     /// The name of a part.
     pub fn name_of(&self, part: Part) -> &str {
         match part {
-            Part::Joint(j) => &self.joints[j].name,
+            Part::Joint(j) => {
+                let runner = self.runners.iter().find(|runner| runner.pin == j);
+                &self.joints[runner.map_or(j, |runner| runner.joint)].name
+            }
             Part::Drive(d) => &self.drives[d].name,
             Part::Force(f) => &self.forces[f].name,
             Part::Group(g) => &self.groups[g].name,
@@ -131,8 +134,7 @@ impl Balance<'_> {
     pub fn find_pieces(&mut self) {
         let apart = self.apart();
         for l in 0..self.m.limits.len() {
-            let open = self.mode.limits[l].hold == Hold::Open && apart[self.m.limits[l].group].is_none();
-            if open || self.mode.limits[l].hold == Hold::Pressed {
+            if self.mode.limits[l].hold == Hold::Open && apart[self.m.limits[l].group].is_none() {
                 let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
                 self.mode.limits[l].piece = piece;
             }
@@ -174,6 +176,9 @@ impl Balance<'_> {
             Part::Group(g) => self.put_limits(g, there),
             _ => self.mode.put(part, there),
         };
+        if let Some(hold) = self.m.held_without(part) {
+            self.mode.put(hold, !there);
+        }
         if let (true, true, Part::Joint(j)) = (changed, there, part) {
             let mut rows = vec![];
             joint_rows(self.at(), j, None, &mut rows);

@@ -71,9 +71,17 @@ impl Balance<'_> {
             }
         }
         for l in self.pressed() {
-            forces[l][0] = self.press(l);
+            forces[l] = [self.press(l), self.m.rub_of(l).map_or(0.0, |rub| self.rub_force(rub))];
         }
         forces
+    }
+
+    /// How a limit is held, as one sees it: what is pressed sticks or slides, if it rubs.
+    pub(super) fn hold_seen(&self, l: usize) -> Hold {
+        match (self.mode.limits[l].hold, self.m.rub_of(l).map(|rub| self.mode.rubs[rub])) {
+            (Hold::Pressed, Some(hold)) if hold != Hold::Open => hold,
+            (hold, _) => hold,
+        }
     }
 
     /// Power of all friction in the last solution, W; never positive.
@@ -107,7 +115,7 @@ impl Balance<'_> {
     /// Something of a contact, stop or string.
     pub(super) fn read_limit(&self, group: usize, bound: Bound) -> f64 {
         let limits = || self.m.groups[group].limits.clone();
-        let closed = |l: &usize| self.mode.limits[*l].hold.is_closed();
+        let closed = |l: &usize| self.mode.limits[*l].hold.touches();
         match bound {
             Bound::Gap => limits().map(|l| self.open_gap(l)).fold(f64::INFINITY, f64::min),
             Bound::Slip => limits().filter(closed).map(|l| self.slide_rate(l)).next().unwrap_or(0.0),

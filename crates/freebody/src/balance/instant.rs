@@ -2,6 +2,7 @@
 
 use super::{force_power, force_value, Balance, JointLoad, Labels, Route, Sizes, Trouble};
 use crate::gauges::{Axis, Bound, Law, Leaf, Observed, Reading};
+use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 use crate::plane::Vec2;
 
@@ -56,12 +57,12 @@ impl Balance<'_> {
     }
 
     fn limit_load(&self, group: usize, determinate: [bool; 4]) -> LimitLoad {
-        let holds = || self.m.groups[group].limits.clone().map(|l| self.mode.limits[l].hold);
+        let holds = || self.m.groups[group].limits.clone().map(|l| self.hold_seen(l));
         let state = match () {
             _ if holds().all(|h| h == Hold::Off) => "off",
             _ if holds().any(|h| matches!(h, Hold::Sliding(_))) => "sliding",
             _ if holds().any(Hold::sticks) => "stuck",
-            _ if holds().any(|h| h.is_closed()) => "closed",
+            _ if holds().any(Hold::touches) => "closed",
             _ => "open",
         };
         let read = |bound| self.read_limit(group, bound);
@@ -197,7 +198,8 @@ impl<'b, 'm> Observer<'b, 'm> {
                     known(sure, b.read_limit(group, bound))
                 }
                 Reading::Rub(joint) => {
-                    let rub = b.m.rubs.iter().position(|rub| rub.joint == joint);
+                    let rub =
+                        b.m.rubs.iter().position(|rub| matches!(rub.of, Rubbing::Joint { joint: j, .. } if j == joint));
                     rub.map_or(0.0, |rub| b.rub_force(rub))
                 }
                 Reading::FrictionWork => works.get(b.m.forces.len() + b.m.drives.len()).copied().unwrap_or(0.0),

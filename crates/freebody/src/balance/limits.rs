@@ -30,6 +30,8 @@ pub struct Scale {
     pub pace: f64,
     /// Whether what can stay at rest stays, where Coulomb's law leaves it open.
     pub stay: bool,
+    /// Whether touches that are almost one may contradict each other by a little.
+    pub rough: bool,
 }
 
 /// Limits whose gaps are closed at one state, k of them.
@@ -175,7 +177,8 @@ impl Balance<'_> {
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);
         let grips = self.grips(reached, slips, scale.still);
         let problem = Problem { g: &reached.g, free: &free, grips: &grips };
-        match complementarity::solve(&problem) {
+        let solve = if scale.rough { complementarity::solve_roughly } else { complementarity::solve };
+        match solve(&problem) {
             Verdict::Solved(answer) => Ok(holding(&answer, &problem, scale.pace)),
             Verdict::Indeterminate(answers) if scale.stay => {
                 let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
@@ -198,22 +201,23 @@ impl Balance<'_> {
         self.start_limits()?;
         let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
         self.start_rubs(still);
-        for _ in 0..=self.m.rubs.len() {
-            self.lean_on_reached(still)?;
-            if self.m.rubs.is_empty() || !self.loosen_rubs()? {
+        let scale = Scale { still, pace: self.n.gravity.norm().max(self.length), stay: false, rough: false };
+        for _ in 0..=self.most_turns() {
+            self.lean_on_reached(scale)?;
+            if self.m.rubs.is_empty() || !self.turn_rub(scale, None)? {
                 break;
             }
         }
         Ok(())
     }
 
-    fn lean_on_reached(&mut self, still: f64) -> Result<(), Trouble> {
+    fn lean_on_reached(&mut self, scale: Scale) -> Result<(), Trouble> {
         let touching = self.touching(1e-9 * self.length);
         let reached = self.reach(touching)?;
-        let staying = (0..reached.len()).filter(|&i| reached.rates[i] <= still).map(|i| reached.limits[i]).collect();
+        let staying =
+            (0..reached.len()).filter(|&i| reached.rates[i] <= scale.still).map(|i| reached.limits[i]).collect();
         let reached = self.reach(staying)?;
-        let pace = self.n.gravity.norm().max(self.length);
-        let holding = self.hold(&reached, &reached.slips(), Scale { still, pace, stay: false })?;
+        let holding = self.hold(&reached, &reached.slips(), scale)?;
         self.take(&reached, &holding);
         Ok(())
     }

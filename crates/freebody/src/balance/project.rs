@@ -13,6 +13,10 @@ const TRIES: usize = 12;
 pub(crate) const CLOSED: f64 = 1e-14;
 /// Gap above which the closing of a loop has failed.
 pub(crate) const OPEN: f64 = 1e-9;
+/// Correction, over the gap that it closes, beyond which the rows all but depend on each other.
+const FAR: f64 = 1e4;
+/// Square of the independence of rows below which a gap is left rather than closed from afar.
+const DAMPING: f64 = 1e-8;
 
 impl Balance<'_> {
     /// What is open at a row: its value less its zero, angles brought to the nearest turn; None where nothing
@@ -72,11 +76,15 @@ impl Balance<'_> {
             last = gap;
             let asked: Vec<f64> = self.rows.iter().map(|row| self.gap(row).map_or(0.0, |g| -g)).collect();
             let present: Vec<bool> = self.rows.iter().map(|row| self.gap(row).is_some()).collect();
-            let step = self.correction(&asked, &present)?;
-            let mut user = vec![0.0; q.len()];
-            self.to_user(&step, &mut user);
-            moved = moved.max(self.size_of(&user));
-            q.iter_mut().zip(&user).for_each(|(q, d)| *q += d);
+            let least = self.correction(&asked, &present)?;
+            let mut step = self.rates_of(&least);
+            // Contacts that all but depend on each other keep their gaps, lest the bodies go far, and up, to close them.
+            if self.m.closures.is_empty() && gap <= OPEN && self.size_of(&step) > FAR * gap {
+                let told = self.rows.iter().filter_map(|row| Some((row.clone(), self.gap(row)?)));
+                step = self.rates_of(&self.damped_motion(&told.collect::<Vec<_>>(), DAMPING));
+            }
+            moved = moved.max(self.size_of(&step));
+            q.iter_mut().zip(&step).for_each(|(q, d)| *q += d);
         }
         self.place(t, q, u);
         let gap = self.worst_gap();
@@ -102,10 +110,9 @@ impl Balance<'_> {
         }
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
         let step = self.correction(&asked, &present)?;
-        let mut user = vec![0.0; u.len()];
-        self.to_user(&step, &mut user);
-        u.iter_mut().zip(&user).for_each(|(u, d)| *u += d);
-        Ok(self.size_of(&user))
+        let step = self.rates_of(&step);
+        u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
+        Ok(self.size_of(&step))
     }
 
     /// The motion that changes the present rows by `asked`, least in the metric of the masses; least in plain scaled
@@ -154,10 +161,16 @@ impl Balance<'_> {
         let dense = std::mem::replace(&mut self.many_loops, false);
         let step = self.correction(&asked, &present);
         self.many_loops = dense;
-        let mut user = vec![0.0; u.len()];
-        self.to_user(&step?, &mut user);
-        u.iter_mut().zip(&user).for_each(|(u, d)| *u += d);
+        let step = self.rates_of(&step?);
+        u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
         Ok(())
+    }
+
+    /// A motion of the tree in the user's rates.
+    fn rates_of(&self, motion: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; motion.len()];
+        self.to_user(motion, &mut rates);
+        rates
     }
 
     /// Number of independent rows.

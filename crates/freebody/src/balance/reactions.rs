@@ -4,7 +4,7 @@ use super::rows::{Row, Source};
 use super::Balance;
 use crate::gauges::Placed;
 use crate::kinematics::{relative, JointView};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Rubbing};
 use crate::plane::{vec2, Vec2, Wrench};
 use crate::solve::{Matrix, Orthogonal};
 
@@ -24,19 +24,29 @@ pub struct JointLoad {
 }
 
 impl Source {
-    /// The name of the joint or motion.
+    /// The name of the joint, motion, contact, stop or string.
     pub fn name(self, m: &Mechanism) -> &str {
         match self {
             Source::Joint(joint, _) => &m.joints[joint].name,
             Source::Drive(drive) => &m.drives[drive].name,
-            Source::Rub(rub) => &m.joints[m.rubs[rub].joint].name,
+            Source::Rub(rub) => match m.rubs[rub].of {
+                Rubbing::Joint { joint, .. } => &m.joints[joint].name,
+                Rubbing::Limit(limit) => Source::Limit(limit).name(m),
+            },
             Source::Limit(limit) | Source::Friction(limit) => &m.groups[m.limits[limit].group].name,
         }
     }
     /// Where it stands in the model, e.g. `joints.pivot`.
     pub fn path(self, m: &Mechanism) -> String {
-        let motion = matches!(self, Source::Drive(drive) if !m.drives[drive].coupling);
-        format!("{}.{}", if motion { "motions" } else { "joints" }, self.name(m))
+        match self {
+            Source::Limit(limit) | Source::Friction(limit) => m.groups[m.limits[limit].group].path(),
+            Source::Rub(rub) => match m.rubs[rub].of {
+                Rubbing::Limit(limit) => Source::Limit(limit).path(m),
+                Rubbing::Joint { joint, .. } => Source::Joint(joint, 0).path(m),
+            },
+            Source::Drive(drive) if !m.drives[drive].coupling => format!("motions.{}", self.name(m)),
+            Source::Drive(_) | Source::Joint(..) => format!("joints.{}", self.name(m)),
+        }
     }
 }
 
@@ -107,7 +117,7 @@ impl Balance<'_> {
         let on_second = load.at_pin(at, second).parts();
         let mut rows = vec![];
         match at.m.joints[joint].curve {
-            Some(_) => rows.push(super::constraints::curve_row(at, joint)),
+            Some(_) => rows.push(super::constraints::curve_row(at, joint).0),
             None => super::rows::joint_rows(at, joint, None, &mut rows),
         }
         let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());

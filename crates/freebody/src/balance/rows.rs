@@ -8,7 +8,7 @@ use crate::contact::Friction;
 use crate::expr::Env;
 use crate::gauges::{gradient, jet, Law, Moving, Placed, Seeded, State};
 use crate::kinematics::{relative, JointView};
-use crate::mechanism::{Drive, Joint, Level, Part};
+use crate::mechanism::{Drive, Joint, Level, Part, Rubbing};
 use crate::mode::Hold;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Scalar};
@@ -27,7 +27,7 @@ pub enum Source {
     Limit(usize),
     /// A limit that does not slide: its slide.
     Friction(usize),
-    /// A joint that rubs and does not slide.
+    /// A joint, or a limit with a spring, that rubs and does not slide.
     Rub(usize),
 }
 
@@ -84,12 +84,17 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
     rows
 }
 
-/// The row that keeps a joint that rubs from sliding.
-fn rub_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
-    let along = &at.m.rubs[index].along;
-    let jet = jet(&Moving { at, bodies: base, accelerations: None }, along);
-    let motion = spread(at, along);
-    Row { source: Source::Rub(index), value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None }
+/// The row that keeps what rubs from sliding.
+pub fn rub_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let source = Source::Rub(index);
+    match &at.m.rubs[index].of {
+        Rubbing::Joint { along, .. } => {
+            let jet = jet(&Moving { at, bodies: base, accelerations: None }, along);
+            let motion = spread(at, along);
+            Row { source, value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None }
+        }
+        Rubbing::Limit(limit) => Row { source, ..slide_row(at, *limit, base).expect("only contacts rub") },
+    }
 }
 
 /// The row that keeps the gap of a limit closed; one that slides rubs as it presses.

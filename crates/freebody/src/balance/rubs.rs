@@ -1,40 +1,49 @@
-//! Friction in joints: Coulomb's, by the size of the force that the joint carries.
+//! Friction in joints: Coulomb's, by the size of the force that the joint carries; and of contacts for which a spring stands, by
+//! the force of the spring, which the state tells.
 //!
 //! The load of a joint depends on its friction and the friction on its load. Where it slides both are found in turns; as
 //! long as friction does not jam the joint each turn brings them closer.
 
-use super::rows::spread;
-use super::{Balance, Route, Source, Trouble};
-use crate::gauges::{jet, Moving};
+use super::rows::rub_row;
+use super::{Balance, Route, Scale, Source, Trouble};
+use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 
 /// Turns after which a joint counts as jammed.
 const TURNS: usize = 200;
+/// Turns for each of what rubs in which it is found what sticks.
+const FLIPS: usize = 8;
+/// Part of the mechanism's own accelerations below which one brings nothing back.
+const NOTHING: f64 = 1e-9;
 /// Change of a friction force, over itself, that is round-off.
 const SETTLED: f64 = 1e-14;
 
 impl Balance<'_> {
-    /// The most that the friction of a joint can be in the last solution, by a coefficient: N, or N·m of a hinge.
+    /// The most that friction can be in the last solution, by a coefficient: N, or N·m of a hinge.
     fn most_friction(&self, rub: usize, rests: bool) -> f64 {
         let of = &self.m.rubs[rub];
-        let load = self.joint_load(of.joint).force.norm();
-        let arm = of.radius.map_or(1.0, |slot| self.n.slots[slot]);
-        load * arm * self.n.slots[if rests { of.fixed } else { of.kinetic }]
+        let pressing = match of.of {
+            Rubbing::Joint { joint, radius, .. } => {
+                self.joint_load(joint).force.norm() * radius.map_or(1.0, |slot| self.n.slots[slot])
+            }
+            Rubbing::Limit(limit) => self.press(limit).max(0.0),
+        };
+        pressing * self.n.slots[if rests { of.fixed } else { of.kinetic }]
     }
 
-    /// Adds the loads of all joints that slide.
+    /// Adds the loads of all that slides.
     pub(super) fn add_rubs(&mut self) {
         for rub in 0..self.m.rubs.len() {
             let force = self.rub_forces[rub];
             if matches!(self.mode.rubs[rub], Hold::Sliding(_)) && force != 0.0 {
-                for (body, load) in spread(self.at(), &self.m.rubs[rub].along) {
+                for (body, load) in rub_row(self.at(), rub, None).motion {
                     self.loads[body] += load * force;
                 }
             }
         }
     }
 
-    /// Solves again until the friction of all joints that slide fits their loads.
+    /// Solves again until the friction of all that slides fits the forces that press.
     pub(super) fn fit_rubs(&mut self, route: Route) -> Result<(), Trouble> {
         for _ in 0..TURNS {
             let wanted: Vec<f64> = (0..self.m.rubs.len()).map(|rub| self.sliding_friction(rub)).collect();
@@ -45,7 +54,7 @@ impl Balance<'_> {
             self.rub_forces = wanted;
             self.solve_once(route)?;
         }
-        let names: Vec<String> = self.m.rubs.iter().map(|r| format!("`{}`", self.m.joints[r.joint].name)).collect();
+        let names: Vec<String> = (0..self.m.rubs.len()).map(|r| format!("`{}`", Source::Rub(r).name(self.m))).collect();
         Err(Trouble::new(
             "friction_jams",
             format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
@@ -59,7 +68,7 @@ impl Balance<'_> {
         }
     }
 
-    /// The friction of a joint in the last solution, along its coordinate: N, or N·m of a hinge.
+    /// Friction in the last solution, along what it keeps from sliding: N, or N·m of a hinge.
     pub fn rub_force(&self, rub: usize) -> f64 {
         match self.mode.rubs[rub] {
             Hold::Sliding(_) => self.rub_forces[rub],
@@ -76,40 +85,75 @@ impl Balance<'_> {
         [most - force, most + force]
     }
 
-    /// The rate of the coordinate along which a joint rubs, at the present state.
+    /// The rate of sliding at the present state, m/s, or rad/s of a hinge.
     pub fn rub_rate(&self, rub: usize) -> f64 {
-        jet(&Moving { at: self.at(), bodies: None, accelerations: None }, &self.m.rubs[rub].along).d1
+        rub_row(self.at(), rub, None).rate.unwrap_or(0.0)
     }
 
-    /// Power of the joints that slide in the last solution, W.
+    /// Power of all that slides in the last solution, W.
     pub(super) fn rub_power(&self) -> f64 {
         (0..self.m.rubs.len()).map(|rub| self.rub_force(rub) * self.rub_rate(rub)).sum()
     }
 
-    /// Lets every joint that rubs go on as it is: those that move slide, the others stick.
+    /// Lets all that rubs go on as it is: what moves slides, the rest sticks, and what is not pressed does neither.
     pub fn start_rubs(&mut self, still: f64) {
         for rub in 0..self.m.rubs.len() {
-            let rate = self.rub_rate(rub);
-            let arm = self.m.rubs[rub].radius.map_or(1.0, |_| self.length);
-            self.mode.rubs[rub] = if rate.abs() * arm <= still { Hold::Stuck } else { Hold::Sliding(rate.signum()) };
+            self.mode.rubs[rub] = match self.m.rubs[rub].of {
+                Rubbing::Limit(limit) if self.mode.limits[limit].hold != Hold::Pressed => Hold::Open,
+                _ if self.rests(rub, still) => Hold::Stuck,
+                _ => Hold::Sliding(self.rub_rate(rub).signum()),
+            };
         }
     }
 
-    /// Of joints that stick, lets those slide whose friction at rest does not suffice; answers whether there were any.
+    /// Turns after which it should be settled what sticks.
+    pub fn most_turns(&self) -> usize {
+        FLIPS * self.m.rubs.len()
+    }
+
+    /// Lets the first slide that sticks and whose friction at rest does not suffice, or the first stick again that slides from
+    /// rest and would be brought back, but not the one just come `loose`; answers whether there was one (Murty 1974,
+    /// *Mathematical Programming* 7, 138: the first of them, so that it comes to an end).
     ///
     /// # Errors
     /// As [`Balance::solve`].
-    pub fn loosen_rubs(&mut self) -> Result<bool, Trouble> {
+    pub fn turn_rub(&mut self, scale: Scale, loose: Option<usize>) -> Result<bool, Trouble> {
         self.solve()?;
-        let mut loosened = false;
         for rub in 0..self.m.rubs.len() {
-            let [ahead, back] = self.rub_reserve(rub);
-            if self.mode.rubs[rub] == Hold::Stuck && ahead.min(back) < 0.0 {
-                // Friction that would have to push ahead cannot keep it from sliding back.
-                self.mode.rubs[rub] = Hold::Sliding(if ahead < back { -1.0 } else { 1.0 });
-                loosened = true;
+            match self.mode.rubs[rub] {
+                Hold::Stuck => {
+                    let [ahead, back] = self.rub_reserve(rub);
+                    if ahead.min(back) < 0.0 {
+                        // Friction that would have to push ahead cannot keep it from sliding back.
+                        self.mode.rubs[rub] = Hold::Sliding(if ahead < back { -1.0 } else { 1.0 });
+                        return Ok(true);
+                    }
+                }
+                Hold::Sliding(sense)
+                    if loose != Some(rub)
+                        && self.rests(rub, scale.still)
+                        && sense * self.rub_acceleration(rub) < -NOTHING * scale.pace =>
+                {
+                    self.mode.rubs[rub] = Hold::Stuck;
+                    return Ok(true);
+                }
+                _ => {}
             }
         }
-        Ok(loosened)
+        Ok(false)
+    }
+
+    /// Acceleration of sliding in the last solution, m/s², or rad/s² of a hinge.
+    fn rub_acceleration(&self, rub: usize) -> f64 {
+        rub_row(self.at(), rub, Some(&self.solved.bodies)).bias
+    }
+
+    /// Whether what rubs does not slide, at a speed that counts.
+    fn rests(&self, rub: usize, still: f64) -> bool {
+        let arm = match self.m.rubs[rub].of {
+            Rubbing::Joint { radius, .. } => radius.map_or(1.0, |_| self.length),
+            Rubbing::Limit(_) => 1.0,
+        };
+        self.rub_rate(rub).abs() * arm <= still
     }
 }

@@ -2,15 +2,17 @@
 
 use super::outline::Outline;
 use super::{twice, CompileError, Compiler, Reach, Result};
-use crate::contact::{Disk, Friction, Gap, Group, Limit, Profile, Touch};
-use crate::mechanism::{Marker, Slot};
+use crate::contact::{Arc, Disk, Friction, Gap, Group, Limit, Profile, Touch};
+use crate::mechanism::{Marker, Rub, Rubbing, Slot};
 use crate::plane::Vec2;
 use crate::spec::{Contact, Number, Surface};
+use std::f64::consts::TAU;
 
 /// A surface of a model, lowered.
 enum Shape {
     Point(usize),
     Circle { centre: usize, radius: Slot, hollow: bool },
+    Arc(Arc),
     Line(Marker),
     Polyline(Outline),
     Polygon(Outline),
@@ -20,7 +22,7 @@ impl Shape {
     fn site(&self) -> usize {
         match self {
             Shape::Point(site) => *site,
-            Shape::Circle { centre, .. } => *centre,
+            Shape::Circle { centre, .. } | Shape::Arc(Arc { centre, .. }) => *centre,
             Shape::Line(marker) => marker.site,
             Shape::Polyline(outline) | Shape::Polygon(outline) => outline.chains[0].corners[0],
         }
@@ -44,6 +46,7 @@ impl Shape {
             Shape::Circle { centre, radius, hollow } => {
                 vec![Profile::Circle { centre: *centre, radius: *radius, hollow: *hollow }]
             }
+            Shape::Arc(arc) => vec![Profile::Arc(arc.clone())],
             Shape::Line(marker) => vec![Profile::Line(*marker)],
             Shape::Polyline(outline) | Shape::Polygon(outline) => {
                 outline.chains.iter().cloned().map(Profile::Chain).collect()
@@ -76,12 +79,15 @@ fn each(disks: &[Disk], surface: &Shape) -> Vec<Touch> {
 
 /// The touches of two surfaces; or why they have none, and what to write.
 fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static str, &'static str)> {
-    use Shape::{Circle, Line, Point, Polygon, Polyline};
+    use Shape::{Arc, Circle, Line, Point, Polygon, Polyline};
     match (a, b) {
         (Point(_), Point(_)) => Err(("two points never touch", "give one of them a circle with a radius")),
         (Line(_), Line(_)) => Err(("two lines without ends cannot touch", "make one of them a polygon or a polyline")),
         (Polyline(_), Polyline(_) | Line(_)) | (Line(_), Polyline(_)) => {
             Err(("a polyline meets points, circles and polygons only", "make the moving surface a polygon"))
+        }
+        (Arc(_), other) | (other, Arc(_)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
+            Err(("an arc meets points and circles only", "make the moving surface a circle, or the arc a `polyline`"))
         }
         (Circle { hollow: true, .. }, Circle { hollow: true, .. } | Line(_) | Polyline(_))
         | (Line(_) | Polyline(_), Circle { hollow: true, .. }) => Err((
@@ -122,10 +128,19 @@ impl Compiler<'_> {
             let friction = self.friction(&path, contact)?;
             let restitution = self.restitution(&path, &contact.restitution)?;
             let soft = self.soft(&path, &contact.stiffness, &contact.damping)?;
-            if soft.is_some() && friction.is_some() {
-                let what = "a contact on a spring has no friction here";
-                return Err(CompileError::new(&path, what, "leave out the friction or the stiffness"));
-            }
+            let friction = match (friction, soft) {
+                (Some(Friction::Coulomb { fixed, kinetic }), Some(_)) => {
+                    let first = self.m.limits.len();
+                    let rub = |limit| Rub { of: Rubbing::Limit(limit), fixed, kinetic };
+                    self.m.rubs.extend((first..first + touches.len()).map(rub));
+                    None
+                }
+                (Some(Friction::Rough), Some(_)) => {
+                    let what = "a rough contact on a spring would jerk when it touches down";
+                    return Err(CompileError::new(&path, what, "give the coefficient of its friction"));
+                }
+                (friction, _) => friction,
+            };
             let limits = touches.into_iter().map(|touch| Limit {
                 bodies: touch.bodies(&self.m).into_iter().filter(|&body| body > 0).collect(),
                 gap: Gap::Touch(touch),
@@ -209,18 +224,33 @@ impl Compiler<'_> {
         let site = |c: &Self, name: &str| c.names.site(name).map_err(|m| CompileError::from(path, m));
         Ok(match surface {
             Surface::Point(name) => Shape::Point(site(self, name)?),
-            Surface::Circle { centre, radius, hollow } => {
+            Surface::Circle { centre, radius, hollow, ends } => {
                 if matches!(radius, Number::Literal(r) if *r <= 0.0) {
                     let hint = "give it a radius above 0, or write `point`";
                     return Err(CompileError::new(format!("{path}.radius"), "this circle has no size", hint));
                 }
                 let radius = self.number_slot(&format!("{path}.radius"), radius)?;
-                Shape::Circle { centre: site(self, centre)?, radius, hollow: *hollow }
+                let (centre, hollow) = (site(self, centre)?, *hollow);
+                match ends {
+                    None => Shape::Circle { centre, radius, hollow },
+                    Some(ends) => Shape::Arc(Arc { centre, radius, hollow, ends: self.ends_of_arc(path, ends)? }),
+                }
             }
             Surface::Line(place) => Shape::Line(self.place(path, place)?.0),
             Surface::Polyline(names) => Shape::Polyline(Outline::polyline(path, &self.corners(path, names, arms)?)?),
             Surface::Polygon(names) => Shape::Polygon(Outline::polygon(path, self.corners(path, names, arms)?)?),
         })
+    }
+
+    fn ends_of_arc(&mut self, path: &str, [first, second]: &[Number; 2]) -> Result<[Slot; 2]> {
+        let path = format!("{path}.ends");
+        if let (Number::Literal(a), Number::Literal(b)) = (first, second) {
+            if !(0.0..TAU).contains(&(b - a)) || a == b {
+                let what = "an arc goes counter-clockwise from its first end to its second, by less than a turn";
+                return Err(CompileError::new(path, what, "turn its ends, or leave them out for a whole circle"));
+            }
+        }
+        Ok([self.number_slot(&path, first)?, self.number_slot(&path, second)?])
     }
 
     fn friction(&mut self, path: &str, contact: &Contact) -> Result<Option<Friction>> {

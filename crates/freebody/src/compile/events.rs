@@ -1,8 +1,8 @@
 //! Events and what they do; parts that are released and engaged.
 
 use super::{names::unknown, CompileError, Compiler, Names, Reach, Result};
-use crate::gauges::Law;
-use crate::mechanism::{Deed, Drive, Event, Level, Part};
+use crate::gauges::{Law, Leaf};
+use crate::mechanism::{Deed, Drive, Event, Level, Part, Runner};
 use crate::spec::{Action, Element, Event as EventSpec, Spec};
 
 /// Whether a joint is there all the time; one that comes or goes cannot be in the tree.
@@ -32,6 +32,25 @@ impl Compiler<'_> {
                     self.drive(&path, Drive { name, coupling: true, of, law, level, by: None, feedback: false })?;
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Of every joint along a curve that can be released, the pin that is released and a row that then holds what runs on the
+    /// curve.
+    pub(crate) fn runners(&mut self) -> Result<()> {
+        for element in self.spec.joints.iter().filter(|element| !stays(self.spec, element)) {
+            let Some(&(joint, _)) = self.names.joints.get(&element.name) else { continue };
+            let Some(child) = self.m.joints[joint].child else { continue };
+            let carried = |&pin: &usize| self.m.body_of(self.m.joints[pin].first.site) == child;
+            let pin = self.m.closures.iter().copied().find(carried).expect("what runs on a curve carries a pin");
+            let hold = self.m.drives.len();
+            let (name, of) = (format!("{}.hold", element.name), Law::leaf(Leaf::Coordinate(joint, 0)));
+            let (law, level) = (Law::constant(0.0), Level::Velocity);
+            self.m.idle.push(Part::Drive(hold));
+            let drive = Drive { name, coupling: true, of, law, level, by: None, feedback: false };
+            self.drive(&format!("joints.{}", element.name), drive)?;
+            self.m.runners.push(Runner { joint, pin, hold });
         }
         Ok(())
     }
@@ -74,7 +93,8 @@ impl Compiler<'_> {
                 Action::Reset(rates) => {
                     for (gauge, rate) in rates {
                         let of = self.law(path, gauge, Reach::Configuration)?;
-                        deeds.push(Deed::Reset(of, self.law(path, rate, Reach::Instant)?));
+                        let rate = self.law(path, rate, Reach::Instant)?;
+                        deeds.push(Deed::Reset { gauge: gauge.clone(), of, rate });
                     }
                 }
             }
@@ -86,15 +106,12 @@ impl Compiler<'_> {
         names.iter().map(|name| self.part(path, name)).collect()
     }
 
-    /// The part of a name; a joint must close a loop to be released.
+    /// The part of a name; of a joint along a curve it is its pin.
     pub(crate) fn part(&self, path: &str, name: &String) -> Result<Part> {
         let n = &self.names;
         if let Some(&(joint, _)) = n.joints.get(name) {
-            if self.m.joints[joint].child.is_some() {
-                let what = format!("`{name}` carries a coordinate along a curve and cannot be released or engaged");
-                return Err(CompileError::new(path, what, "use a link, a slot or a contact in its place"));
-            }
-            return Ok(Part::Joint(joint));
+            let runner = self.m.runners.iter().find(|runner| runner.joint == joint);
+            return Ok(Part::Joint(runner.map_or(joint, |runner| runner.pin)));
         }
         let others = [
             n.drives.get(name).map(|&i| Part::Drive(i)),
@@ -127,6 +144,14 @@ impl Compiler<'_> {
         let forces = self.spec.forces.iter().filter(|f| !f.engaged).map(|f| ("forces", &f.name));
         for (section, name) in joints.chain(motions).chain(forces) {
             let part = self.part(&format!("{section}.{name}"), name)?;
+            if self.m.held_without(part).is_some() {
+                let what = format!("`{name}` runs along a curve and has no place on it before it is there");
+                return Err(CompileError::new(
+                    format!("{section}.{name}"),
+                    what,
+                    "engage a slot or a contact in its place",
+                ));
+            }
             self.m.idle.push(part);
         }
         Ok(())

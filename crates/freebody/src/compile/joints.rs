@@ -5,7 +5,7 @@ use super::{twice, CompileError, Compiler, Fields, Result};
 use crate::gauges::{Law, Leaf};
 use crate::graph::Branch as TreeBranch;
 use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
-use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker};
+use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker, Rub, Rubbing};
 use crate::spec::Coordinate as CoordinateSpec;
 
 /// What the fields of a joint give, side by side.
@@ -112,13 +112,8 @@ impl Compiler<'_> {
             None => kinetic,
         };
         let radius = friction.radius.as_ref().map(|r| self.number_slot(&path, r)).transpose()?;
-        self.m.rubs.push(crate::mechanism::Rub {
-            joint,
-            along: Law::leaf(Leaf::Coordinate(joint, 0)),
-            fixed,
-            kinetic,
-            radius,
-        });
+        let of = Rubbing::Joint { joint, along: Law::leaf(Leaf::Coordinate(joint, 0)), radius };
+        self.m.rubs.push(Rub { of, fixed, kinetic });
         Ok(())
     }
 
@@ -276,7 +271,8 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// A joint outside the tree closes a loop; one along a curve does so by way of a massless particle.
+    /// A joint outside the tree closes a loop; one along a curve does so by way of a massless body that it carries: a particle in
+    /// place of a point, which may turn, to which the second body is pinned, or a rigid body to which it is welded.
     fn close(&mut self, joint: usize) -> Result<()> {
         if self.m.joints[joint].child.is_some() {
             return Ok(());
@@ -298,11 +294,14 @@ impl Compiler<'_> {
             self.names.coordinates.remove(&c.name);
         }
         j.coordinates.retain(|c| c.dimension != "rad");
-        let branch = Branch { parent, joint, reversed: false, start: 0, freedom: 1, hinge: false };
+        let turns = j.kind.card().coordinates.iter().any(|c| c.turn);
+        let (kind, numbers, rows) =
+            if turns { (Kind::Hinge, vec![], vec![0, 1]) } else { (Kind::Weld, vec![zero], vec![0, 1, 2]) };
+        let branch = Branch { parent, joint, reversed: false, start: 0, freedom: j.coordinates.len(), hinge: false };
         self.m.bodies.push(Body {
             name: format!("{name}.pin"),
             listed: None,
-            particle: true,
+            particle: turns,
             pieces: vec![],
             branch: Some(branch),
             pin: site,
@@ -310,15 +309,15 @@ impl Compiler<'_> {
         self.m.closures.push(self.m.joints.len());
         self.m.joints.push(Joint {
             name: format!("{name}.pin"),
-            kind: Kind::Hinge,
+            kind,
             first: pin,
             second: old,
-            numbers: vec![],
+            numbers,
             curve: None,
-            size: 1,
+            size: kind.card().coordinates.len(),
             coordinates: vec![],
-            rows: vec![0, 1],
-            phased: vec![false, false],
+            phased: vec![false; rows.len()],
+            rows,
             child: None,
         });
         Ok(())

@@ -83,6 +83,7 @@ impl Compiled {
         c.gauges()?;
         c.drives()?;
         c.locks()?;
+        c.runners()?;
         c.forces()?;
         c.contacts()?;
         c.stops()?;

@@ -6,6 +6,7 @@ use crate::balance::{gap_row, slide_row, spread, Row, Source};
 use crate::contact::{Friction, Gap};
 use crate::expr::spell;
 use crate::gauges::{Placed, Poses};
+use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 use crate::scalar::Scalar;
 
@@ -40,6 +41,10 @@ fn push_limit<S: Scalar>(
     let load = |origin, symbol, parts, size| Load { origin, symbol, of, parts, size };
     if hold == Hold::Pressed {
         out.push(load(Origin::Pressed(limit), name(word), parts, Size::ByLaw));
+        if let Some((origin, size)) = at.m.rub_of(limit).and_then(|rub| rubbing(at, rub)) {
+            let slide = slide_row(at, limit, None).expect("what rubs slides");
+            out.push(load(origin, name("T"), told(at, limit, &slide), size));
+        }
         return;
     }
     let pressing = out.len();
@@ -83,16 +88,21 @@ fn told<S: Scalar>(at: Placed<'_, S>, limit: usize, row: &Row<S>) -> Vec<Part<S>
     }
 }
 
+/// Whence friction comes and how much is known of it, where there is any.
+fn rubbing<S: Scalar>(at: Placed<'_, S>, rub: usize) -> Option<(Origin, Size<S>)> {
+    match at.mode.rubs[rub] {
+        Hold::Stuck => Some((Origin::Row(Source::Rub(rub)), Size::Unknown)),
+        Hold::Sliding(_) => Some((Origin::Rubbing(rub), Size::ByLaw)),
+        _ => None,
+    }
+}
+
 /// Friction of every joint that rubs.
 pub fn rubs<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, rub) in at.m.rubs.iter().enumerate() {
-        let joint = &at.m.joints[rub.joint];
-        let (origin, size) = match at.mode.rubs[index] {
-            Hold::Stuck => (Origin::Row(Source::Rub(index)), Size::Unknown),
-            Hold::Sliding(_) => (Origin::Rubbing(index), Size::ByLaw),
-            _ => continue,
-        };
-        let parts = along_gauge(at, &rub.along, &spread(at, &rub.along));
+        let Rubbing::Joint { joint, along, .. } = &rub.of else { continue };
+        let (joint, Some((origin, size))) = (&at.m.joints[*joint], rubbing(at, index)) else { continue };
+        let parts = along_gauge(at, along, &spread(at, along));
         out.push(Load {
             origin,
             symbol: format!("{}.friction", spell(&joint.name)),

@@ -3,19 +3,18 @@
 //! A load is one thing that pushes, pulls or turns: a weight, a spring, one component of the reaction of a joint. On two bodies
 //! it acts in equal and opposite ways. What is not known before the balance is solved is told for a unit of it.
 
-mod accelerations;
 mod given;
 mod limits;
 mod numbers;
 mod reactions;
 
-pub use accelerations::accelerations;
 pub use numbers::free_bodies;
 
 use crate::balance::Source;
 use crate::gauges::{Law, Leaf, Placed, Poses};
 use crate::joints::Joint as _;
 use crate::kinematics::{relative, JointView};
+use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 use crate::plane::{Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -92,15 +91,16 @@ pub fn loads<S: Scalar>(at: Placed<'_, S>) -> Vec<Load<S>> {
     loads
 }
 
-/// Where a joint that slides carries its force by one row, its friction is that many times it; `values` are those of the loads,
-/// and say on which side it presses.
+/// Where what slides is pressed by one load, as of a joint that carries its force by one row or of a contact on a spring, its
+/// friction is that many times it; `values` are those of the loads, and say on which side it presses.
 pub fn follow_presses<S: Scalar>(at: Placed<'_, S>, loads: &mut [Load<S>], values: &[f64]) {
     for i in 0..loads.len() {
         let Origin::Rubbing(rub) = loads[i].origin else { continue };
-        let presses = |load: &Load<S>| match load.origin {
-            Origin::Row(Source::Joint(joint, row)) => {
-                joint == at.m.rubs[rub].joint && !at.m.joints[joint].kind.card().rows[row].turning
+        let presses = |load: &Load<S>| match (load.origin, &at.m.rubs[rub].of) {
+            (Origin::Row(Source::Joint(joint, row)), Rubbing::Joint { joint: rubs, .. }) => {
+                joint == *rubs && !at.m.joints[joint].kind.card().rows[row].turning
             }
+            (Origin::Pressed(limit), Rubbing::Limit(rubs)) => limit == *rubs,
             _ => false,
         };
         if let Some(press) = loads.iter().position(presses) {

@@ -1,6 +1,6 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
-use super::{accelerations, follow_presses, loads, mass_centre, Load, Origin, Part, Size};
+use super::{follow_presses, loads, mass_centre, Load, Origin, Part, Size};
 use crate::balance::{closing_rows, Balance, Labels, Source, Trouble};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
@@ -26,11 +26,12 @@ pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
     follow_presses(at, &mut all, &values);
     let told: Vec<Value> = all.iter().zip(found).map(|(load, size)| tell(balance, load, size)).collect();
     let still = vec![0.0; m.freedom()];
-    let drift = accelerations(at, &still);
+    let spread = |of_coordinates: &[f64]| at.k.spread_user(m, at.n, of_coordinates);
+    let drift = spread(&still);
     let unit = |j: usize| -> Vec<Twist> {
         let mut one = still.clone();
         one[j] = 1.0;
-        accelerations(at, &one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
+        spread(&one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
     };
     let units: Vec<Vec<Twist>> = (0..m.freedom()).map(unit).collect();
     let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(balance, i, &drift, &units)).collect();
@@ -128,11 +129,7 @@ fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, 
                 Source::Limit(limit) => (m.groups[m.limits[limit].group].word, None),
                 Source::Friction(_) | Source::Rub(_) => ("friction", None),
             };
-            let path = match source {
-                Source::Limit(l) | Source::Friction(l) => m.groups[m.limits[l].group].path(),
-                _ => source.path(m),
-            };
-            (kind, source.name(m), path, component)
+            (kind, source.name(m), source.path(m), component)
         }
         Origin::Sliding(limit) | Origin::Pressed(limit) => {
             let group = &m.groups[m.limits[limit].group];

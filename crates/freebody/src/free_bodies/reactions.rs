@@ -15,12 +15,18 @@ pub fn joints<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
         if joint.rows.is_empty() || !at.mode.has(Piece::Joint(index)) {
             continue;
         }
-        let (of, place) = (at.m.ends(joint), joint_place(at, index));
-        let mut rows = vec![];
-        match joint.curve {
-            Some(_) => rows.push(curve_row(at, index)),
-            None => joint_rows(at, index, None, &mut rows),
-        }
+        let (of, mut rows) = (at.m.ends(joint), vec![]);
+        let place = match joint.curve {
+            Some(_) => {
+                let (row, touch) = curve_row(at, index);
+                rows.push(row);
+                touch
+            }
+            None => {
+                joint_rows(at, index, None, &mut rows);
+                joint_place(at, index)
+            }
+        };
         let card = joint.kind.card();
         for row in &rows {
             let Source::Joint(_, r) = row.source else { continue };

@@ -2,7 +2,7 @@
 //!
 //! The curve parameter is a coordinate of its own, so that a curve may cross itself and no closest
 //! point is ever searched for. Such a joint has no residual: where it would close a loop, the
-//! mechanism puts a massless particle on the curve and closes the loop there with a hinge.
+//! mechanism puts a massless body on the curve and closes the loop there with a hinge, or a weld.
 
 use super::*;
 

@@ -131,6 +131,23 @@ impl<S: Scalar> Kinematics<S> {
     /// Accelerations of all pins and angles for joint accelerations `nu_dot`; with `drift`, those that
     /// the velocities cause are added (without, the result is a virtual displacement or a velocity).
     pub fn spread(&self, m: &Mechanism, nu_dot: &[S], drift: bool, out: &mut [Twist<S>]) {
+        self.carry(m, drift, |b, k, _| nu_dot[b.start + k], out);
+    }
+
+    /// Accelerations of all pins and angles for accelerations of the user's coordinates.
+    pub fn spread_user(&self, m: &Mechanism, n: &Numbers<S>, u_dot: &[S]) -> Vec<Twist<S>> {
+        let own = |b: Branch, k: usize, carried: S| {
+            let reading = m.joints[b.joint].coordinates[k].reading(&n.slots);
+            reading.to_joint(S::zero(), u_dot[b.start + k], S::zero(), carried).1
+        };
+        let mut out = vec![Twist::zero(); m.bodies.len()];
+        self.carry(m, true, own, &mut out);
+        out
+    }
+
+    /// Goes through the tree; `own` tells the joint acceleration of a coordinate of a branch, given the angular one of the
+    /// body that carries it.
+    fn carry(&self, m: &Mechanism, drift: bool, own: impl Fn(Branch, usize, S) -> S, out: &mut [Twist<S>]) {
         out[0] = Twist::zero();
         for (i, body) in m.bodies.iter().enumerate() {
             let Some(b) = body.branch else { continue };
@@ -140,7 +157,7 @@ impl<S: Scalar> Kinematics<S> {
                 motion = motion + self.drift[i];
             }
             for k in 0..b.freedom {
-                motion = motion + self.columns[i][k] * nu_dot[b.start + k];
+                motion = motion + self.columns[i][k] * own(b, k, base.w);
             }
             out[i] = motion;
         }

@@ -15,10 +15,10 @@ pub use question::{answer, Question, Setting};
 
 use crate::algebra::Letter;
 use crate::balance::{Balance, Trouble};
-use crate::free_bodies::{accelerations, follow_presses, loads, Load, Origin, Size};
+use crate::free_bodies::{follow_presses, loads, Load, Origin, Size};
 use crate::gauges::Placed;
 use crate::kinematics::Kinematics;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Rubbing};
 use crate::mode::Hold;
 use crate::mode::Mode;
 use crate::numbers::Numbers;
@@ -74,7 +74,7 @@ impl<'m> Letters<'m> {
         k.sweep(m, &n, &q, &u);
         let t = named("t", 0, at.t);
         let placed = Placed { m, n: &n, k: &k, q: &q, u: &u, t, mode: &balance.mode };
-        let bodies = accelerations(placed, &a);
+        let bodies = k.spread_user(m, &n, &a);
         let mut loads = loads(placed);
         follow_presses(placed, &mut loads, values);
         let sizes = sizes(&loads, values);
@@ -162,11 +162,12 @@ impl Letters<'_> {
         let law = |load: &Load<Symbol>| {
             let (Origin::Rubbing(rub), Size::ByLaw) = (load.origin, load.size) else { return None };
             let (rub, Hold::Sliding(sense)) = (&self.m.rubs[rub], self.mode.rubs[rub]) else { return None };
+            let Rubbing::Joint { joint, radius, .. } = rub.of else { return None };
             let carried = |axis: usize| {
-                let place = self.loads.iter().position(|l| l.origin == Origin::Pin(rub.joint, axis))?;
+                let place = self.loads.iter().position(|l| l.origin == Origin::Pin(joint, axis))?;
                 Some(self.sizes[place])
             };
-            let (x, y, radius) = (carried(0)?, carried(1)?, self.n.slots[rub.radius?]);
+            let (x, y, radius) = (carried(0)?, carried(1)?, self.n.slots[radius?]);
             let most = self.n.slots[rub.kinetic] * radius * (x * x + y * y).sqrt();
             Some(json!({"load": load.symbol, "tree": most.scale(-sense).tree()}))
         };

@@ -54,9 +54,14 @@ impl Letters<'_> {
 
     /// What loops, motions and closed limits ask, told of the coordinates.
     pub(super) fn rows(&self) -> Value {
+        Value::Array(self.closing().iter().map(|row| self.row(row)).collect())
+    }
+
+    /// What closes loops, prescribes motions and holds limits.
+    pub(super) fn closing(&self) -> Vec<Row<Symbol>> {
         let mut rows = closing_rows(self.at(), Some(&self.bodies));
         self.tell_pins(&self.k, &self.bodies, &mut rows);
-        Value::Array(rows.iter().map(|row| self.row(row)).collect())
+        rows
     }
 
     /// Tells the rows of pins along the fixed axes: from the first point to the second, with its rate and its acceleration.
@@ -92,8 +97,11 @@ impl Letters<'_> {
             Source::Limit(limit) | Source::Friction(limit) => self.m.groups[self.m.limits[limit].group].word,
             Source::Rub(_) => "friction",
         };
+        // Of gears only the change counts: their place holds a constant of the assembly.
+        let phased = matches!(row.source, Source::Joint(j, r) if self.m.joints[j].kind.card().rows[r].phased);
+        let value = row.value.filter(|_| !phased);
         json!({
-            "name": row.source.name(self.m), "kind": kind, "value": row.value.map(tree), "rate": row.rate.map(tree),
+            "name": row.source.name(self.m), "kind": kind, "value": value.map(tree), "rate": row.rate.map(tree),
             "acceleration": tree(row.bias), "linear": linear_in(row.bias, unknowns),
         })
     }

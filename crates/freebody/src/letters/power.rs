@@ -4,7 +4,7 @@ use super::motion::acceleration;
 use super::vectors::{tree, tree_by};
 use super::Letters;
 use crate::algebra::Letter;
-use crate::balance::{closing_rows, Trouble};
+use crate::balance::Trouble;
 use crate::plane::{vec2, Twist, Vec2};
 use crate::scalar::{Scalar, Symbol};
 use serde_json::{json, Value};
@@ -27,7 +27,7 @@ impl Letters<'_> {
     fn jacobian(&self, rows: &[usize]) -> Vec<Vec<Symbol>> {
         let accelerations: Vec<Letter> =
             (0..self.m.freedom()).map(|i| Letter::new(&self.m.coordinate(i).name, 2)).collect();
-        let all = closing_rows(self.at(), Some(&self.bodies));
+        let all = self.closing();
         rows.iter().filter_map(|&r| all.get(r)).map(|row| row.bias.linear_in(&accelerations).0).collect()
     }
 

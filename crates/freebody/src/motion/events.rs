@@ -25,6 +25,8 @@ pub enum Kind {
     Crossing,
     /// It has an extremum that is zero; nothing was done about it.
     Touch,
+    /// None: it happened at the start, before anything moved.
+    Opening,
 }
 
 /// A zero of a switching function on a segment.
@@ -218,6 +220,16 @@ impl Watcher {
             memory.side = memory.side_ahead;
             memory.is_spent = false;
         }
+    }
+
+    /// Functions that are zero where the run is, and about to change their sign, with the side that they go to; `ahead`:
+    /// their values a little later.
+    pub fn crossing_here<'a>(&'a self, values: &'a [f64], ahead: &'a [f64]) -> impl Iterator<Item = (usize, i8)> + 'a {
+        self.memory.iter().enumerate().filter_map(|(i, memory)| {
+            let is_zero = !memory.is_spent && memory.sign(values[i]) == 0;
+            let goes_on = (ahead[i] - values[i]) * f64::from(memory.side) < 0.0;
+            (is_zero && goes_on).then_some((i, -memory.side))
+        })
     }
 
     /// The run stopped at a zero; `values` are those of all functions there. A sign that an action changed is no event:

@@ -5,7 +5,7 @@ use super::events::{Kind, Mark, Probe};
 use super::method::all_finite;
 use super::outcome::{Happening, Outcome};
 use super::run::{ending, Runner};
-use super::system::{After, Role};
+use super::system::{After, Role, System};
 
 impl Runner<'_> {
     /// The zeros on a segment that count, in order.
@@ -17,27 +17,39 @@ impl Runner<'_> {
         let marks = self.watcher.search(system, segment).map_err(Outcome::Trouble)?;
         let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
         for mark in marks {
-            let watch = system.switch(mark.index);
-            let is_passing = mark.kind == Kind::Touch && watch.role != Role::Event;
-            if is_passing || watch.direction * mark.direction < 0 {
-                continue;
-            }
             segment.at(mark.t, &mut y);
-            if system.armed(mark.index, mark.t, &y).map_err(Outcome::Trouble)? {
+            if counts(system, &mark, &y)? {
                 counting.push(mark);
             }
         }
         Ok(counting)
     }
 
+    /// Lets the events act that fall on the end of the run: a run that goes on from there does not see them.
+    pub(super) fn act_at_end(&mut self) -> Result<(), Outcome> {
+        if self.watcher.is_idle() {
+            return Ok(());
+        }
+        let (values, h) = (self.switch_values(0.0)?, 1e-3 * self.pace.h);
+        let ahead = self.switch_values(h)?;
+        let (mut hits, system) = (Vec::new(), &mut *self.system.system);
+        for (index, side) in self.watcher.crossing_here(&values, &ahead) {
+            let direction = side * h.signum() as i8;
+            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction };
+            if system.switch(index).role == Role::Event && counts(system, &hit, &self.now.y)? {
+                hits.push(hit);
+            }
+        }
+        self.act(&hits).map(|_| ())
+    }
+
     /// Steps to the first crossing of `marks`, lets it act and goes on from there.
     pub(super) fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
-        let mut crossings = marks.iter().filter(|mark| mark.kind == Kind::Crossing);
-        let first = *crossings.next().expect("the caller saw one");
-        let together = crossings.filter(|mark| is_tie(mark.t, first.t));
-        let hits: Vec<Mark> = std::iter::once(&first).chain(together).copied().collect();
+        let crossings: Vec<Mark> = marks.iter().filter(|mark| mark.kind == Kind::Crossing).copied().collect();
+        let first = *crossings.first().expect("the caller saw one");
+        let (hits, later): (Vec<Mark>, Vec<Mark>) = crossings.into_iter().partition(|mark| is_tie(mark.t, first.t));
         self.note_touches(&segment, marks, first.t);
-        self.land(&segment, first)?;
+        self.land(&segment, first, later.first().map_or(segment.t1, |mark| mark.t))?;
         let has_jumped = self.act(&hits)?;
         if has_jumped {
             self.stepper.reset();
@@ -71,9 +83,9 @@ impl Runner<'_> {
     }
 
     /// Makes a true step to a zero that was found on the dense output of a longer one, and once
-    /// more when the function is not yet zero there.
-    fn land(&mut self, segment: &Segment, hit: Mark) -> Result<(), Outcome> {
-        let (t0, t1) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
+    /// more when the function is not yet zero there; not beyond `next`, where another one vanishes.
+    fn land(&mut self, segment: &Segment, hit: Mark, next: f64) -> Result<(), Outcome> {
+        let (t0, t1) = (segment.t0.min(next), segment.t0.max(next));
         let mut t = hit.t;
         for _ in 0..3 {
             if t == self.now.t {
@@ -149,6 +161,14 @@ impl Runner<'_> {
         system.switch_values(self.now.t + h, &y, &mut values).map_err(Outcome::Trouble)?;
         Ok(values)
     }
+}
+
+/// Whether the zero of a switching function counts, at the state there.
+fn counts(system: &mut dyn System, mark: &Mark, y: &[f64]) -> Result<bool, Outcome> {
+    let watch = system.switch(mark.index);
+    let is_passing = mark.kind == Kind::Touch && watch.role != Role::Event;
+    let other_way = watch.direction * mark.direction < 0;
+    Ok(!is_passing && !other_way && system.armed(mark.index, mark.t, y).map_err(Outcome::Trouble)?)
 }
 
 fn happening(mark: &Mark, t: f64, y: &[f64]) -> Happening {

@@ -114,9 +114,9 @@ pub struct Happening {
     pub y: Vec<f64>,
     /// Index of the switching function.
     pub index: usize,
-    /// Crossing or touch.
+    /// Crossing, touch or opening.
     pub kind: Kind,
-    /// +1 where the function rises as time grows, −1 where it falls, 0 for a touch.
+    /// +1 where the function rises as time grows, −1 where it falls, else 0.
     pub direction: i8,
 }
 

@@ -151,6 +151,7 @@ impl<'a> Runner<'a> {
     /// One accepted step, or the part of it up to an event.
     fn advance(&mut self, options: &Options, progress: &mut dyn FnMut(f64) -> bool) -> Result<(), Outcome> {
         if self.now.t == self.t_end {
+            self.act_at_end()?;
             return Err(Outcome::Completed);
         }
         let error = self.accept(options)?;

@@ -1,10 +1,12 @@
 //! The way of a string and what is slack of it.
 
 use super::layout::Layout;
+use super::tangent::Round;
 use super::{Way, Winding};
 use crate::contact::{Border, Piece};
 use crate::gauges::Poses;
 use crate::mechanism::{Mechanism, Slot};
+use crate::plane::Vec2;
 use crate::scalar::Scalar;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -118,6 +120,16 @@ impl Cord {
             }
         }
         borders
+    }
+
+    /// The stretches between two points, from the one to the other, fixed axes, m.
+    pub fn spans(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: Piece) -> Vec<Vec2> {
+        let layout = Layout::new(self, m, poses, Winding::of(piece.index), piece.phase);
+        let between_points = |pair: &[Round<f64>]| {
+            let [a, b] = [&pair[0], &pair[1]];
+            (a.radius == 0.0 && b.radius == 0.0).then(|| poses.span(a.site, b.site, m) + b.off - a.off)
+        };
+        layout.rounds.windows(2).filter_map(between_points).collect()
     }
 
     /// The bodies on which its slack depends, ground left out, each once.

@@ -46,18 +46,20 @@ impl Cord {
             phase[end] = attached.map_or(0.0, |slot| poses.slot(slot));
             winding.ways[end] = way;
             let layout = Layout::new(self, m, poses, winding, phase);
-            let length = layout.length();
+            let (length, last) = (layout.length(), layout.free.len() - 1);
+            let none = layout.free[if end == 0 { 0 } else { last }].none;
             let [first, second] = layout.leaves;
             let leave: Leave<f64> = if end == 0 { first } else { second }.expect("an end on a drum");
-            (leave, length)
+            (leave, length, none)
         };
-        let (leave, length) = laid(Way::Wound);
+        let (leave, length, none) = laid(Way::Wound);
         let at = |turn: f64| leave.direction - body - sense * turn;
         if let Some(slot) = wound {
-            return (at(FRAC_PI_2 + poses.slot(slot) / radius), Way::Wound);
+            // A free stretch of no length takes nothing from what is wound.
+            return (at(FRAC_PI_2 + (poses.slot(slot) - none) / radius), Way::Wound);
         }
         let turn = near(leave.turn, FRAC_PI_2 + PI - NONE);
-        let (unwound, straight) = laid(Way::Pivot);
+        let (unwound, straight, _) = laid(Way::Pivot);
         let free = unwound.turn.abs() <= FRAC_PI_2;
         let Some(given) = self.length.map(|slot| poses.slot(slot)) else {
             return if free { (at(turn - TAU), Way::Pivot) } else { (at(turn), Way::Wound) };

@@ -22,6 +22,8 @@ pub(super) struct Free<T> {
     pub length: T,
     /// Its direction, from the first end of the string towards the second, rad in fixed axes; known up to whole turns.
     pub angle: T,
+    /// How much of its length stands for none, m.
+    pub none: f64,
 }
 
 /// Distance of two points, m, below which a stretch between them has neither length nor direction.
@@ -45,12 +47,14 @@ impl<T: Scalar> Free<T> {
         let span = poses.span(a.site, b.site, m) + b.off - a.off;
         let square = span.dot(span);
         if square.value() < NOTHING * NOTHING {
-            return Free { length: T::zero(), angle: T::zero() };
+            return Free { length: T::zero(), angle: T::zero(), none: 0.0 };
         }
         let aside = b.radius - a.radius;
         let (rest, least) = (square - aside * aside, square.value() * TOUCHING);
-        let length = T::select(rest.value() > least, rest, T::of(least)).sqrt();
-        Free { length, angle: span.y.atan2(span.x) - aside.atan2(length) }
+        let is_long = rest.value() > least;
+        let length = T::select(is_long, rest, T::of(least)).sqrt();
+        let none = if is_long { 0.0 } else { length.value() };
+        Free { length, angle: span.y.atan2(span.x) - aside.atan2(length), none }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What switched: the record of a motion's modes.
 
 use super::Machine;
-use crate::balance::Trouble;
+use crate::balance::{Source, Trouble};
 use crate::mode::{Hold, Mode};
 use crate::plane::Vec2;
 
@@ -78,14 +78,14 @@ impl Machine<'_> {
                 told.push((kind, group.name.clone()));
             }
         }
-        for (rub, of) in m.rubs.iter().enumerate() {
+        for rub in 0..m.rubs.len() {
             let kind = match (before.rubs[rub], self.balance.mode.rubs[rub]) {
                 (Hold::Stuck, Hold::Sliding(_)) => "slip",
                 (Hold::Sliding(_), Hold::Stuck) => "stick",
                 (Hold::Sliding(a), Hold::Sliding(b)) if a != b => "reversal",
                 _ => continue,
             };
-            told.push((kind, m.joints[of.joint].name.clone()));
+            told.push((kind, Source::Rub(rub).name(m).to_string()));
         }
         for (kind, name) in told {
             self.note(Change { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note: None });

@@ -68,7 +68,7 @@ impl Machine<'_> {
             }
         }
         // A string keeps count of its turns, slack or taut.
-        if held.hold.is_closed() || matches!(limit.gap, Gap::Cord(_)) {
+        if held.hold.touches() || matches!(limit.gap, Gap::Cord(_)) {
             values[3] = self.balance.border(l).map_or(1.0, |(value, _)| value / self.balance.length);
         }
     }

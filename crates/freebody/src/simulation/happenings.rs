@@ -2,7 +2,7 @@
 
 use super::guards::{GUARDS, RUB_GUARDS};
 use super::Machine;
-use crate::balance::Trouble;
+use crate::balance::{Source, Trouble};
 use crate::mechanism::{Deed, Event, Kink, Mechanism};
 
 impl Machine<'_> {
@@ -17,7 +17,7 @@ impl Machine<'_> {
                 let group = &m.groups[m.limits[guard / GUARDS].group];
                 format!("{} `{}`", group.word, group.name)
             }
-            Some(rub) => format!("joint `{}`", m.joints[m.rubs[rub / RUB_GUARDS].joint].name),
+            Some(rub) => format!("friction of `{}`", Source::Rub(rub / RUB_GUARDS).name(m)),
         }
     }
 

@@ -7,7 +7,8 @@ use crate::balance::{Balance, Observer, Trouble};
 use crate::gauges::{Law, State};
 use crate::mechanism::{Deed, Kink};
 use crate::mode::Mode;
-use crate::motion::{After, Canonical, System, Watch};
+use crate::motion::{After, Canonical, Happening, System, Watch};
+use crate::plane::Vec2;
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
 const DELICATE: f64 = 0.5;
@@ -44,6 +45,10 @@ pub struct Machine<'m> {
     pub(super) jams_strike: bool,
     /// What has switched.
     pub(super) changes: Vec<Change>,
+    /// Of every limit, how it ran after the last step, if it is a taut string.
+    pub(super) spans: Vec<Vec<Vec2>>,
+    /// The events of the start.
+    pub(super) openings: Vec<Happening>,
     /// After the last bounce: what struck and what comes back first, and how long its flight lasts, s.
     pub(super) flight: Option<(Vec<usize>, f64)>,
     /// Sizes of forces, N, and of speeds, m/s.
@@ -51,6 +56,8 @@ pub struct Machine<'m> {
     pub(super) speed: f64,
     /// Speed below which there is none, at the instant that is settled, m/s.
     pub(super) still: f64,
+    /// Whether touches that are almost one may contradict each other by a little, at the instant that is settled.
+    pub(super) rough: bool,
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) stretches: Vec<Stretch>,
@@ -82,10 +89,13 @@ impl<'m> Machine<'m> {
             rule: Rule::Stop,
             jams_strike: false,
             changes: vec![],
+            spans: vec![],
+            openings: vec![],
             flight: None,
             strength: 1.0,
             speed: 1.0,
             still: 0.0,
+            rough: false,
             set: m.overruled(p),
             stretches: vec![],
             worst_gap: 0.0,
@@ -229,6 +239,7 @@ impl System for Machine<'_> {
         } else {
             self.place(t, y);
         }
+        self.check_spans()?;
         self.balance.solve()?;
         dy[..n].copy_from_slice(self.balance.at().u);
         self.balance.accelerations(&mut dy[n..2 * n]);
@@ -262,6 +273,7 @@ impl System for Machine<'_> {
         self.independence = self.balance.independence();
         self.delicate = self.independence < DELICATE;
         let turned = self.balance.align(t, q, &mut rest[..n])?;
+        self.note_spans();
         let pace = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / pace))
     }

@@ -5,6 +5,7 @@
 
 mod canonical;
 mod changes;
+mod drawn_in;
 mod guards;
 mod happenings;
 mod impacts;

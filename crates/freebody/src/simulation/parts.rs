@@ -3,7 +3,6 @@
 use super::changes::{Change, Impulses};
 use super::Machine;
 use crate::balance::Trouble;
-use crate::gauges::Law as Gauge;
 use crate::mechanism::{Deed, Part};
 use crate::mode::Hold;
 
@@ -26,12 +25,7 @@ impl Machine<'_> {
         if jump != 0.0 {
             self.begin_stretch(t, jump, 0.0);
         }
-        let resets: Vec<(&Gauge, &Gauge)> =
-            deeds.iter().filter_map(|d| if let Deed::Reset(of, rate) = d { Some((of, rate)) } else { None }).collect();
-        if !resets.is_empty() {
-            self.reset(t, y, &resets)?;
-            switched = true;
-        }
+        switched |= self.reset(t, y, deeds)?;
         if switched {
             self.close_up(t, y)?;
             self.settle(t, y)?;
@@ -49,12 +43,18 @@ impl Machine<'_> {
         changed
     }
 
-    /// Gives gauges their new rates, with the least change of momentum.
-    fn reset(&mut self, t: f64, y: &mut [f64], resets: &[(&Gauge, &Gauge)]) -> Result<(), Trouble> {
+    /// Gives gauges their new rates, with the least change of momentum; answers whether any was asked for.
+    fn reset(&mut self, t: f64, y: &mut [f64], deeds: &[Deed]) -> Result<bool, Trouble> {
         let n = self.balance.m.freedom();
-        let rates: Vec<&Gauge> = resets.iter().map(|r| r.1).collect();
-        let values = self.read(&rates, t, y)?;
-        let held: Vec<_> = resets.iter().zip(values).map(|(r, x)| (String::new(), r.0.clone(), x)).collect();
+        let mut held = vec![];
+        for deed in deeds {
+            if let Deed::Reset { gauge, of, rate } = deed {
+                held.push((gauge.clone(), of.clone(), self.read(&[rate], t, y)?[0]));
+            }
+        }
+        if held.is_empty() {
+            return Ok(false);
+        }
         let before = y.to_vec();
         self.place(t, y);
         let energy = self.balance.kinetic_energy();
@@ -63,8 +63,9 @@ impl Machine<'_> {
         self.place(t, y);
         let lost = energy - self.balance.kinetic_energy();
         let states = Some([before, y.to_vec()]);
-        self.note_jump(Change { t, kind: "reset", of: vec![], lost, states, impulses: None, note: None });
-        Ok(())
+        let of = held.into_iter().map(|(gauge, ..)| gauge).collect();
+        self.note_jump(Change { t, kind: "reset", of, lost, states, impulses: None, note: None });
+        Ok(true)
     }
 
     /// Lets what was engaged take hold: a plastic impact of the joints.

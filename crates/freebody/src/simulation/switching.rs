@@ -4,7 +4,7 @@ use super::impacts::Rule;
 use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
 use crate::mode::Hold;
-use crate::motion::System;
+use crate::motion::{Happening, Kind, System};
 
 /// Gap, over the characteristic length, below which a limit is reached.
 pub(super) const REACHED: f64 = 1e-10;
@@ -38,8 +38,11 @@ impl Machine<'_> {
             }
             self.settle(t, y)?;
         }
-        for event in m.events.iter().filter(|event| event.opening && start.mode.is_none()) {
-            self.happen(event, t, y)?;
+        for (i, event) in m.events.iter().enumerate().filter(|(_, e)| e.opening && start.mode.is_none()) {
+            if self.armed(i, t, y)? {
+                self.openings.push(Happening { t, y: y.to_vec(), index: i, kind: Kind::Opening, direction: 0 });
+                self.happen(event, t, y)?;
+            }
         }
         self.open();
         Ok(())
@@ -48,19 +51,20 @@ impl Machine<'_> {
     /// A guard of limit `l` fell to zero.
     pub(super) fn switch_limit(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
-        if self.balance.m.limits[l].soft.is_some() {
-            let before = self.balance.mode.clone();
-            let held = &mut self.balance.mode.limits[l];
-            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
-            return self.take_mode(t, &before);
-        }
+        let limit = &self.balance.m.limits[l];
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
             let held = &mut self.balance.mode.limits[l];
             held.piece.index = beyond;
-            if !self.balance.m.limits[l].gap.can_close(beyond) {
+            if !limit.gap.can_close(beyond) {
                 held.hold = Hold::Open;
             }
+        } else if limit.soft.is_some() {
+            let before = self.balance.mode.clone();
+            let held = &mut self.balance.mode.limits[l];
+            held.hold = if held.hold == Hold::Open { Hold::Pressed } else { Hold::Open };
+            self.stick(t, y, &[], None)?;
+            return self.take_mode(t, &before);
         }
         self.settle(t, y)
     }
@@ -83,7 +87,7 @@ impl Machine<'_> {
 
     fn settle_with(&mut self, t: f64, y: &mut [f64], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
         let (known, earlier) = ([self.changes.len(), self.stretches.len()], y.to_vec());
-        self.still = STILL * self.speed;
+        (self.still, self.rough) = (STILL * self.speed, false);
         let settled = self.settle_from(t, y, loose);
         if settled.is_err() {
             // The motion ends with the state before.
@@ -114,16 +118,18 @@ impl Machine<'_> {
             let staying: Vec<usize> = staying.iter().map(|&i| reached.limits[i]).collect();
             match self.stick(t, y, &staying, loose) {
                 Err(trouble) if self.jams_strike && JAMS.contains(&trouble.name) => {
-                    if !self.seize(t, y, &staying)? {
+                    if self.rough {
                         return Err(trouble);
                     }
+                    // Where nothing seizes there are forces, and what contradicts them is not told exactly enough.
+                    self.rough = !self.seize(t, y, &staying)?;
                     continue;
                 }
                 done => done?,
             }
             // What bounces back does so from where it is: to shift it would turn its way.
             let at_rest: Vec<usize> = reached.limits.iter().copied().filter(|l| !struck.contains(l)).collect();
-            self.bring_onto(t, y, &at_rest)?;
+            self.bring_onto(t, y, &at_rest, &reached.limits)?;
             match parting.is_empty() {
                 true => self.flight = None,
                 false if self.capture(t, y, &reached, &parting, &struck)? => continue,
@@ -143,41 +149,42 @@ impl Machine<'_> {
         if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }
-        for _ in 0..=self.balance.m.rubs.len() {
+        let scale = Scale { still: STILL * self.speed, ..self.judgement() };
+        for _ in 0..=self.balance.most_turns() {
             if !limits.is_empty() {
                 self.take_holds(t, y, limits)?;
             }
-            if self.balance.m.rubs.is_empty() || !self.balance.loosen_rubs()? {
+            if self.balance.m.rubs.is_empty() || !self.balance.turn_rub(scale, loose.map(|(rub, _)| rub))? {
                 break;
             }
         }
         Ok(())
     }
 
-    /// Brings the state exactly onto the limits that hold. What speed that takes away, where limits all but depend on each
-    /// other, is in the ledger.
-    fn bring_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
-        self.place(t, y);
-        let before = self.balance.kinetic_energy();
-        self.put_onto(t, y, reached)?;
-        let lost = before - self.balance.kinetic_energy();
-        if lost < -GAIN * self.strength * self.balance.length {
+    /// Brings the state exactly onto the limits that hold. What speed, and what height, that takes away, where limits all but
+    /// depend on each other, is in the ledger.
+    fn bring_onto(&mut self, t: f64, y: &mut [f64], at_rest: &[usize], reached: &[usize]) -> Result<(), Trouble> {
+        let before = self.energy(t, y);
+        self.put_onto(t, y, at_rest, reached)?;
+        let after = self.energy(t, y);
+        let [speed, height] = [0, 1].map(|i| after[i] - before[i]);
+        if speed > GAIN * self.strength * self.balance.length {
             let names = self.balance.names_of(reached);
-            let what = format!("to bring {names} to rest on each other would create the energy {:.6e} J", -lost);
+            let what = format!("to bring {names} to rest on each other would create the energy {speed:.6e} J");
             return Err(Trouble::new("contact_unsolved", what));
         }
-        if lost != 0.0 {
-            self.begin_stretch(t, 0.0, -lost);
+        if speed + height != 0.0 {
+            self.begin_stretch(t, 0.0, speed + height);
         }
         Ok(())
     }
 
-    /// Brings the state exactly onto the limits that hold, and out of those that open.
-    fn put_onto(&mut self, t: f64, y: &mut [f64], reached: &[usize]) -> Result<(), Trouble> {
+    /// Brings the state exactly onto the limits that hold, and out of those that open from rest.
+    fn put_onto(&mut self, t: f64, y: &mut [f64], at_rest: &[usize], reached: &[usize]) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
         self.place(t, y);
         let inside = |l: &&usize| self.balance.mode.limits[**l].hold == Hold::Open && self.balance.limit_gap(**l) < 0.0;
-        let opening: Vec<usize> = reached.iter().filter(inside).copied().collect();
+        let opening: Vec<usize> = at_rest.iter().filter(inside).copied().collect();
         let carries = self.balance.mode.limits.iter().any(|held| held.hold.carries());
         if opening.is_empty() && !carries && self.balance.m.rubs.is_empty() {
             return Ok(());
@@ -238,7 +245,7 @@ impl Machine<'_> {
     /// What counts as slow, and what is done where nothing decides.
     pub(super) fn judgement(&self) -> Scale {
         let pace = self.speed * self.speed / self.balance.length;
-        Scale { still: self.still, pace, stay: self.rule != Rule::Stop }
+        Scale { still: self.still, pace, stay: self.rule != Rule::Stop, rough: self.rough }
     }
 
     /// A time that is short beside any of the motion, s.

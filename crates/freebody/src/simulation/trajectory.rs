@@ -7,7 +7,7 @@ use crate::balance::{Balance, Freedom, Instant, Observer, Route, Trouble};
 use crate::gauges::Law;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
-use crate::motion::{Happening, Kind, Outcome, Run};
+use crate::motion::{Happening, Outcome, Run};
 
 /// A finished run with dense output.
 pub struct Trajectory {
@@ -56,7 +56,7 @@ impl Trajectory {
         steps.push(run.t);
         Trajectory {
             steps,
-            events: run.events.clone(),
+            events: machine.openings.into_iter().chain(run.events.iter().cloned()).collect(),
             outcome: run.outcome.clone(),
             counts: [run.accepted, run.rejected, run.evaluations],
             kinks: run.kinks,
@@ -113,7 +113,10 @@ impl Trajectory {
         let mut y = vec![0.0; self.run.y.len()];
         let mut last = None;
         for &t in times {
-            if !self.run.trajectory.at(t, &mut y) {
+            if t == self.run.t {
+                // After what happened there.
+                y.copy_from_slice(&self.run.y);
+            } else if !self.run.trajectory.at(t, &mut y) {
                 let (first, end) = (self.steps[0], self.run.t);
                 return Err(Trouble::new(
                     "out_of_range",
@@ -282,10 +285,5 @@ impl Trajectory {
     /// As [`Trajectory::reactions`].
     pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
         self.at(m, t, |balance| Ok((balance.instant(route)?, balance.freedom())))
-    }
-
-    /// Name of the event of a happening, and whether it crossed.
-    pub fn event<'m>(&self, m: &'m Mechanism, happening: &Happening) -> (&'m str, bool) {
-        (&m.events[happening.index].name, happening.kind == Kind::Crossing)
     }
 }

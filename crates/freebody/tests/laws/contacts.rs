@@ -41,7 +41,7 @@ fn point(name: &str) -> Surface {
 }
 
 fn round(centre: &str, radius: f64, hollow: bool) -> Surface {
-    Surface::Circle { centre: centre.into(), radius: literal(radius), hollow }
+    Surface::Circle { centre: centre.into(), radius: literal(radius), hollow, ends: None }
 }
 
 fn names(words: &str) -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use crate::model::*;
 use crate::rng::Rng;
-use freebody::contact::{Chain, Disk, Profile, Touch};
+use freebody::contact::{Arc, Chain, Disk, Profile, Touch};
 use freebody::gauges::{Law, Moving, Placed};
 use freebody::kinematics::Kinematics;
 use freebody::mechanism::{Marker, Mechanism, Site, Spot};
@@ -10,7 +10,7 @@ use freebody::mode::Mode;
 use freebody::numbers::Numbers;
 use freebody::plane::{vec2, Pose, Turn, Twist, Vec2};
 
-const SURFACES: [&str; 6] = ["line", "circle", "hollow", "polygon", "chain", "bent"];
+const SURFACES: [&str; 8] = ["line", "circle", "hollow", "polygon", "chain", "bent", "arc", "hollow arc"];
 
 /// A touch of a disk and a surface, on bodies of every sort; the disk comes first.
 pub struct Scene {
@@ -55,6 +55,15 @@ impl Scene {
                 radius: slot(&mut m, rng.within(0.5, 1.5)),
                 hollow: word == "hollow",
             },
+            "arc" | "hollow arc" => {
+                let (start, sweep) = (rng.about(3.0), rng.within(0.3, 5.5));
+                Profile::Arc(Arc {
+                    centre: site(&mut m, second, from),
+                    radius: slot(&mut m, rng.within(0.5, 1.5)),
+                    hollow: word == "hollow arc",
+                    ends: [slot(&mut m, start), slot(&mut m, start + sweep)],
+                })
+            }
             _ => {
                 let sites = outline(word, rng).into_iter().map(|p| site(&mut m, second, from + p)).collect();
                 Profile::Chain(Chain { corners: sites, closed: word == "polygon", beyond: [None; 2] })
@@ -104,8 +113,17 @@ impl Scene {
                 let end = |&p: &usize| !chain.closed && p + 1 >= 2 * sides;
                 all.into_iter().filter(|p| !point || p % 2 == 0 || end(p)).collect()
             }
-            _ => vec![0],
+            Profile::Arc(_) => vec![0, 1, 2],
+            Profile::Line(_) | Profile::Circle { .. } => vec![0],
         }
+    }
+
+    /// Centre, radius, and directions of the ends of an arc, in fixed axes.
+    pub fn arc(&self, there: &There) -> Option<(Vec2, f64, [f64; 2])> {
+        let Profile::Arc(arc) = &self.touch.against else { return None };
+        let turn = there.k.pose[self.m.body_of(arc.centre)].turn.angle;
+        let ends = arc.ends.map(|slot| turn + there.n.slots[slot]);
+        Some((self.place(there, arc.centre), there.n.slots[arc.radius], ends))
     }
 
     pub fn radius(&self, there: &There) -> f64 {

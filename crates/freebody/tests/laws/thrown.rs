@@ -157,11 +157,13 @@ impl Thrown {
         let first_turns = of_kind(Role::First) == Some(FieldKind::Line);
         let second_turns = matches!(of_kind(Role::Second), Some(FieldKind::Line | FieldKind::Points));
         let mut alpha = if first_turns { rng.about(3.0) } else { 0.0 };
-        let beta = if second_turns { rng.about(3.0) } else { 0.0 };
+        let mut beta = if second_turns { rng.about(3.0) } else { 0.0 };
         if let Some(there) = relative(&numbers, &q) {
             let missing = theta_b + beta - theta_a - alpha - there.angle;
             if first_turns {
                 alpha += missing;
+            } else if second_turns {
+                beta -= missing;
             } else {
                 turn_by(kind, &mut numbers, &mut q, &wave, missing);
             }

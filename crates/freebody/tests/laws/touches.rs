@@ -65,6 +65,17 @@ fn off_surface(scene: &Scene, there: &There, piece: usize, p: Vec2) -> f64 {
         Profile::Circle { centre, radius, .. } => {
             ((p - scene.place(there, *centre)).norm() - there.n.slots[*radius]).abs()
         }
+        Profile::Arc(_) => {
+            let (hub, radius, ends) = scene.arc(there).expect("an arc");
+            if piece == 0 {
+                return ((p - hub).norm() - radius).abs();
+            }
+            let along = turned(vec2(1.0, 0.0), ends[piece - 1]);
+            match scene.touch.disk.radius {
+                Some(_) => (p - hub - along * radius).norm(),
+                None => along.cross(p - hub).abs(),
+            }
+        }
         Profile::Chain(chain) => {
             let corner = |i: usize| scene.place(there, chain.corners[i % chain.corners.len()]);
             let first = piece == 2 * chain.sides();
@@ -121,12 +132,22 @@ fn jets_are_differences_along_the_motion() {
 /// Whether the centre of the disk is near the centre of a round piece, from which directions change fast.
 fn near_centre(scene: &Scene, there: &There, piece: usize) -> bool {
     let centre = match &scene.touch.against {
-        Profile::Circle { centre, .. } => *centre,
-        Profile::Chain(chain) if piece == 2 * chain.sides() => chain.corners[0],
-        Profile::Chain(chain) if piece % 2 == 1 => chain.corners[(piece / 2 + 1) % chain.corners.len()],
+        Profile::Circle { centre, .. } => scene.place(there, *centre),
+        Profile::Arc(_) => {
+            let (hub, radius, ends) = scene.arc(there).expect("an arc");
+            if piece == 0 {
+                hub
+            } else {
+                hub + turned(vec2(radius, 0.0), ends[piece - 1])
+            }
+        }
+        Profile::Chain(chain) if piece == 2 * chain.sides() => scene.place(there, chain.corners[0]),
+        Profile::Chain(chain) if piece % 2 == 1 => {
+            scene.place(there, chain.corners[(piece / 2 + 1) % chain.corners.len()])
+        }
         _ => return false,
     };
-    (scene.place(there, scene.touch.disk.centre) - scene.place(there, centre)).norm() < 0.5
+    (scene.place(there, scene.touch.disk.centre) - centre).norm() < 0.5
 }
 
 /// Distance of a point from a row of straight sides.
@@ -181,6 +202,50 @@ fn gaps_are_distances() {
             assert!((gap - told).abs() < 1e-13, "{}: {gap} {told}", scene.told);
         }
     });
+}
+
+/// A disk that is not behind an arc is as far from it as from the nearest of very many of its points; and round it, on every
+/// side, the borders are those of the pieces and the gap does not jump. A point meets the arc where its disk would, and only
+/// there.
+#[test]
+fn an_arc_is_its_points_and_ends_at_its_ends() {
+    let mut changes = 0;
+    every_scene(|scene, there, rng| {
+        let Some((hub, radius, ends)) = scene.arc(there) else { return };
+        let (m, touch, told, r) = (&scene.m, &scene.touch, &scene.told, scene.radius(there));
+        let hollow = scene.word == "hollow arc";
+        let out = if hollow { rng.within(0.3, 0.9) } else { rng.within(1.1, 2.0) };
+        let mut last: Option<(usize, f64)> = None;
+        for i in 0..6283 {
+            let step = 1e-3;
+            let angle = ends[0] + f64::from(i) * step;
+            let there = &scene.with_disk_at(there, hub + turned(vec2(out * radius, 0.0), angle));
+            let (at, (hub, _, ends)) = (there.at(m), scene.arc(there).expect("an arc"));
+            let (p, piece, gap) =
+                (scene.place(there, touch.disk.centre), touch.piece(m, &at), touch.signed_gap(m, &at));
+            let beside = (angle - ends[0]).rem_euclid(std::f64::consts::TAU) > ends[1] - ends[0];
+            let rim = |a: f64| hub + turned(vec2(radius, 0.0), a);
+            let far = (0..=4000).map(|k| (p - rim(ends[0] + (ends[1] - ends[0]) * f64::from(k) / 4000.0)).norm());
+            let far = if i % 200 == 0 { far.fold(f64::INFINITY, f64::min) } else { f64::NAN };
+            if r > 0.0 && far.is_finite() {
+                assert!((gap - (far - r)).abs() < 3e-5, "{told}: {gap} {}", far - r);
+            }
+            if r == 0.0 && far.is_finite() {
+                assert!(gap > 0.0 && gap < far + 1e-12, "{told}: {gap} {far}");
+                assert!(touch.can_close(piece) || beside, "{told}, {piece}");
+            }
+            let borders = touch.borders(m, &at, piece);
+            assert!(borders.iter().all(|b| b.value >= -1e-12), "{told}, {piece}: {borders:?}");
+            if let Some((old, before)) = last {
+                assert!((gap - before).abs() < 1.0001 * out * radius * step, "{told}: {before} {gap}");
+                let crossed = |b: &Border| b.beyond == piece && b.value <= 0.0;
+                assert!(old == piece || touch.borders(m, &at, old).iter().any(crossed), "{told}: {old} {piece}");
+                changes += usize::from(old != piece);
+            }
+            last = Some((piece, gap));
+        }
+    });
+    assert!(changes > 200, "{changes}");
 }
 
 /// Within its piece all borders are positive; where the piece changes, the border with the new one is crossed, and the gap

@@ -113,9 +113,18 @@ fn nothing_goes_through_anything_and_no_energy_comes_from_nowhere() {
     }
 }
 
+/// Piles that take a second or less to compute, until they rest.
+#[test]
+fn small_piles_come_to_rest() {
+    for seed in [5, 12, 16, 18, 24, 33, 42, 81] {
+        let told = throw(seed, 5.0, f64::INFINITY);
+        assert!(told.outcome == "Completed" && told.is_sound(), "{}\n{}", told.line(), told.sentence);
+    }
+}
+
 /// All of them, for five seconds. PILES=from..to or a list of seeds chooses others.
 #[test]
-#[ignore = "takes an hour, and fails: of the piles of ten bodies and more some end by a named trouble, and in a few the ledger leaves over more than the errors of its steps"]
+#[ignore = "takes an hour, and fails: some piles end by a named trouble, most of them where two corners meet"]
 fn a_hundred_piles_come_to_rest() {
     let wish = std::env::var("PILES").unwrap_or("0..100".into());
     let seeds: Vec<u64> = match wish.split_once("..") {

@@ -137,19 +137,21 @@ function polyline(points, closed, { fill, line, width, dash }) {
   pen.stroke();
 }
 
-function paintFigures(poses, styles) {
+// Whether something is in place then.
+const isThere = (item, frame) => !item.shown || item.shown[frame.low];
+
+function paintFigures(poses, styles, frame) {
   for (const style of styles) {
     scene.figures.forEach((figure, i) => {
       const place = placer(poses, i);
       for (const stroke of figure.strokes) {
-        if (stroke.style === style) polyline(stroke.points.map(place), stroke.closed, look(style, i));
+        if (stroke.style === style && isThere(stroke, frame)) polyline(stroke.points.map(place), stroke.closed, look(style, i));
       }
     });
   }
 }
 
 function paintCord(frame, cord) {
-  if (cord.shown && !cord.shown[frame.low]) return;
   const flat = between(cord.path, frame);
   const points = flat.filter((_, i) => i % 2 === 0).map((x, i) => [x, flat[2 * i + 1]]);
   const taut = cord.taut[frame.low];
@@ -181,10 +183,10 @@ function paintMechanism() {
   const frame = frameAt(player.t);
   const poses = between(scene.poses, frame);
   if (byId("trace").checked) paintTraces(poses);
-  paintFigures(poses, below);
-  scene.pairs.filter((pair) => !pair.shown || pair.shown[frame.low]).forEach((pair) => paintPair(poses, pair));
-  scene.cords.forEach((cord) => paintCord(frame, cord));
-  paintFigures(poses, above);
+  paintFigures(poses, below, frame);
+  scene.pairs.filter((pair) => isThere(pair, frame)).forEach((pair) => paintPair(poses, pair));
+  scene.cords.filter((cord) => isThere(cord, frame)).forEach((cord) => paintCord(frame, cord));
+  paintFigures(poses, above, frame);
 }
 
 // Speeds about the one at which the run lasts some eight seconds, unless life's own does.

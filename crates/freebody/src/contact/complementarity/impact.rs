@@ -1,6 +1,6 @@
 //! Impacts of several touches at once: velocities before, impulses, velocities after.
 
-use super::{resolve, Grip, Verdict};
+use super::{resolve, task, Grip, Verdict};
 use crate::solve::Matrix;
 use std::fmt;
 
@@ -133,7 +133,7 @@ impl Strike<'_> {
     fn complementary(&self, velocity: &[f64], pressed: &[f64]) -> Result<Impulse, NoImpact> {
         let grips: Vec<Grip> = self.friction.iter().map(|&mu| grip(mu)).collect();
         let join = |a: &super::Answer| [&a.normal[..], &a.tangent[..]].concat();
-        match resolve(self.g, velocity, &grips, pressed) {
+        match resolve(self.g, velocity, &grips, pressed, &task::EXACT) {
             Verdict::Solved(a) => Ok(join(&a)),
             Verdict::Indeterminate(all) => Err(NoImpact::Ambiguous(all.iter().map(|a| self.with(&join(a))).collect())),
             Verdict::Inconsistent => Err(NoImpact::Impossible),

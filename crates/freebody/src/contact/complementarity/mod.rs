@@ -135,11 +135,18 @@ pub enum Verdict {
 /// coefficient stays. Those that cannot slide under the kinetic one, and the rest is decided again.
 pub fn solve(problem: &Problem) -> Verdict {
     let k = problem.grips.len();
-    resolve(problem.g, problem.free, problem.grips, &vec![0.0; k])
+    resolve(problem.g, problem.free, problem.grips, &vec![0.0; k], &task::EXACT)
+}
+
+/// As [`solve`], where accelerations may contradict each other by a little: those of touches that are almost one, as where two
+/// corners meet.
+pub fn solve_roughly(problem: &Problem) -> Verdict {
+    let k = problem.grips.len();
+    resolve(problem.g, problem.free, problem.grips, &vec![0.0; k], &task::ROUGH)
 }
 
 /// The same with normal forces that are at least `pressed` (k): aN ⟂ λN − pressed.
-fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict {
+fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64], tolerances: &'static [f64]) -> Verdict {
     let k = grips.len();
     assert_eq!((g.rows(), g.cols(), free.len()), (2 * k, 2 * k, 2 * k), "a normal and a tangential row for each touch");
     let finite = g.data().iter().chain(free).chain(pressed).all(|v| v.is_finite());
@@ -154,7 +161,7 @@ fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64]) -> Verdict
     };
     let (mut answers, mut unknown) = (vec![nothing], false);
     for group in task::groups(g) {
-        let task = Task::new(g, free, grips, pressed, &group);
+        let task = Task::new(g, free, grips, pressed, &group).within(tolerances);
         match search::decide(&task) {
             search::Outcome::Found(found) => answers = combine(answers, &task, &found),
             search::Outcome::Nothing if !task.rank_is_doubtful() => return Verdict::Inconsistent,

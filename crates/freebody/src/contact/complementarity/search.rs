@@ -9,8 +9,6 @@ use super::{Grip, Status};
 const ALWAYS: usize = 3;
 /// Up to this many all modes are tried when pivoting fails.
 const ENUMERABLE: usize = 6;
-/// Conditions hold to round-off of the solver; only if no modes do, to that of ever worse data.
-const TOLERANCES: [f64; 3] = [4e-14, 1e-12, 1e-10];
 /// Accelerations that differ by less are the same.
 const SAME: f64 = 1e-9;
 
@@ -80,7 +78,7 @@ fn slide(task: &Task, found: Found, all: &mut Vec<Found>) {
 /// Of all findings with static friction at rest and kinetic in motion, those with most touches at rest.
 fn most_at_rest(task: &Task) -> Outcome {
     let at_rest = |f: &Found| f.status.iter().filter(|s| **s == Status::Stick).count();
-    let all = TOLERANCES.iter().map(|t| enumerate(task, Vec::new(), *t)).find(|all| !all.is_empty());
+    let all = task.tolerances.iter().map(|t| enumerate(task, Vec::new(), *t)).find(|all| !all.is_empty());
     let Some(mut all) = all else { return Outcome::Nothing };
     let most = all.iter().map(at_rest).max();
     all.retain(|f| Some(at_rest(f)) == most);
@@ -91,8 +89,8 @@ fn most_at_rest(task: &Task) -> Outcome {
 fn bounded(task: &Task) -> Outcome {
     let unique = task.holds.iter().all(|h| *h == Hold::Grip(Grip::Smooth));
     let few = task.len() <= ALWAYS && !unique;
-    for tolerance in TOLERANCES.into_iter().filter(|_| !few) {
-        match pivot(task, tolerance) {
+    for tolerance in task.tolerances.iter().filter(|_| !few) {
+        match pivot(task, *tolerance) {
             Outcome::Unknown => {}
             decided => return decided,
         }
@@ -100,7 +98,7 @@ fn bounded(task: &Task) -> Outcome {
     if task.len() > ENUMERABLE {
         return Outcome::Unknown;
     }
-    for tolerance in TOLERANCES {
+    for &tolerance in task.tolerances {
         let pivoted = match pivot(task, tolerance) {
             Outcome::Found(found) => found,
             Outcome::Nothing => return Outcome::Nothing,

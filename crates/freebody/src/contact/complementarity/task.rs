@@ -9,6 +9,11 @@ const IMMOVABLE: f64 = 1e-14;
 /// A direction of G' that counts as dependent, but is larger than this, may be real.
 const DOUBTFUL: f64 = 1e-13;
 
+/// Conditions hold to round-off of the solver; only if no modes do, to that of ever worse data.
+pub(super) const EXACT: [f64; 3] = [4e-14, 1e-12, 1e-10];
+/// The same where touches may be one but for the depth to which sides are sunk (`touch/chain.rs`).
+pub(super) const ROUGH: [f64; 4] = [4e-14, 1e-12, 1e-10, 1e-7];
+
 /// Free accelerations below this have lost their digits: they are none.
 const VANISHING: f64 = 1e-280;
 
@@ -29,6 +34,8 @@ pub(super) struct Task {
     pub holds: Vec<Hold>,
     /// The least normal force of each touch.
     pub pressed: Vec<f64>,
+    /// To what its conditions must hold, one after the other.
+    pub tolerances: &'static [f64],
     /// Which touches of the problem these are.
     touches: Vec<usize>,
     force_units: Vec<f64>,
@@ -52,10 +59,16 @@ impl Task {
             free: rows.iter().zip(&scales).map(|(&i, d)| free[i] * d / unit).collect(),
             holds: (0..n).map(|i| Hold::Grip(hold(i))).collect(),
             pressed: touches.iter().zip(&scales).map(|(&i, d)| pressed[i] / (d * unit)).collect(),
+            tolerances: &EXACT,
             touches: touches.to_vec(),
             force_units: scales.iter().map(|d| d * unit).collect(),
             acceleration_units: scales.iter().map(|d| unit / d).collect(),
         }
+    }
+
+    /// The same task, with conditions that hold to other tolerances.
+    pub fn within(self, tolerances: &'static [f64]) -> Task {
+        Task { tolerances, ..self }
     }
 
     /// Whether G may have more independent rows than the solvers see, as when masses differ by ten orders.

@@ -3,9 +3,11 @@
 //! Each piece of a profile is a straight face or a round one. The normal n points to the disk's side, the tangent t is n
 //! turned clockwise by a right angle; both bodies turn counter-clockwise.
 
+mod arc;
 mod chain;
 mod face;
 
+pub use arc::Arc;
 pub use chain::Chain;
 
 use super::{Border, Contact};
@@ -51,6 +53,8 @@ pub enum Profile {
         /// Whether the free side is inside.
         hollow: bool,
     },
+    /// A circle with ends.
+    Arc(Arc),
     /// Straight sides with convex corners.
     Chain(Chain),
 }
@@ -73,9 +77,10 @@ impl Touch {
         self.face(m, poses, piece).slide(self.radius(poses), turns)
     }
 
-    /// The piece that tells the gap. A line and a circle have only piece 0; those of a chain are told at [`Chain`].
+    /// The piece that tells the gap. A line and a circle have only piece 0; others are told at [`Arc`] and [`Chain`].
     pub fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>) -> usize {
         match &self.against {
+            Profile::Arc(arc) => arc.piece(m, poses, &self.disk),
             Profile::Chain(chain) => chain.piece(m, poses, &self.disk),
             Profile::Line(_) | Profile::Circle { .. } => 0,
         }
@@ -84,6 +89,7 @@ impl Touch {
     /// Where the piece ends.
     pub fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, piece: usize) -> Vec<Border> {
         match &self.against {
+            Profile::Arc(arc) => arc.borders(m, poses, &self.disk, piece),
             Profile::Chain(chain) => chain.borders(m, poses, &self.disk, piece),
             Profile::Line(_) | Profile::Circle { .. } => vec![],
         }
@@ -91,7 +97,12 @@ impl Touch {
 
     /// Whether the gap can close on a piece: a point does not stay on a corner.
     pub fn can_close(&self, piece: usize) -> bool {
-        self.disk.radius.is_some() || !matches!(self.against, Profile::Chain(_)) || piece % 2 == 0
+        match self.against {
+            _ if self.disk.radius.is_some() => true,
+            Profile::Chain(_) => piece % 2 == 0,
+            Profile::Arc(_) => piece == 0,
+            Profile::Line(_) | Profile::Circle { .. } => true,
+        }
     }
 
     /// The point of contact on the surface, with its directions.
@@ -110,6 +121,7 @@ impl Touch {
     pub fn reach(&self, m: &Mechanism, poses: &impl Poses<f64>) -> f64 {
         match &self.against {
             Profile::Line(_) | Profile::Circle { .. } => self.gap(m, poses, 0),
+            Profile::Arc(_) => self.signed_gap(m, poses),
             Profile::Chain(chain) => {
                 let first = chain.corners[0];
                 let far = |&corner: &usize| (poses.arm(corner) - poses.arm(first)).norm();
@@ -123,7 +135,8 @@ impl Touch {
     pub fn extents(&self, n: &Numbers) -> [f64; 2] {
         let far = |site: usize| n.arms[site].norm();
         let surface = match &self.against {
-            Profile::Circle { centre, radius, hollow: false } => far(*centre) + n.slots[*radius],
+            Profile::Circle { centre, radius, hollow: false }
+            | Profile::Arc(Arc { centre, radius, hollow: false, .. }) => far(*centre) + n.slots[*radius],
             Profile::Chain(chain) if chain.closed => chain.corners.iter().map(|&site| far(site)).fold(0.0, f64::max),
             _ => f64::INFINITY,
         };
@@ -134,7 +147,7 @@ impl Touch {
     fn surface(&self) -> usize {
         match &self.against {
             Profile::Line(marker) => marker.site,
-            Profile::Circle { centre, .. } => *centre,
+            Profile::Circle { centre, .. } | Profile::Arc(Arc { centre, .. }) => *centre,
             Profile::Chain(chain) => chain.corners[0],
         }
     }
@@ -156,6 +169,7 @@ impl Touch {
                 radius: poses.slot(*radius),
                 side: if *hollow { -1.0 } else { 1.0 },
             },
+            Profile::Arc(arc) => arc.face(m, poses, &self.disk, piece),
             Profile::Chain(chain) => chain.face(m, poses, &self.disk, piece),
         }
     }

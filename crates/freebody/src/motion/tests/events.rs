@@ -123,6 +123,22 @@ fn a_crossing_on_the_border_of_two_steps_is_seen_once() {
     }
 }
 
+/// A run up to the crossing sees it, and one that goes on from there does not see it again.
+#[test]
+fn a_crossing_at_the_end_is_seen_once() {
+    for (start, end, beyond) in [(0.0, 0.5, 1.0), (1.0, 0.5, 0.0)] {
+        for direction in [-1.0, 1.0] {
+            let mut system = clock().watching(&[0], |t, _, g| g[0] = direction * (t - 0.5));
+            let first = system.run("dop853", (start, &[0.0]), end, &rtol(1e-9));
+            assert_eq!(times(&first), [0.5]);
+            assert_eq!(f64::from(first.events[0].direction), direction);
+            assert!(system.run("dop853", (end, &first.y), beyond, &rtol(1e-9)).events.is_empty());
+        }
+    }
+    let mut system = clock().watching(&[1], |t, _, g| g[0] = 0.5 - t);
+    assert!(system.run("dop853", (0.0, &[0.0]), 0.5, &rtol(1e-9)).events.is_empty(), "it falls");
+}
+
 #[test]
 fn a_zero_at_the_start_counts_when_the_function_comes_back() {
     for sign in [-1.0, 1.0] {

@@ -1,0 +1,101 @@
+//! A circle with ends.
+
+use super::{turn, Disk, Face};
+use crate::contact::Border;
+use crate::gauges::Poses;
+use crate::mechanism::{Mechanism, Slot};
+use crate::plane::{vec2, Vec2};
+use crate::scalar::Scalar;
+use std::f64::consts::PI;
+
+/// Part of a circle of a body, counter-clockwise from one direction to another.
+///
+/// Piece 0 is the arc, 1 and 2 its start and its end. A disk touches the ends as circles of radius 0. A point cannot: there
+/// the lines from the centre through the ends bound the solid, and the gap is the larger of the heights over the arc and over the
+/// line through the nearer end.
+#[derive(Clone, Debug)]
+pub struct Arc {
+    /// Site of its centre.
+    pub centre: usize,
+    /// Radius.
+    pub radius: Slot,
+    /// Whether the free side is inside.
+    pub hollow: bool,
+    /// Directions of its ends from the centre, in the body's frame; the second less than a turn beyond the first.
+    pub ends: [Slot; 2],
+}
+
+const ARC: usize = 0;
+
+/// How far before its end, m, a point that slides has left the arc: it does not come back to it.
+const ON_BORDER: f64 = 1e-10;
+
+impl Arc {
+    /// Direction of an end, 1 or 2, from the centre, fixed axes.
+    fn towards<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, piece: usize) -> Vec2<T> {
+        let (sin, cos) = poses.slot(self.ends[piece - 1]).sin_cos();
+        turn(m, poses, m.body_of(self.centre)).apply(vec2(cos, sin))
+    }
+
+    pub(super) fn face<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, piece: usize) -> Face<T> {
+        let (to, radius) = (poses.span(self.centre, disk.centre, m), poses.slot(self.radius));
+        if piece == ARC {
+            return Face::Round { to, radius, side: if self.hollow { -1.0 } else { 1.0 } };
+        }
+        let towards = self.towards(m, poses, piece);
+        match disk.radius {
+            Some(_) => Face::Round { to: to - towards * radius, radius: T::zero(), side: 1.0 },
+            None => Face::Flat { to, along: if piece == 1 { -towards } else { towards } },
+        }
+    }
+
+    /// Half its angle, and the angle from its middle to the centre of a disk, within half a turn, rad.
+    fn seen(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> (f64, f64) {
+        let half = 0.5 * (poses.slot(self.ends[1]) - poses.slot(self.ends[0]));
+        let (start, to) = (self.towards(m, poses, 1), poses.span(self.centre, disk.centre, m));
+        let (sin, cos) = half.sin_cos();
+        let middle = vec2(start.x * cos - start.y * sin, start.x * sin + start.y * cos);
+        (half, middle.cross(to).atan2(middle.dot(to)))
+    }
+
+    pub(super) fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> usize {
+        let (half, off) = self.seen(m, poses, disk);
+        let beside = match disk.radius {
+            Some(_) => off.abs() > half,
+            None => self.ahead(m, poses, disk, nearer(off), ARC) > -ON_BORDER,
+        };
+        if beside {
+            nearer(off)
+        } else {
+            ARC
+        }
+    }
+
+    /// By how much a point is higher over one piece than over another, m.
+    fn ahead(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize, other: usize) -> f64 {
+        let height = |piece| self.face(m, poses, disk, piece).gap(0.0);
+        height(piece) - height(other)
+    }
+
+    pub(super) fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> Vec<Border> {
+        let ((half, off), far) = (self.seen(m, poses, disk), poses.span(self.centre, disk.centre, m).norm());
+        let border = |value: f64, beyond: usize| Border { value, beyond };
+        let behind = far * (PI - off.abs());
+        match (piece, disk.radius) {
+            (ARC, Some(_)) => vec![border(far * (half + off), 1), border(far * (half - off), 2)],
+            (ARC, None) => vec![border(self.ahead(m, poses, disk, ARC, nearer(off)), nearer(off))],
+            (end, _) if end != nearer(off) => vec![border(-behind, 3 - end)],
+            (end, Some(_)) => vec![border(far * (off.abs() - half), ARC), border(behind, 3 - end)],
+            (end, None) => vec![border(self.ahead(m, poses, disk, end, ARC), ARC), border(behind, 3 - end)],
+        }
+    }
+}
+
+/// The end that is nearer to a direction, told from the middle.
+fn nearer(off: f64) -> usize {
+    if off < 0.0 {
+        1
+    } else {
+        2
+    }
+}
