@@ -54,6 +54,11 @@ class MinimalForm:
 
         return show(self)
 
+    def _repr_html_(self) -> str:
+        from freebody.equations.rendering.page import lines
+
+        return lines(str(self))
+
 
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None, forces: bool = False) -> MinimalForm:
     """The minimal form at ``states[0]``; ``states`` and ``points`` are those of ``smallest_set``. ``forces``: equations for the

@@ -58,6 +58,11 @@ class SmallestSet:
 
         return show(self)
 
+    def _repr_html_(self) -> str:
+        from freebody.equations.rendering.page import lines
+
+        return lines(str(self))
+
     @property
     def value(self) -> float:
         """What was wanted, N, N·m, m/s² or rad/s²."""

@@ -64,7 +64,7 @@ class Answers:
         return self.document.text()
 
     def _repr_html_(self) -> str:
-        return self.document.html()
+        return self.document._repr_html_()
 
     def _repr_latex_(self) -> str:
         return self.document.latex()

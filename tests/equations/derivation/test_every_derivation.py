@@ -32,10 +32,12 @@ def test_every_equation_holds_elsewhere_and_in_motion(model, form):
     source, start = model
     found = derive(Subject(source, start), form)
     assert not UNDETERMINED.search(found.text())
+    assert "<math" in found.html()  # raises for a formula that MathML lacks
     for subject in elsewhere(source, start):
         values = numbers(subject)
         for part in found.parts:
             assert off(part, values, subject.tables) < CLOSE, part.title
+        same_signs(found, dict.fromkeys(found.unknowns, 1.0), values, subject.tables)
     if found.content.system.is_square and found.unknowns:
         agrees(found, values, subject.tables)
 
@@ -75,6 +77,13 @@ def power(tree, values, names, tables, h=1e-5):
         return evaluate(tree, values | moved, tables)
 
     return (at(h) - at(-h)) / (2 * h)
+
+
+def same_signs(found, moved, values, tables):
+    """A row of the matrix form is its printed equation, also in sign: both are off alike where the unknowns are others."""
+    for part, row in zip(found.parts, found.content.system.residuals, strict=True):
+        printed, told = (evaluate(tree, values | moved, tables) for tree in (part.residual, row))
+        assert told == pytest.approx(printed, rel=1e-6, abs=1e-6), part.title
 
 
 def agrees(found, values, tables):

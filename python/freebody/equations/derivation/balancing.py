@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from freebody.equations.collect import collected, factored
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
+from freebody.equations.linear import Linear
 from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative
 from freebody.free_body import Body, Load
 
@@ -45,13 +47,23 @@ class Stated:
     @property
     def sides(self) -> tuple[Tree, Tree]:
         """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        left, right = self._collected
+        return (negative(left), negative(right)) if self._is_turned else (left, right)
+
+    @property
+    def linear(self) -> Linear:
+        """The equation as linear in what is unknown, with the sign of its sides."""
+        return self.balance.linear.negative() if self._is_turned else self.balance.linear
+
+    @cached_property
+    def _collected(self) -> tuple[Tree, Tree]:
         unknowns = list(self.balance.linear.coefficients)
-        left, right = (collected(side, unknowns) for side in (self.balance.right, self.balance.left))
-        return (
-            (negative(left), negative(right))
-            if _all_negative(left) and (_all_negative(right) or is_zero(right))
-            else (left, right)
-        )
+        return collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
+
+    @property
+    def _is_turned(self) -> bool:
+        left, right = self._collected
+        return _all_negative(left) and (_all_negative(right) or is_zero(right))
 
 
 def _all_negative(side: Tree) -> bool:

@@ -132,9 +132,7 @@ class Directions:
 
 def unit(name: str) -> Written:
     """A unit direction in a sentence."""
-    stem, _, below = name.partition("_")
-    letter = r"\boldsymbol{\lambda}" if stem == "λ" else rf"\mathbf{{{stem}}}"
-    return Written(name, f"{letter}_{{{latex_name(below)}}}" if below else letter)
+    return Written(name, _latex(name, "{}"))
 
 
 def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
@@ -166,5 +164,10 @@ def _word(name: str) -> str:
 
 
 def _rate(name: str) -> Written:
-    shown = unit(name)
-    return Written(f"d{shown.text}/dt", rf"\dot{{{shown.latex}}}")
+    return Written(f"d{name}/dt", _latex(name, r"\dot{{{}}}"))
+
+
+def _latex(name: str, letter: str) -> str:
+    stem, _, below = name.partition("_")
+    shown = letter.format(r"\boldsymbol{\lambda}" if stem == "λ" else rf"\mathbf{{{stem}}}")
+    return f"{shown}_{{{latex_name(below)}}}" if below else shown

@@ -76,7 +76,7 @@ def _chosen(subject: Subject) -> _Chosen:
 
 
 def _printed(stated: Stated) -> Printed:
-    return Printed(stated.title, *stated.sides, stated.balance.linear)
+    return Printed(stated.title, *stated.sides, stated.linear)
 
 
 def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:

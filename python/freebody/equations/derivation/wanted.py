@@ -27,7 +27,7 @@ def wanted(subject: Subject, name: str) -> Form:
     stated = from_search(subject, list(found.equations)) if found.equations else None
     if stated is None:
         return Form.of(subject.letters, [], [*_numeric(found), *_numbers(found)])
-    equations = [Printed(s.title, *s.sides, s.balance.linear) for s in stated]
+    equations = [Printed(s.title, *s.sides, s.linear) for s in stated]
     free = [name[6:-1] for name in found.values if name.startswith("accel(")]
     moving = {x.name for equation in equations for x in equation.linear.coefficients if x.dots}
     rows = closing.followers(subject.rows, free, moving)
