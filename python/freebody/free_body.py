@@ -62,8 +62,8 @@ class Load:
 
     @property
     def touched(self) -> frozenset[str]:
-        """The bodies it acts on or is exerted by, ground included."""
-        return frozenset(self.of) | {part.body for part in self.on}
+        """The bodies it acts on or is exerted by, ground included; not one on which its parts cancel."""
+        return frozenset(self.of) | {part.body for part in self.on if any(part.force) or part.couple}
 
     def inside(self, group: Collection[str]) -> bool:
         """Whether it acts within a group of bodies only, so that its parts add up to nothing there."""

@@ -46,6 +46,15 @@ def load_names(loads: Iterable[Load], source: Source) -> dict[str, Name]:
     return {s: name if s in own or taken[_folded(name.ascii())] == 1 else Name(s) for s, name in made.items()}
 
 
+def coefficient(source: Source, name: str) -> str:
+    """The letter that the model has for the friction of a contact or joint, if it has one."""
+    spec = json.loads(source.spec)
+    told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == name)
+    value = (told | told.get("with", {})).get("friction")
+    value = value["kinetic"] if isinstance(value, dict) else value
+    return value if isinstance(value, str) and _PLAIN.fullmatch(value) else ""
+
+
 def _name(load: Load, force: _Law) -> Name:
     given, last = _given(force), load.symbol.rpartition(".")[2]
     if given:
@@ -122,11 +131,8 @@ class Naming:
 
     def friction(self, load: Load) -> Name | None:
         """The letter that the model has for the coefficient of a contact's or joint's friction, if it has one."""
-        spec = json.loads(self.source.spec)
-        told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == load.name)
-        value = (told | told.get("with", {})).get("friction")
-        value = value.get("kinetic") if isinstance(value, dict) else value
-        return Name.parse(value) if isinstance(value, str) and _PLAIN.fullmatch(value) else None
+        letter = coefficient(self.source, load.name)
+        return Name.parse(letter) if letter else None
 
 
 @dataclass(frozen=True)

@@ -164,7 +164,7 @@ fn solid(mut model: Model, name: &str, outline: &Outline) -> Model {
 fn surface(i: usize, outline: &Outline) -> Surface {
     match outline {
         Outline::Disk(r) => {
-            Surface::Circle { centre: format!("b{i}.origin"), radius: Number::Literal(*r), hollow: false }
+            Surface::Circle { centre: format!("b{i}.origin"), radius: Number::Literal(*r), hollow: false, ends: None }
         }
         Outline::Polygon(corners) => Surface::Polygon((0..corners.len()).map(|k| format!("b{i}.P{k}")).collect()),
     }
