@@ -31,12 +31,13 @@ def section(form: str, content: Form, letters: Letters) -> list[Block]:
 
 def _uneven(content: Form) -> str:
     equations, unknowns = len(content.system.matrix), len(content.system.unknowns)
+    these = "This is one equation" if equations == 1 else f"These are {equations} equations"
     if equations < unknowns:
         return (
-            f"These are {equations} equations in {unknowns} unknowns: what is held in more ways than needed, or rubs, "
+            f"{these} in {unknowns} unknowns: what is held in more ways than needed, or rubs, "
             "takes a law of its own besides the balances."
         )
-    return f"These are {equations} equations in {unknowns} unknowns: some follow from the others."
+    return f"{these} in {unknowns} unknowns: some follow from the others."
 
 
 def _first_order(content: Form, moving: list[Sym], letters: Letters) -> list[Block]:

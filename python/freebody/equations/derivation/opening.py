@@ -31,7 +31,17 @@ def configuration(subject: Subject) -> list[Block]:
         Paragraph(f"{_freedom(subject)} {_count(len(coordinates))} where it is:"),
         Table(("coordinate", "what it measures", "unit"), rows),
         sketch(subject),
+        *map(Paragraph, _reservations(subject)),
     ]
+
+
+def _reservations(subject: Subject) -> list[str]:
+    """What holds for a while only, and does not show in the equations."""
+    cases = [force["name"] for force in subject.source.about["forces"] if force["cases"]]
+    said = [f"The law of {joined(cases)} has cases: it stands here as it is at this state."] if cases else []
+    if opening := sorted(subject.source.openings):
+        said.append(f"At the start of a motion {joined(opening)} happens; the equations are those before.")
+    return said
 
 
 def _freedom(subject: Subject) -> str:
