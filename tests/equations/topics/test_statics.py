@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from test_in_letters import tree
+from models import tree
 
 import freebody as fb
 from freebody.equations import Equation, evaluate, symbols, to_sympy
