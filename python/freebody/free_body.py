@@ -13,6 +13,7 @@ from freebody.instant import Indeterminate
 from freebody.results import Array
 
 GROUND = "ground"
+_DRIVEN = ("motion", "coupling", "force")
 Pair = tuple[float, float]
 
 
@@ -25,6 +26,11 @@ class Part:
     point: Pair
     force: Pair
     couple: float
+
+    @property
+    def idle(self) -> bool:
+        """Whether it is nothing at all."""
+        return not any(self.force) and not self.couple
 
     def wrench(self, about: Pair = (0.0, 0.0)) -> Array:
         """Force x, y and moment about a place, (3,)."""
@@ -56,8 +62,8 @@ class Load:
 
     @property
     def touched(self) -> frozenset[str]:
-        """The bodies it acts on or is exerted by, ground included."""
-        return frozenset(self.of) | {part.body for part in self.on}
+        """The bodies it acts on or is exerted by, ground included; not one on which its parts cancel."""
+        return frozenset(self.of) | {part.body for part in self.on if any(part.force) or part.couple}
 
     def inside(self, group: Collection[str]) -> bool:
         """Whether it acts within a group of bodies only, so that its parts add up to nothing there."""
@@ -195,8 +201,13 @@ def _body(item: Mapping[str, Any]) -> Body:
 
 def _load(item: Mapping[str, Any]) -> Load:
     value = 1.0 if not item["unknown"] else float("nan") if item["value"] is None else float(item["value"])
-    parts = (Part(on["body"], _pair(on["point"]), _pair(on["force"]), float(on["couple"])) for on in item["on"])
+    parts = [Part(on["body"], _pair(on["point"]), _pair(on["force"]), float(on["couple"])) for on in item["on"]]
+    of = tuple(item["of"])
+    if item["kind"] in _DRIVEN and not all(part.idle for part in parts):
+        # What drives a difference of coordinates cancels on ground, or on what carries both bodies.
+        parts = [part for part in parts if not part.idle]
+        of = (parts[1].body if len(parts) > 1 else GROUND, parts[0].body)
     known = not item["unknown"] or (item["determinate"] and not np.isnan(value))
     named = {name: item[name] for name in ("name", "path", "symbol", "kind", "component", "unknown")}
     follows = (item["follows"]["load"], float(item["follows"]["ratio"])) if item["follows"] else None
-    return Load(value=value, determinate=known, of=tuple(item["of"]), on=tuple(parts), follows=follows, **named)
+    return Load(value=value, determinate=known, of=of, on=tuple(parts), follows=follows, **named)

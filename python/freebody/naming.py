@@ -1,7 +1,8 @@
 """The letter of every load, mass and inertia of a model: the same on its diagrams and in its equations.
 
 A component of a pin's force is ``pivot_x``; a normal force ``N_track``, friction ``F_floor``, a tension ``T_rope``, a couple
-``M_weld``, any other force ``F_drive``. Masses, inertias and gravity have the letters of the model, else ``m_rod``, ``I_rod``, g.
+``M_weld``, any other force ``F_drive``, what damps beside a spring ``F_damper``. Masses, inertias and gravity have the letters of
+the model, else ``m_rod``, ``I_rod``, g.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ _STEMS = {"normal force": "N", "friction force": "F", "tooth force": "F", "thrus
           "force of the first roller": "N", "force of the second roller": "N"}  # fmt: skip
 _KINDS = {"contact": "N", "friction": "F", "string": "T"}
 _TURNING = ("torque", "torsion_spring")
+_SPRINGS = ("spring", "torsion_spring")
 _PLAIN = re.compile(r"[^\W\d]\w*")
 
 
@@ -44,11 +46,22 @@ def load_names(loads: Iterable[Load], source: Source) -> dict[str, Name]:
     return {s: name if s in own or taken[_folded(name.ascii())] == 1 else Name(s) for s, name in made.items()}
 
 
+def coefficient(source: Source, name: str) -> str:
+    """The letter that the model has for the friction of a contact or joint, if it has one."""
+    spec = json.loads(source.spec)
+    told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == name)
+    value = (told | told.get("with", {})).get("friction")
+    value = value["kinetic"] if isinstance(value, dict) else value
+    return value if isinstance(value, str) and _PLAIN.fullmatch(value) else ""
+
+
 def _name(load: Load, force: _Law) -> Name:
     given, last = _given(force), load.symbol.rpartition(".")[2]
     if given:
         return given
     stem, below = _owner(load.name)
+    if last == "2" and (force or {}).get("type") in _SPRINGS:
+        stem = stem.replace("spring", "damper") if "spring" in stem else f"{stem} damper"
     if last in _PINS:
         return Name(stem, (*below, _PINS[last]))
     number = re.sub(r"\D", "", last) if load.kind in ("contact", "friction") or "roller" in (load.component or "") else ""
@@ -56,11 +69,11 @@ def _name(load: Load, force: _Law) -> Name:
 
 
 def _stem(load: Load, force: _Law) -> str:
-    told = _STEMS.get(load.component or "") or _KINDS.get(load.kind)
-    if told:
-        return told
     pushes = any(any(part.force) for part in load.on)
     turns = any(part.couple for part in load.on) and not pushes
+    told = _STEMS.get(load.component or "") or (_KINDS.get(load.kind) if not turns else "")
+    if told:
+        return told
     return "M" if turns or (force or {}).get("type") in _TURNING else "F"
 
 
@@ -118,10 +131,8 @@ class Naming:
 
     def friction(self, load: Load) -> Name | None:
         """The letter that the model has for the coefficient of a contact's or joint's friction, if it has one."""
-        spec = json.loads(self.source.spec)
-        told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == load.name)
-        value = (told | told.get("with", {})).get("friction")
-        return Name.parse(value) if isinstance(value, str) and _PLAIN.fullmatch(value) else None
+        letter = coefficient(self.source, load.name)
+        return Name.parse(letter) if letter else None
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from textbook import BOOKS
 
 from freebody.check import Checker, Kind
 from freebody.model import Mechanism
+from freebody.model.errors import Complaint
 
 
 def checker(name: str) -> Checker:
@@ -168,3 +169,9 @@ def test_a_model_that_does_not_start_is_not_decidable() -> None:
 
 def test_a_condition_that_holds_anyway_may_be_said() -> None:
     assert Checker(Mechanism.loads(GROUND)).check("if box.y = 0: floor.N = m*g").ok
+
+
+@pytest.mark.parametrize("text", ["if : theta = 0", "only if : theta = 0", "limit: theta = 0 as "])
+def test_an_empty_hypothesis_is_none(text: str) -> None:
+    with pytest.raises(Complaint, match="hypothesis is empty"):
+        checker("pendulum on a cart").check(text)

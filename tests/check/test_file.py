@@ -69,3 +69,12 @@ def test_the_command_ends_with_its_verdict(folder: Path) -> None:
     assert told[0]["verdict"] == "wrong"
     assert told[0]["mends"][0]["edits"][0]["kind"] == "sign"
     assert run(app, ["check", str(folder / "statements.yaml")]).exit_code == 0
+
+
+def test_a_model_without_an_equation_is_told_so(folder: Path) -> None:
+    run = CliRunner().invoke(app, ["check", str(folder / "model.yaml")])
+    assert run.exit_code == 2
+    assert "no equation to check" in run.output
+    (folder / "nothing.yaml").write_text("model: model.yaml")
+    with pytest.raises(Complaint, match="no statements"):
+        read(folder / "nothing.yaml")

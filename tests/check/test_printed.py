@@ -11,7 +11,7 @@ import pytest
 import freebody as fb
 from freebody.check import Checker, Kind
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.document import Block, Document, Equation, MatrixEquation, Written
+from freebody.equations.document import Block, Document, Equation, Matrices, MatrixEquation, Written
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 NAMED = (
@@ -43,11 +43,16 @@ def model(request: pytest.FixtureRequest) -> fb.Mechanism:
 
 
 def _stated(document: Document) -> Iterator[Block]:
-    """The equations of a document but for schemes, whose letters stand for whole matrices."""
+    """The equations of a document."""
     for block in document.blocks:
-        scheme = isinstance(block, Equation) and isinstance(block.left, Written) and isinstance(block.right, Written)
-        if isinstance(block, Equation | MatrixEquation) and not scheme:
+        if isinstance(block, MatrixEquation) or (isinstance(block, Equation) and not _chosen(block)):
             yield replace(block, name="", note="")
+
+
+def _chosen(block: Equation) -> bool:
+    """Whether it only names something: whole matrices by letters, or a virtual motion, which is free."""
+    left, right = block.left, block.right
+    return isinstance(left, Written) and (isinstance(right, Written | Matrices) or left.text.startswith("δ"))
 
 
 def _printed(block: Block, document: Document) -> Iterator[str]:

@@ -206,6 +206,92 @@ def test_mends_in_parameters_that_follow_from_others_come_last() -> None:
     assert first.edits[0][2] == "2*m2*R*Rdot*thetadot"
 
 
+VAIN = [
+    ("T = 0", 1),  # m2 T = 3 m1 T, and T R̈ = T R θ̇², say nothing of T; in m1 and in m2 it is one mend
+    ("pivot.Fx = 0", 0),
+    ("m1 = m2/2", 1),  # what the model defines can itself be stated, and mended
+]
+
+
+@pytest.mark.parametrize(("text", "count"), VAIN)
+def test_a_mend_says_something_of_what_was_stated(text: str, count: int) -> None:
+    gun = system("S19.16/model")  # m1 is m2/3 there
+    verdict = gun.check(text)
+    assert verdict.kind is Kind.WRONG
+    assert len(verdict.mends) == count, [str(mend) for mend in verdict.mends]
+
+
+def test_what_parameters_are_defined_to_be_says_nothing_of_the_motion() -> None:
+    assert "says nothing" in system("S19.16/model").check("m1 = m2/3").reason
+
+
+LADDER = """
+freebody: 1
+parameters: {m: 10 kg, l: 4 m, mu: 0.3}
+ground: {lines: {floor: {through: O, angle: 0}, wall: {through: O, angle: -90 deg}}}
+bodies: {ladder: {shape: rod, length: l, mass: m}}
+joints: {pos: {type: free, of: [ground.O, ladder.start], coordinates: [x, y, phi]}}
+contacts:
+  foot: {of: [ladder.start, ground.floor], friction: mu}
+  top: {of: [ladder.end, ground.wall]}
+initial: {x: 2 m, y: 0, phi: 120 deg}
+"""
+STATICS = [  # phi lies in the second quadrant, where its cosine is negative
+    ("top.N = -m g cos(phi)/(2 sin(phi))", Kind.TRUE),  # moments about the foot
+    ("top.N = -m g cos(phi)/sin(phi)", Kind.WRONG),
+    ("foot.N = m g", Kind.TRUE),
+    ("foot.T = -top.N", Kind.TRUE),
+    ("abs(foot.T) <= mu foot.N", Kind.TRUE),
+    ("abs(foot.T) <= mu foot.N/2", Kind.WRONG),
+    ("x = -l cos(phi)", Kind.TRUE),  # it stands elsewhere, too, but always between floor and wall
+]
+
+
+@pytest.fixture(scope="module")
+def ladder() -> Checker:
+    return Checker(Mechanism.loads(LADDER))
+
+
+@pytest.mark.parametrize(("text", "kind"), STATICS)
+def test_a_body_that_cannot_move_is_decided_where_it_can_stand(ladder: Checker, text: str, kind: Kind) -> None:
+    assert ladder.check(text).kind is kind
+
+
+HOIST = """
+freebody: 1
+parameters: {m1: 2 kg, m2: 1 kg, R: 0.1 m}
+ground: {points: {P: [0, 2], L: [-0.1, 0], K: [0.1, 0]}}
+bodies: {left: {shape: particle, mass: m1}, right: {shape: particle, mass: m2}}
+joints:
+  rl: {type: slot, along: {through: ground.L, angle: 90 deg}, point: left.centre, coordinate: yl}
+  rr: {type: slot, along: {through: ground.K, angle: 90 deg}, point: right.centre, coordinate: yr}
+strings: {rope: {ends: [left.centre, right.centre], over: [{pulley: ground.P, radius: R, sense: clockwise}]}}
+initial: {yl: 0.5 m, yr: 0.5 m}
+"""
+
+
+def test_at_rest_is_at_rest_anywhere() -> None:
+    """Only with R = 0.1 m does the rope hang along the guides; at rest on other pulleys it leans."""
+    verdict = Checker(Mechanism.loads(HOIST)).check("(m1 + m2) yl'' = (m2 - m1) g")
+    assert (verdict.kind, verdict.assumption) == (Kind.TRUE_IF, "these numbers of the model")
+
+
+MEASURED = [
+    ("x(rod.end) = l cos(theta)", Kind.TRUE),
+    ("y(rod.end) = l cos(theta)", Kind.WRONG),
+    ("accel(R) = R rate(theta)^2", Kind.TRUE),
+    ("m1 ax(rod.G) = pivot.Fx - track.Fn sin(theta)", Kind.WRONG),
+    ("m1 ax(rod.G) = pivot.Fx + track.Fn sin(theta)", Kind.TRUE),
+    ("kinetic(rod) = m1 l^2 omega(rod)^2/6", Kind.TRUE),
+    ("constant: energy() - T theta", Kind.TRUE),
+]
+
+
+@pytest.mark.parametrize(("text", "kind"), MEASURED)
+def test_what_the_model_language_measures_stands_in_statements(text: str, kind: Kind) -> None:
+    assert system("S19.16/model").check(text).kind is kind
+
+
 SPRING = """
 freebody: 1
 gravity: none

@@ -114,6 +114,13 @@ def test_a_zero_is_shown_by_its_sense():
         assert np.hypot(*np.diff(measure.arrow, axis=0).T).sum() > 0
 
 
+def test_a_direction_that_a_body_does_not_show_is_named():
+    """Legs that lie along their y axes, and the links of a chain along x."""
+    named = {each.text: each.axis for each in drawn("19.3.24/model").scenery.dimensions}
+    assert {axis.text for axis in named.values()} == {r"x_{\text{stance}}", r"x_{\text{swing}}"}
+    assert not any(each.axis for each in drawn("GEN-CHAIN/model").scenery.dimensions)
+
+
 def test_it_is_in_every_derivation_of_what_moves():
     mechanism = Mechanism.load("systems/19.3.3/model.yaml")
     for document in (mechanism.equations().document, mechanism.equations("brute").document, topic(mechanism, "lagrange")):

@@ -41,6 +41,22 @@ def test_letters_of_names(name, shown):
     assert letter(name) == shown
 
 
+def test_a_spring_and_its_damper_have_letters():
+    m = Mechanism("two carts", gravity=0)
+    bodies = [m.particle(name, mass=1) for name in ("a", "b")]
+    for body, x in zip(bodies, ("xa", "xb"), strict=True):
+        m.free(m.ground.O, body.centre, coordinates=[x, f"y{x[1]}"])
+    m.spring(name="spring", between=[m.ground.O, bodies[0].centre], stiffness=2, damping=1)
+    m.spring(name="hook", between=[bodies[0].centre, bodies[1].centre], stiffness=2, damping=1)
+    m.initial(xa=1, xb=2)
+    first, second = m.diagram().cuts
+    hook = {r"F_{\text{hook}}", r"F_{\text{hook damper}}"}
+    assert labels(first) == {r"F_{\text{spring}}", r"F_{\text{damper}}", *hook}
+    assert labels(second) == hook
+    lines = [mark for mark in first.forces if mark.action.name == "spring"]
+    assert np.hypot(*(lines[0].tail - lines[1].tail)) >= 6.0  # beside each other, though on one line
+
+
 def test_a_group_has_neither_the_forces_within_nor_its_bodies_alone(gun):
     [both] = gun.diagram("rod+collar").cuts
     assert both.group == ("rod", "collar")

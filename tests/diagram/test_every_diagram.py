@@ -3,7 +3,7 @@
 import json
 from collections import Counter, defaultdict
 from functools import cache
-from itertools import combinations
+from itertools import combinations, permutations
 
 import numpy as np
 import pytest
@@ -15,7 +15,8 @@ from freebody.free_body import FreeBodies
 from freebody.model import Mechanism
 from freebody.naming import load_names
 from freebody.views.diagram.arrows import Arrow
-from freebody.views.diagram.layout import extent
+from freebody.views.diagram.layout import AIR, extent
+from freebody.views.shapes import dense
 
 MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
 WITHOUT_ANSWER = {"19.3.23/idle"}  # a body without inertia moves freely: no instant, so no loads
@@ -158,7 +159,9 @@ def test_friction_that_slides_is_against_the_sliding(model):
 @every_model
 def test_what_acts_within_a_group_is_not_drawn(model):
     [cut] = drawn(model, "all").cuts
-    outer = [load for load in told(model) if "ground" in load["of"] or "ground" in [on["body"] for on in load["on"]]]
+    outer = [
+        load for load in told(model) if "ground" in load["of"] or any(on["body"] == "ground" and acts(on) for on in load["on"])
+    ]
     due = Counter(load["symbol"] for load in outer for on in load["on"] if on["body"] in cut.group and acts(on))
     assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in still(model)}) == due
 
@@ -181,6 +184,57 @@ def test_two_sides_of_a_cut_are_equal_and_opposite(model):
 
 def test_there_are_cuts_between_bodies_to_be_equal_and_opposite():
     assert sum(len({on["body"] for on in load["on"]} - {"ground"}) == 2 for load in told("GEN-FOURBAR/model")) == 4
+
+
+def test_the_motor_of_an_elbow_is_internal_to_both_arms():
+    """It drives a difference of absolute angles, of which nothing is left for ground to take."""
+    upper, forearm = (drawn_loads(cut) for cut in drawn("EX-ARM/held").cuts)
+    assert upper["'elbow motor'.force"] == forearm["'elbow motor'.force"] == 1
+    assert set(drawn_loads(drawn("EX-ARM/held", "all").cuts[0])) == {
+        "shoulder.Fx", "shoulder.Fy", "'shoulder motor'.force", "upper.weight", "forearm.weight"}  # fmt: skip
+
+
+@every_model
+def test_a_tension_pulls(model):
+    """The arrow of a string, a link or a spring between points begins at its body."""
+    spec = json.loads(mechanism(model).source().spec)
+    springs = {force["name"] for force in spec["forces"] if force["type"] == "spring" and "between" in force["with"]}
+    links = {joint["name"] for joint in spec["joints"] if joint["type"] == "link"}
+    for cut in drawn(model).cuts:
+        for mark in cut.forces:
+            action = mark.action
+            if action.kind == "string" or action.name in links or (action.kind == "force" and action.name in springs):
+                assert mark.at is mark.tail
+
+
+def test_there_are_tensions():
+    marks = [
+        mark for model in ("19.3.21/model", "S19.18/model", "19.3.14/model") for cut in drawn(model).cuts for mark in cut.forces
+    ]
+    assert sum(mark.action.pulls for mark in marks) >= 4
+
+
+@every_model
+def test_the_couple_of_a_motor_stands_at_its_joint(model):
+    """The open circle goes round the joint, or has it within its radius along the body."""
+    hinges = {j["name"]: (j["with"]["of"][1], {j["first"], j["second"]}) for j in joints(model) if j["type"] == "hinge"}
+    now = mechanism(model).solve()
+    for cut in drawn(model).cuts:
+        scale = cut.row.panels[0].scenery.scale
+        for mark in cut.forces:
+            [load] = mark.action.loads
+            places = [point for point, pair in hinges.values() if pair == set(load.of)]
+            if mark.action.turns and mark.action.kind in ("force", "motion") and len(places) == 1:
+                pin = scale * np.array([now[f"x({places[0]})"], now[f"y({places[0]})"]])
+                assert np.hypot(*(mark.centre - pin)) <= 24.0 + 1e-6 * scale
+
+
+def joints(model):
+    """The joints of a model with their fields and the names of their bodies."""
+    source = mechanism(model).source()
+    about = {joint["name"]: joint for joint in source.about["joints"]}
+    spec = json.loads(source.spec)["joints"]
+    return [joint | about[joint["name"]] | {"type": joint["type"]} for joint in spec if joint["name"] in about]
 
 
 def labels(axes):
@@ -217,6 +271,17 @@ def test_no_two_labels_overlap(model, of):
     page = Bbox.from_extents(*np.ravel(list(zip(axes.get_xlim(), axes.get_ylim(), strict=True))))
     for box in boxes:
         assert page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+
+
+@every_model
+@pytest.mark.parametrize("of", [None, "all"])
+def test_no_leader_runs_through_a_label(model, of):
+    for cut in drawn(model, of).cuts:
+        for panel in cut.row.panels:
+            for led, other in permutations((label for label in panel.labels), 2):
+                if led.leader is not None:
+                    way = dense([led.leader], 1.0)
+                    assert not (np.abs(way - other.centre) < other.half - AIR).all(axis=1).any(), (led.label, other.label)
 
 
 @every_model

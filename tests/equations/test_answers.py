@@ -17,12 +17,14 @@ from freebody.equations import (
     coefficients,
     eigenvalues,
     evaluate,
+    from_sympy,
     limit,
     solve,
     solve_equations,
     stability,
     substitute,
     text,
+    to_sympy,
 )
 from freebody.equations.tree import MINUS_ONE, ONE, ZERO, add, minus, mul, negative, number, over, power
 
@@ -90,7 +92,7 @@ def test_cart_and_pendulum():
         "−((m l θ̇² cos θ + (M + m) g) sin θ)/(l (M + m sin²θ))",
     ]
     rest = solve(matrix, [ZERO, right[1]], LETTERS)
-    assert written([substitute(rest[0], {"theta": mul(number("1/4"), sym("pi")), "M": M}, LETTERS)]) == ["g/3"]
+    assert written([substitute(rest[0], {"theta": mul(number("1/4"), sym("pi")), "M": M}, LETTERS)]) == ["⅓ g"]
     assert written([limit(rest[1], "M", INFINITY, LETTERS)]) == ["−(g/l) sin θ"]
 
 
@@ -118,6 +120,13 @@ def test_coefficients_of_a_linear_expression():
     tree = minus(mul(M, add(sym("x", 2), mul(L, sym("theta", 2)))), mul(K, sym("x")))
     factors, rest = coefficients(tree, [sym("x", 2), sym("theta", 2)])
     assert written([*factors, rest]) == ["m", "m l", "−k x"]
+
+
+def test_an_angle_of_numbers_is_read_back():
+    """SymPy makes atan(15) of atan2(15, 1), and atan(2) + π or so of others."""
+    for y, x in ((15, 1), (-15, 1), (2, -3)):
+        tree = from_sympy(to_sympy(Fn("atan2", (number(y), number(x)))))
+        assert float(evaluate(tree, {})) == pytest.approx(np.arctan2(y, x))
 
 
 def test_limits():

@@ -76,6 +76,7 @@ def test_text():
     assert "    a_G = l θ̈₁ cos θ₁ i + (m₁ + l) j − e_r\n" in shown
     assert re.search(r"AMB about the pivot:\n    m₁ l² θ̈₁ = −m₁ g l sin θ₁ +\(1\)\nThe pin has no moment\.", shown)
     assert "    ⎡ m₁  ½ m₁ l ⎤ ⎡ θ̈₁ ⎤ = ⎡ m₁ g ⎤\n" in shown
+    assert "    ⎡ A₁₁   0  ⎤ ⎡ θ̈₁ ⎤ = ⎡ 0 ⎤\n    ⎣  0   A₁₁ ⎦ ⎣ θ̈₂ ⎦   ⎣ l ⎦\n    A₁₁ = k₀ θ̈₂ sin θ₁" in shown
     assert "- the mass m₁" in shown and "sketch" not in shown
     assert max(map(columns, shown.split("\n"))) <= 100
     assert max(map(columns, DOCUMENT.text(width=72).split("\n"))) <= 72
@@ -89,7 +90,7 @@ def test_markdown():
     shown = DOCUMENT.markdown()
     assert shown.startswith("# A pendulum & 100 % of it\n")
     assert r"The angle $\theta_1$ is measured from the vertical; it costs \$5\_0 \<here\>." in shown
-    assert shown.count("$$") == 2 * 5
+    assert shown.count("$$") == 2 * 6  # an entry of the wide matrix has an equation of its own
     assert r"= -m_1 g l \sin\theta_1 \tag{1}" in shown
     assert r"| 1\|2 | $\theta_1$ |" in shown
 
@@ -121,22 +122,44 @@ def test_figures_are_written_beside_and_words_stand_for_them_elsewhere(tmp_path)
     assert json.loads(DOCUMENT.json())["blocks"][-1]["shows"] == Shown.description
 
 
-def test_html_is_well_formed():
-    class Nesting(HTMLParser):
-        open: list[str]
+class Nesting(HTMLParser):
+    """Elements that are opened are closed; what formulas say, sign by sign."""
 
-        def handle_starttag(self, tag, attrs):
+    def __init__(self):
+        super().__init__()
+        self.open, self.said = [], []
+
+    def handle_starttag(self, tag, attrs):
+        if tag != "meta":
             self.open.append(tag)
 
-        def handle_endtag(self, tag):
-            assert self.open.pop() == tag
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
 
-    shown = DOCUMENT._repr_html_()
+    def handle_startendtag(self, tag, attrs):
+        pass
+
+    def handle_data(self, data):
+        if "math" in self.open:
+            self.said.append(data)
+
+
+@pytest.mark.parametrize("shown", [DOCUMENT._repr_html_(), DOCUMENT.html()], ids=["fragment", "page"])
+def test_html_is_well_formed_and_typeset(shown):
     parser = Nesting()
-    parser.open = []
     parser.feed(shown)
     assert parser.open == []
-    assert r"The angle \(\theta_1\) is" in shown and "&lt;here&gt;" in shown and "<figure><svg" in shown
+    assert "\\" not in shown and "&lt;here&gt;" in shown and "<figure><svg" in shown
+    assert "The angle <math><msub><mi>θ</mi><mn>1</mn></msub></math> is" in shown
+    said = "".join(parser.said)
+    assert "m1l2θ¨1=−m1glsinθ1" in said and "𝐚G=lθ¨1cosθ1𝐢+(m1+l)𝐣−𝐞r" in said
+
+
+def test_a_page_is_whole_and_needs_nothing_from_elsewhere():
+    page = DOCUMENT.html()
+    assert page.startswith("<!DOCTYPE html>") and '<meta charset="utf-8">' in page
+    assert "<title>A pendulum &amp; 100 % of it</title>" in page
+    assert not re.search(r"<script|<link|src=|url\((?!#)", page)
 
 
 def test_json_has_trees_and_what_is_printed():

@@ -20,7 +20,7 @@ WRITTEN = [
     (add(M2, product(-1, M1)), "m₂ − m₁", "m2 - m1", r"m_2 - m_1"),
     (negative(add(M1, M2)), "−m₁ − m₂", "-m1 - m2", r"-m_1 - m_2"),
     (product(-1, add(M1, M2), L), "−(m₁ + m₂) l", "-(m1 + m2) l", r"-(m_1 + m_2) l"),
-    (mul(number("1/4"), M1), "m₁/4", "m1/4", r"\tfrac{1}{4} m_1"),
+    (mul(number("1/4"), M1), "¼ m₁", "m1/4", r"\tfrac{1}{4} m_1"),
     (half(M, square(L)), "½ m l²", "m l^2/2", r"\tfrac{1}{2} m l^2"),
     (mul(number("1/12"), M, square(L)), "m l²/12", "m l^2/12", r"\tfrac{1}{12} m l^2"),
     (mul(number("-3/7"), M), "−3 m/7", "-3 m/7", r"-\tfrac{3}{7} m"),
@@ -73,7 +73,7 @@ def test_an_equation_of_a_double_pendulum():
         mul(add(M2, mul(number("1/4"), M1)), A1, square(L)),
     )
     right = product(-1, M2, L, sin(TH1), G)
-    assert equation_text(left, right, LETTERS) == "(m₁/4 + m₂) l² θ̈₁ + ½ m₂ l² cos(θ₁ − θ₂) θ̈₂ = −m₂ g l sin θ₁"
+    assert equation_text(left, right, LETTERS) == "(¼ m₁ + m₂) l² θ̈₁ + ½ m₂ l² cos(θ₁ − θ₂) θ̈₂ = −m₂ g l sin θ₁"
     assert equation_latex(left, right, LETTERS).endswith(r"= -m_2 g l \sin\theta_1")
 
 

@@ -16,7 +16,7 @@ pub fn describe(m: &Mechanism) -> Value {
         "coordinates": coordinates(m, &numbers, true),
         "closure_coordinates": coordinates(m, &numbers, false),
         "joints": m.joints.iter().map(|j| joint(m, j)).collect::<Vec<_>>(),
-        "forces": m.forces.iter().map(|f| json!({"name": f.name, "type": f.word, "conservative": f.potential.is_some()})).collect::<Vec<_>>(),
+        "forces": m.forces.iter().map(|f| json!({"name": f.name, "type": f.word, "conservative": f.potential.is_some(), "cases": f.has_cases()})).collect::<Vec<_>>(),
         "motions": motions(m),
         "limits": m.groups.iter().map(|g| json!({"name": g.name, "type": g.word, "engaged": g.engaged,
             "first": m.bodies[g.ends[0]].name, "second": m.bodies[g.ends[1]].name})).collect::<Vec<_>>(),

@@ -46,13 +46,14 @@ class Candidates:
     exact: bool
 
 
-def candidates(problem: Problem, points: NamedPoints, counted: int) -> Candidates:
+def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: bool = False) -> Candidates:
     """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits); of those with the same unknowns the plainest,
-    as many as are independent."""
+    as many as are independent. ``in_letters``: only those that the core can tell in letters."""
     sets, exact = groups(problem)
     named = named_twists(problem, points)
     accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
     found = [candidate for group in sets for candidate in _of_group(problem, group, named, counted)]
+    found = [candidate for candidate in found if not in_letters or has_letters(problem, candidate.twist)]
     found.sort(key=lambda candidate: candidate.order(accelerations))
     by_support: dict[int, list[Candidate]] = {}
     for candidate in found:
@@ -60,6 +61,11 @@ def candidates(problem: Problem, points: NamedPoints, counted: int) -> Candidate
         if len(alike) < candidate.support.bit_count() and independent([*alike, candidate]):
             alike.append(candidate)
     return Candidates(by_support, exact)
+
+
+def has_letters(problem: Problem, twist: Twist) -> bool:
+    """Whether the core can tell a point or direction in letters: not one of inertia."""
+    return twist.question is not None if twist.pair is None else None not in [problem.unknowns[i].load for i in twist.pair]
 
 
 def bits(places: Iterable[int]) -> int:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.balances.candidates import Candidate
+from freebody.balances.candidates import Candidate, has_letters
 from freebody.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.balances.system import Problem
 from freebody.free_body import Pair
@@ -80,7 +80,7 @@ def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
 def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, Any] | None:
     place = candidate.twist.question
     loads = [problem.unknowns[i].load for i in candidate.twist.pair or ()]
-    if loads and None not in loads:
+    if loads and has_letters(problem, candidate.twist):
         forces = [i for i in loads if np.hypot(*problem.free.loads[i].on[-1].force) > 0]
         place = {"about": {"meeting": loads}} if turns else {"along": {"clear": forces[0]}}
     return place and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **place}

@@ -20,7 +20,8 @@ from freebody.free_body import FreeBodies
 @dataclass(frozen=True)
 class MinimalForm:
     """Independent equations that hold the accelerations of ``coordinates``, and the ``forces`` of prescribed motions if these
-    were asked for: as many as there are, and no other unknowns.
+    were asked for: as many as there are, and no other unknowns. Where something slides with friction, the forces that this
+    follows from, ``rubbing``, are asked for as well, as a person does who needs them for the friction.
 
     Where loops leave no such set, it is larger by the fewest reactions that cannot be kept out, ``stays``; ``equations`` is
     empty where these are more than four. ``least``: no set of balances of connected groups holds fewer reactions, whatever
@@ -32,6 +33,7 @@ class MinimalForm:
     equations: tuple[BalanceEquation, ...]
     stays: tuple[str, ...]
     forces: tuple[str, ...] = ()
+    rubbing: tuple[str, ...] = ()
     least: int = 0
     groups: int = 0
     exact: bool = True
@@ -45,34 +47,41 @@ class MinimalForm:
     @property
     def wanted(self) -> int:
         """How many accelerations and forces the equations are for."""
-        return len(self.coordinates) + len(self.forces)
+        return len(self.coordinates) + len(self.forces) + len(self.rubbing)
 
     def __str__(self) -> str:
         from freebody.balances.show import show
 
         return show(self)
 
+    def _repr_html_(self) -> str:
+        from freebody.equations.rendering.page import lines
+
+        return lines(str(self))
+
 
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None, forces: bool = False) -> MinimalForm:
     """The minimal form at ``states[0]``; ``states`` and ``points`` are those of ``smallest_set``. ``forces``: equations for the
     forces of prescribed motions are wanted as well. Where the loops are singular at ``states[0]``, the numbers are those of the next."""
-    given = problem(_regular(states))
+    given = problem(regular(states))
     moving = [i for i, unknown in enumerate(given.unknowns) if unknown.coordinate]
     driving = [i for i in range(len(given.unknowns)) if forces and i not in moving and _drives(given, i)]
-    wanted = [*moving, *driving]
+    leading = {load.follows[0] for load in given.free.loads if load.follows}
+    rubbing = [i for i, unknown in enumerate(given.unknowns) if unknown.load in leading]
+    wanted = [*moving, *driving, *rubbing]
     coordinates = tuple(given.unknowns[i].coordinate or "" for i in moving)
-    driven = tuple(given.unknowns[i].name for i in driving)
+    asked = [tuple(given.unknowns[i].name for i in some) for some in (driving, rubbing)]
     sets, every = groups(given)
     if not wanted:
-        return MinimalForm(coordinates, (), (), driven)
+        return MinimalForm(coordinates, (), (), *asked)
     shown = fewest(given, sets, wanted, WORTH)
-    told = (driven, shown, len(sets), every, without_reactions(given, wanted))
+    told = (*asked, shown, len(sets), every, without_reactions(given, wanted))
     chosen, stays = _best(given, points or {}, wanted, bits(moving), shown)
     names = tuple(unknown.name for i, unknown in enumerate(given.unknowns) if stays >> i & 1)
     return MinimalForm(coordinates, tuple(equation(given, candidate) for candidate in chosen), names, *told)
 
 
-def _regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
+def regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
     """Without the first where its loops hold less than they do near by, and so do not tell which coordinates are free."""
     ranks = [_rank(state) for state in states]
     return states[1:] if len(states) > 1 and ranks[0] < ranks[1] else states

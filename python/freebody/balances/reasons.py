@@ -14,6 +14,9 @@ from freebody.free_body import Load, Pair
 AT = 1e-9
 """Distance over length of the mechanism below which a load acts at a point."""
 _SEVERAL = {
+    "it is a couple, which has": "they are couples, which have",
+    "its sum with its friction passes": "their sums with their friction pass",
+    "its sum with its friction is": "their sums with their friction are",
     "it is": "they are",
     "it acts": "they act",
     "its line of action passes": "their lines of action pass",
@@ -109,6 +112,6 @@ def _acts_at(load: Load, names: Sequence[str], at: Pair, length: float) -> bool:
 def agree(why: str, number: int) -> str:
     """The reason in the plural where it holds of several."""
     for one, several in _SEVERAL.items() if number > 1 else ():
-        if why.startswith(one + " ") and "a couple" not in why:
+        if why.startswith(one + " "):
             return several + why.removeprefix(one)
     return why

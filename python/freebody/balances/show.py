@@ -44,10 +44,11 @@ def _smallest(found: SmallestSet) -> str:
 
 
 def _minimal(found: MinimalForm) -> str:
-    names = ", ".join([*found.coordinates, *found.forces])
+    names = ", ".join([*found.coordinates, *found.forces, *found.rubbing])
     if not names:
         return "Motions and loops prescribe every acceleration: there is no equation of motion."
-    lines = [f"Minimal form in {names}, without reactions:"]
+    others = "other reactions" if found.rubbing else "reactions"
+    lines = [f"Minimal form in {names}, without {others}:"]
     if found.stays or not found.equations:
         stay = f"here {', '.join(found.stays)}" if found.stays else "and more are not worth it"
         lines = [f"No set in {names} alone: {fewest_words(found)}, {stay}."]

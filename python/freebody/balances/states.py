@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -25,50 +25,75 @@ NEARER = 0.7
 CORRECTIONS = 60
 NEARLY, OUT = 0.98, 0.05
 """Part of a gap by which it is closed at once; part by which one that is pierced is opened."""
-PLACES, RATES = 3, 4
+PLACES, RATES, PASSES = 3, 4, 3
+CLOSED_RATE = 1e-9
+"""Rate of a gap over the rates tried below which it stays closed."""
 STEP = {"rad": 0.3, "m": 0.2}
 """How far a coordinate is moved: an angle in rad, a length as a part of the size of the mechanism."""
 CLOSED = 1e-12
 """Gap over size of the mechanism below which what touches does so, and the reasons for zeros hold to round-off."""
 
 
-def nearby(source: Source, state: State) -> list[FreeBodies]:
+def nearby(source: Source, state: State, parameters: Sequence[Array] = ()) -> list[FreeBodies]:
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
-    there: what drops out of a balance does not depend on where a drive has brought the mechanism."""
-    first = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
+    there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have
+    ``parameters``, one after the other, or come as near to these as they can."""
+    first = _free(source.core, state)
     coordinates = source.about["coordinates"]
     in_order = {c["name"]: first.accelerations[c["name"]] for c in coordinates}
     first = replace(first, accelerations=in_order)
     found = [first]
     rng = np.random.default_rng(SEED)
     steps = np.array([STEP["rad"] if c["dimension"] == "rad" else STEP["m"] * _size(first) for c in coordinates])
-    closing = _Closing(source, state, first)
+    changes = [p - state.p for p in parameters] or [np.zeros_like(state.p)]
+    part = 1.0
     for _ in range(TRIES):
-        other = closing.near(state.q + steps * rng.uniform(-1, 1, len(steps)))
+        closing = _Closing(source, replace(state, p=state.p + part * changes[len(found) % len(changes)]), first)
+        other = closing.near(state.q + steps * part * rng.uniform(-1, 1, len(steps)))
         if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
             found.append(other)
         else:
-            steps = steps * NEARER
+            part *= NEARER
         if len(found) > OTHERS:
             break
     return found
 
 
 def wandering(source: Source, state: State) -> list[FreeBodies]:
-    """The free bodies at a state, and at others where the same things act: there and at places near by, with random rates that
-    keep closed what is closed, each at a time of its own."""
-    first = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
+    """The free bodies at a state, and at ``others`` where the same things act."""
+    return [_free(source.core, each) for each in (state, *others(source, state))]
+
+
+def others(source: Source, state: State) -> list[State]:
+    """States of the same mode: at the places of a state and near by, with random rates that keep closed what is closed, each at a
+    time of its own. The same things act there, and what slides or bears on a tooth does so in the same sense."""
+    first = _free(source.core, state)
     rng = np.random.default_rng(SEED)
     scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.about["coordinates"]])
-    closing, found = _Closing(source, state, first), [first]
+    closing, found = _Closing(source, state, first), []
     steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
     for q in (closing.place(state.q + step) for step in steps):
         for _ in range(RATES if q is not None else 0):
             rates, t = scale * rng.uniform(-1, 1, len(scale)), state.t + rng.uniform(0, 1)
-            other = closing.moving(q, rates, t)
-            if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
+            try:
+                other = closing.moving(q, rates, t)
+                free = _free(source.core, other)
+            except _core.MotionError:
+                continue
+            held = np.abs(closing.rows(free) @ other.u).max(initial=0.0) < CLOSED_RATE * np.abs(scale).max(initial=1.0)
+            if held and alike(free, first) and _senses(free) == _senses(first) and np.isfinite(_places(free)).all():
                 found.append(other)
     return found
+
+
+def _free(core: _core.Mechanism, state: State) -> FreeBodies:
+    return FreeBodies.read(core.free_bodies(state.p, state.t, state.q, state.u))
+
+
+def _senses(free: FreeBodies) -> list[bool]:
+    """In which sense everything slides that rubs, and on which flank teeth bear."""
+    sliding = [load.follows[1] > 0 for load in free.loads if load.follows]
+    return sliding + [load.value > 0 for load in free.loads if load.component == "tooth force"]
 
 
 class _Closing:
@@ -116,15 +141,19 @@ class _Closing:
             pass
         return None
 
-    def moving(self, q: Array, rates: Array, t: float) -> FreeBodies | None:
-        """The free bodies at a place and a time, at the rates nearest to some that keep closed what is closed."""
-        try:
-            still = FreeBodies.read(self.core.free_bodies(self.state.p, t, q, np.zeros_like(rates)))
-            held = np.array([[row.coefficients[name] for name in self.names] for row in still.rows]).reshape(-1, len(self.names))
+    def moving(self, q: Array, rates: Array, t: float) -> State:
+        """A place and a time, with the rates nearest to some that keep closed what is closed: what that is depends on the rates.
+        Raises ``_core.MotionError``."""
+        found = State(self.state.p, t, q, np.zeros_like(rates))
+        for _ in range(PASSES):
+            held = self.rows(_free(self.core, found))
             rates = rates - np.linalg.pinv(held, rcond=DEPENDENT) @ (held @ rates)
-            return FreeBodies.read(self.core.free_bodies(self.state.p, t, q, rates))
-        except _core.MotionError:
-            return None
+            found = State(self.state.p, t, q, rates)
+        return found
+
+    def rows(self, free: FreeBodies) -> Array:
+        """What is closed, as rows among the rates."""
+        return np.array([[row.coefficients[name] for name in self.names] for row in free.rows]).reshape(-1, len(self.names))
 
     def _gaps(self, q: Array) -> Array | None:
         """What is left of the gap of every row, 0 for one of friction; None where something is pierced, or stretched too far."""

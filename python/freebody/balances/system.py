@@ -15,6 +15,13 @@ DEPENDENT = 1e-7
 """Part of a column that is left when those before it are taken out, below which it is a combination of them."""
 
 
+class NotUnknown(KeyError):
+    """A name of nothing that is unknown; the sentence says what is."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
 @dataclass(frozen=True)
 class Unknown:
     """A load of unknown value, or the acceleration of a ``coordinate`` that is free to take any."""
@@ -63,7 +70,7 @@ class Problem:
 
     def place(self, wanted: str) -> int:
         """Where an unknown stands, by the name of a coordinate, a motion, or a component of a reaction (``A.Fx``).
-        Raises ``KeyError``, ``Indeterminate``."""
+        Raises ``NotUnknown``, ``Indeterminate``."""
         for i, unknown in enumerate(self.unknowns):
             if wanted in (unknown.name, unknown.coordinate):
                 return self._determined(i)
@@ -71,12 +78,12 @@ class Problem:
         if len(named) == 1:
             return self._determined(named[0])
         if wanted in self.free.accelerations or wanted.removeprefix("accel(").removesuffix(")") in self.free.accelerations:
-            raise KeyError(f"the acceleration of {wanted} follows from motions and loops without any balance")
+            raise NotUnknown(f"the acceleration of {wanted} follows from motions and loops without any balance")
         for load in self.free.loads:
             if load.follows and load.symbol == wanted:
                 leader = self.free.loads[load.follows[0]].symbol
-                raise KeyError(f"{wanted} is {load.follows[1]:g} times {leader}, by the law of friction; ask for that")
-        raise KeyError(f"nothing unknown is called {wanted!r}; there are {', '.join(u.name for u in self.unknowns)}")
+                raise NotUnknown(f"{wanted} is {load.follows[1]:g} times {leader}, by the law of friction; ask for that")
+        raise NotUnknown(f"nothing unknown is called {wanted!r}; there are {', '.join(u.name for u in self.unknowns)}")
 
     def _determined(self, i: int) -> int:
         load = self.load(self.unknowns[i])

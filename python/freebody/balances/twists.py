@@ -107,8 +107,12 @@ def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[Twist, li
     for i, load in enumerate(problem.free.loads):
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
+    rolling = touching(problem.free)
     found = [
-        (Twist(name, question={"about": {"load": i}}), [_last_point(s.free, i) for s in problem.systems])
+        (
+            Twist("the point of contact" if rolling == [name] else name, question={"about": {"load": i}}),
+            [_last_point(s.free, i) for s in problem.systems],
+        )
         for name, i in joints.items()
     ]
     for body in problem.bodies:
@@ -136,7 +140,7 @@ def _placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
 
 
 def _joint_directions(problem: Problem) -> list[tuple[Twist, Array]]:
-    """Along and across the force of every unknown that has one direction of its own."""
+    """Along and across the force of every unknown that has one direction of its own; plainer than the axes where it rubs."""
     found: list[tuple[Twist, Array]] = []
     for unknown in problem.unknowns:
         load = problem.load(unknown)
@@ -145,12 +149,25 @@ def _joint_directions(problem: Problem) -> list[tuple[Twist, Array]]:
         f = _directions(problem, unknown.load)
         if f is None:
             continue
-        still = np.zeros(len(f))
+        still, rubbing = np.zeros(len(f)), _rubbing(problem, unknown.load)
         own, right_angle = _direction_words(problem, load, f)
-        across = Twist(right_angle, rank=1, question={"along": {"across": unknown.load}})
-        found.append((across, np.column_stack([f[:, 1], -f[:, 0], still])))
-        found.append((Twist(own, rank=1, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
+        rank = 0 if rubbing is not None and np.abs(f).min() > ONE_LINE else 1
+        across = {"across": unknown.load} if rubbing is None else {"load": rubbing}
+        slides = np.column_stack([f[:, 1], -f[:, 0]]) if rubbing is None else _directions(problem, rubbing)
+        found.append((Twist(right_angle, rank=rank, question={"along": across}), np.column_stack([slides, still])))
+        found.append((Twist(own, rank=rank, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
     return found
+
+
+def _rubbing(problem: Problem, load: int) -> int | None:
+    """The friction that follows from a load, and has one direction, if there is any."""
+    follows = (i for i, other in enumerate(problem.free.loads) if other.follows and other.follows[0] == load)
+    return next((i for i in follows if _directions(problem, i) is not None), None)
+
+
+def touching(free: FreeBodies) -> list[str]:
+    """The names of what touches: contacts that hold, and joints that roll."""
+    return list(dict.fromkeys(load.name for load in free.loads if load.kind == "contact" or load.component == "friction force"))
 
 
 def _directions(problem: Problem, load: int) -> Array | None:
@@ -171,7 +188,12 @@ def _direction_words(problem: Problem, load: Load, f: Array) -> tuple[str, str]:
     """Words for the direction of a force and for the one at right angles to it."""
     if load.symbol.endswith(".tension"):
         return load.name, f"the normal of {load.name}"
-    alike = [_directions(problem, i) for i, other in enumerate(problem.free.loads) if other.path == load.path and other.unknown]
+    normal, tangent = f"the normal of {load.name}", f"the tangent of {load.name}"
+    if load.name in touching(problem.free):
+        rubs = load.kind == "friction" or load.component == "friction force"
+        return (tangent, normal) if rubs else (normal, tangent)
+    loads = enumerate(problem.free.loads)
+    alike = [_directions(problem, i) for i, other in loads if other.path == load.path and other.unknown and not other.follows]
     if all(g is None or np.abs(f[:, 0] * g[:, 1] - f[:, 1] * g[:, 0]).max() < ONE_LINE for g in alike):
         return f"the normal of {load.name}", load.name
     return f"the line of {load.symbol}", f"the normal to {load.symbol}"

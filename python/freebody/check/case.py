@@ -32,6 +32,9 @@ class Meaning(Protocol):
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that name one quantity twice agree in it."""
 
+    def given(self) -> frozenset[str]:
+        """Letters made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
+
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every letter on true states, by ``Letter.key``."""
 
@@ -73,14 +76,17 @@ class Case:
         same = np.allclose(after, before, rtol=1e-9, atol=1e-9 * float(np.abs(before).max()))
         return [] if same else sorted(samples.loose)
 
-    def elsewhere(self, values: Mapping[str, Array]) -> dict[str, Array]:
-        """Values that are no true state, where only what is the same by itself is the same."""
-        names = self.meaning.names()
+    def elsewhere(self, values: Mapping[str, Array], bound: bool = True) -> dict[str, Array]:
+        """Values that are no true state, where only what is the same by itself is the same; or, if ``bound``, by what the model
+        defines its parameters to be."""
+        names, given = self.meaning.names(), self.meaning.given() if bound else ()
         sizes = {key: np.where(np.any(value), value, 1.0) for key, value in values.items()}
         rng, draws = np.random.default_rng(5), {}  # always the same places
         for key, value in sizes.items():
             draws.setdefault(names.get(key, key), value * rng.uniform(0.7, 1.4, value.shape))
-        return {key: draws[names.get(key, key)] for key in sizes}
+        return {
+            key: value if key in given and np.any(values[key]) else draws[names.get(key, key)] for key, value in sizes.items()
+        }
 
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""

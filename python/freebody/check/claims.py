@@ -228,10 +228,10 @@ def _solve(given: Program, values: dict[str, Array]) -> None:
 
 _Judge = Callable[..., Verdict]
 _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
-    (re.compile(r"only if (.+?):(.+)", re.S), _only_if),
-    (re.compile(r"if (.+?):(.+)", re.S), _if),
+    (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
+    (re.compile(r"if\b(.*?):(.+)", re.S), _if),
     (re.compile(r"constant:(.+)", re.S), _constant),
-    (re.compile(r"limit:(.+)\bas\b(.+)", re.S), _limit),
+    (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),
     (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),

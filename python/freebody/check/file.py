@@ -74,6 +74,11 @@ def read(path: Path) -> Statements:
     """The statements of a file. Raises ``Complaint``."""
     try:
         data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+        if isinstance(data, dict) and "statements" not in data:
+            what = "is a model, and there is no equation to check" if "freebody" in data else "holds no statements"
+            raise Complaint(
+                f"{path} {what}", f"give one, like `freebody check {path.name} \"m x'' = F\"`, or a file of `statements`"
+            )
         return Statements.model_validate(data)
     except YAMLError as error:
         raise Complaint(f"{path}: {error}") from None

@@ -30,7 +30,10 @@ def family(text: str, truth: Truth, letters: Callable[[dict[str, str]], Letters]
 
     ``letters`` are those of the statement with some more declared. Raises ``Complaint``.
     """
-    for part in filter(None, (p.strip() for p in re.split(r",|\band\b", text))):
+    parts = [part.strip() for part in re.split(r",|\band\b", text) if part.strip()]
+    if not parts:
+        raise Complaint("the hypothesis is empty", f"write one, like `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(_WORDS)}")
+    for part in parts:
         given = _part(part, truth, letters, given)
     return given
 

@@ -74,6 +74,10 @@ class StatementLetters:
         """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
         return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
+    def given(self) -> frozenset[str]:
+        """Letters made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
+        return frozenset(n.key for n in self._valued if not n.dots and self._is_fixed(n))
+
     @cached_property
     def _valued(self) -> list[Letter]:
         """The letters of the statement and of the vocabulary, with their rates."""

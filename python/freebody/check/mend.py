@@ -135,7 +135,9 @@ class _Search:
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
         self.fit = case.meaning.fits
-        self.other = case.elsewhere(self.few)
+        self.said = {n.key for n in letters(equation)}
+        self.given = case.meaning.given()
+        self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self.fits = Fits(self.values, self.vocabulary)
         self.right = self._worst(equation, self.values) < HOLDS
 
@@ -185,7 +187,9 @@ class _Search:
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is not None and mark not in kept and not self._is_idle(each) and self._confirmed(each.after):
+            if mark is None or mark in kept or self._is_idle(each) or self._is_vacuous(each.after):
+                continue
+            if self._confirmed(each.after):
                 least = size if not kept else least
                 kept[mark] = each
         return list(kept.values())[:_SHOWN]
@@ -197,6 +201,11 @@ class _Search:
     def _is_idle(self, found: _Found) -> bool:
         """Whether it takes a term away by a factor that is always 0."""
         return any(e.kind == "missing factor" and e.new is not None and not self._moves(e.new) for e in found.edits)
+
+    def _is_vacuous(self, equation: Equation) -> bool:
+        """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
+        kept = self.said & {n.key for n in letters(equation)}
+        return bool(kept) and self._worst(equation, self.few | {key: self.free[key] for key in kept}) < HOLDS
 
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""
@@ -238,20 +247,21 @@ class _Search:
 
     def _mark(self, equation: Equation) -> tuple[float, ...] | None:
         """What an equation says, however it is arranged; None where it says nothing (a = a)."""
-        found = self._residual(equation, self.other)
+        places = self.other if {n.key for n in letters(equation)} - self.given else self.free
+        found = self._residual(equation, places)
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
-        solved = self._solved(equation, found.sides.residual)
+        solved = self._solved(equation, found.sides.residual, places)
         if solved is None:
             ratio = found.ratio.ravel()
             solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
         return tuple(np.round(solved, 7).tolist())
 
-    def _solved(self, equation: Equation, base: Array) -> Array | None:
+    def _solved(self, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
         """The equation solved for a letter in which it and the one given are linear."""
         known = {n.key for n in letters(equation)}
         for key in (key for key in self._pivots if key in known):
-            if (solved := self._solved_for(key, equation, base)) is not None:
+            if (solved := self._solved_for(key, equation, base, places)) is not None:
                 return solved
         return None
 
@@ -261,14 +271,17 @@ class _Search:
         found = self._residual(self.equation, self.other)
         known = [n for n in letters(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
         ranked = sorted(known, key=lambda n: -n.dots)
-        return [n.key for n in ranked if found and self._solved_for(n.key, self.equation, found.sides.residual) is not None]
+        base = found.sides.residual if found else None
+        return [
+            n.key for n in ranked if base is not None and self._solved_for(n.key, self.equation, base, self.other) is not None
+        ]
 
-    def _solved_for(self, key: str, equation: Equation, base: Array) -> Array | None:
-        once, twice = (self._residual(equation, self.other | {key: self.other[key] + step}) for step in (1.0, 2.0))
+    def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
+        once, twice = (self._residual(equation, {**places, key: places[key] + step}) for step in (1.0, 2.0))
         if base.shape[1] != 1 or once is None or twice is None:
             return None
         slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
-        return self.other[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
+        return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
 
 
 def _both(first: Edit, second: Edit) -> Edit | None:

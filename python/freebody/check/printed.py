@@ -78,14 +78,16 @@ def _carried(point: str) -> str:
 
 
 def _directions(subject: Subject) -> Iterator[tuple[str, str]]:
-    """Unit directions that turn, λ along the x axis of a body and n across it."""
+    """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
     from freebody.equations.derivation.opening import directions
 
     turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
     for pair in directions(subject).pairs:
         if (angle := _said(pair.angle, turning)) is not None:
-            yield pair.along, f"[cos({angle}), sin({angle})]"
-            yield pair.across, f"[-sin({angle}), cos({angle})]"
+            c, s = f"cos({angle})", f"sin({angle})"
+            around = (f"[{c}, {s}]", f"[-{s}, {c}]", f"[-{c}, -{s}]", f"[{s}, -{c}]")
+            yield pair.along, around[pair.quarters]
+            yield pair.across, around[(pair.quarters + 1) % 4]
 
 
 def _said(tree: Tree, turning: Mapping[str, str]) -> str | None:

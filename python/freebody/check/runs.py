@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from freebody import _core
 from freebody.instant import State
 from freebody.results import Array, quote
 
@@ -17,6 +18,9 @@ from .families import ALL, Family, Sample
 
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
+_APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
+_PLACES = 12  # steps of Newton's method to one
+_TOUCHES = 1e-12  # gap that is closed, relative to the size of the model
 _STEPS = 2000  # of a run, which is short
 _STEP = 1e-6  # of central differences of gaps, relative to the size of the model
 BALANCED = 1e-11
@@ -60,8 +64,7 @@ class OnRuns(Described):
 
     def rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         n = len(self.coordinates)
-        sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        drawn = sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
+        drawn = self.rate * self._sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
         chosen = sorted(rng.permutation(n)[: self.freedom].tolist())
         return {self.coordinates[i]["name"]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
@@ -71,7 +74,9 @@ class OnRuns(Described):
         late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
         if family.at_rest:
             state = State(state.p, state.t, state.q, np.zeros_like(state.u))
-        elif rng.random() < 0.7 and not family.at_start:
+        if not (family.at_start or family.vanishing or state.u.any()):
+            state = self._placed(rng, state)
+        if rng.random() < 0.7 and not (family.at_rest or family.at_start):
             state = self._moving(rng, state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
         ends = motion.final()[0]
@@ -79,6 +84,30 @@ class OnRuns(Described):
         q, u = (a[0] for a in motion.sample(np.array([t])))
         same = _same(self._mode(motion.instant(t), motion, t), self._own_mode)
         return Sample(State(state.p, t, q, u), motion) if same and motion.instant(t).residual < BALANCED else None
+
+    def _placed(self, rng: np.random.Generator, state: State) -> State:
+        """A random place near the start, at rest, where what is closed there is closed: bodies of other sizes touch elsewhere."""
+        names, sizes = [c["name"] for c in self.coordinates], self._sizes
+        q = state.q + _APART * sizes * rng.uniform(-1, 1, len(names))
+        for _ in range(_PLACES):
+            q, u, _ = self.core.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)))
+            gaps = self._gaps(State(state.p, state.t, q, u), q)
+            if np.max(np.abs(gaps[self._closed]), initial=0.0) < _TOUCHES * self.length:
+                return State(state.p, state.t, q, u) if not u.any() else state
+            slopes = self._slopes(State(state.p, state.t, q, u), self._closed)
+            q = q - np.linalg.pinv(slopes * sizes) @ gaps[self._closed] * sizes
+        return state
+
+    @cached_property
+    def _closed(self) -> list[int]:
+        """The limits that are closed at the model's own start."""
+        limits = self._limits(self.core, self.first, self.first.q)
+        return [i for i, held in enumerate(self._own_mode[: len(limits)]) if held[0] != "open"]
+
+    @cached_property
+    def _sizes(self) -> Array:
+        """By what a coordinate changes noticeably."""
+        return np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
 
     def _moving(self, rng: np.random.Generator, state: State) -> State:
         """Random rates that keep closed what is closed."""
@@ -92,22 +121,27 @@ class OnRuns(Described):
         )
         if not np.allclose(q, state.q, atol=1e-9 * self.length):
             return state
-        return State(state.p, state.t, state.q, _without(u - state.u, self._slopes(state)) + state.u)
+        closed = [i for i, limit in enumerate(self._limits(self.core, state, state.q)) if limit["state"] != "open"]
+        return State(state.p, state.t, state.q, _without(u - state.u, self._slopes(state, closed)) + state.u)
 
-    def _slopes(self, state: State) -> Array:
-        """Gradients of the gaps that are closed, and of what sticks, a row each."""
-        steps = _STEP * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        closed = [i for i, limit in enumerate(self._limits(state, state.q)) if limit["state"] != "open"]
-        columns = []
-        for i, step in enumerate(steps):
-            moved = np.zeros_like(state.q)
-            moved[i] = step
-            after, before = (self._limits(state, state.q + sign * moved) for sign in (1, -1))
-            columns.append([(after[j]["gap"] - before[j]["gap"]) / (2 * step) for j in closed])
-        return np.array(columns).T.reshape(len(closed), len(steps))
+    def _slopes(self, state: State, closed: Sequence[int]) -> Array:
+        """Gradients of the gaps of limits, a row each."""
+        steps, q = np.diag(_STEP * self._sizes), state.q
+        columns = [(self._gaps(state, q + step) - self._gaps(state, q - step)) / (2 * step.sum()) for step in steps]
+        return np.array(columns).T[closed]
 
-    def _limits(self, state: State, q: Array) -> list[dict[str, Any]]:
-        return json.loads(self.core.instant(state.p, state.t, q, np.zeros_like(q)).limits)
+    def _gaps(self, state: State, q: Array) -> Array:
+        """How far every limit is from closing, less than 0 where it is violated."""
+        return np.array([limit["gap"] for limit in self._limits(self._untouched, state, q)])
+
+    def _limits(self, core: _core.Mechanism, state: State, q: Array) -> list[dict[str, Any]]:
+        return json.loads(core.instant(state.p, state.t, q, np.zeros_like(q)).limits)
+
+    @cached_property
+    def _untouched(self) -> _core.Mechanism:
+        """The model with nothing that its limits do."""
+        off = {kind: [{**limit, "engaged": False} for limit in self.spec[kind]] for kind in ("contacts", "strings", "stops")}
+        return _core.Mechanism(json.dumps({**self.spec, **off}))
 
     @cached_property
     def _own_mode(self) -> tuple[Any, ...]:

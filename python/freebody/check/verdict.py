@@ -92,6 +92,11 @@ class Verdict:
     def __str__(self) -> str:
         return "\n  ".join([self.kind.value, *self.details])
 
+    def _repr_html_(self) -> str:
+        from freebody.equations.rendering.page import lines
+
+        return lines(str(self))
+
 
 def judged(case: Case) -> Verdict:
     """The verdict about all equations of a statement together. Raises ``StatementError`` where it has no meaning."""

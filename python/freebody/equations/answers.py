@@ -9,24 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.balances.equation import BalanceEquation
-from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
-from freebody.equations.derivation.balancing import Stated, blocks
-from freebody.equations.derivation.coordinates import stated as of_coordinates
+from freebody.balances.system import NotUnknown
+from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Row, Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph
+from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Side, Words, listed
+from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
-from freebody.equations.linear import Linear
 from freebody.equations.measured import shown
 from freebody.equations.simplify import PATIENCE
 from freebody.equations.solve import TooLarge, limit, solve
+from freebody.equations.still import held_still
 from freebody.equations.to_sympy import to_sympy
 from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power
-from freebody.free_body import FreeBodies
 from freebody.instant import Instant
 
 if TYPE_CHECKING:
@@ -64,7 +62,7 @@ class Answers:
         return self.document.text()
 
     def _repr_html_(self) -> str:
-        return self.document.html()
+        return self.document._repr_html_()
 
     def _repr_latex_(self) -> str:
         return self.document.latex()
@@ -107,109 +105,57 @@ def solve_in_letters(
 
 
 def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float) -> Answers:
-    letters = subject.letters
-    found: dict[str, Tree] = {}
-    made: list[Block] = []
-    for system in _systems(subject, chosen, names):
-        solution = _solved(subject, system, chosen, patience)
-        made += [*(b for s in system.stated for b in blocks(subject, s)), *_asked(system.rows), *_shown(system, solution)]
-        found |= solution
-    values = {name: found[_letter(subject, name)] for name in names}
-    checked = _check(subject, chosen, {_letter(subject, name): tree for name, tree in values.items()})
+    letters, wanted = subject.letters, {name: _letter(subject, name) for name in names}
+    generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
+    states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
+    held = held_still(subject, chosen, states)
+    said, chosen = _title(subject, chosen), chosen.and_held(held)
+    found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_still(x)}
+    made, labels = _held(subject, held), dict[str, str]()
+    for x in wanted.values():
+        if x not in found:
+            system = Search(subject, chosen, held, states).enough(x, found, labels)
+            solution = _solved(subject, system, chosen, patience)
+            made += [*_told(subject, system, labels), *_asked(system.rows), *_shown(system, solution)]
+            found |= solution
+    values = {name: found[x] for name, x in wanted.items()}
+    checked = _check(subject, chosen, {x: found[x] for x in wanted.values()})
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
-    told = (*_title(subject, chosen), *made, *_limits(subject, at, limits))
+    told = (*said, *made, *_limits(subject, at, limits))
     document = Document(tuple(lettered(block, letters) for block in told), letters)
     return Answers(values, at, letters, document, checked)
 
 
-@dataclass(frozen=True)
-class _System:
-    """Balances and rows that together give ``gives``."""
-
-    stated: tuple[Stated, ...]
-    rows: tuple[Row, ...]
-    gives: tuple[Sym, ...]
-
-    @property
-    def linear(self) -> list[Linear]:
-        """All of them in what is unknown."""
-        return [*(each.balance.linear for each in self.stated), *(row.linear for row in self.rows)]
+def _held(subject: Subject, held: Given) -> list[Block]:
+    """What cannot move, and where it is."""
+    still = [Sym(c["name"]) for c in subject.coordinates if held.is_still(Sym(c["name"], 1))]
+    if not still:
+        return []
+    said: list[str | Side] = ["Nothing can move: " if len(still) == len(subject.coordinates) else "What cannot move: "]
+    said += [*listed(still), " stand still" if len(still) > 1 else " stands still"]
+    for i, (name, place) in enumerate(held.trees.items()):
+        said += [", " if i else ", with ", Sym(name), " = ", place]
+    return [Paragraph([*said, "."])]
 
 
-def _systems(subject: Subject, chosen: Given, names: Sequence[str]) -> list[_System]:
-    """Of each thing wanted the smallest set; where there is none, all balances of the coordinates first."""
-    states = nearby(subject.source, chosen.generic(subject))
-    made: list[_System] = []
-    for name in names:
-        wanted = _letter(subject, name)
-        if any(wanted in system.gives for system in made):
-            continue
-        if wanted.dots and _is_prescribed(states[0], wanted):
-            made.append(_closed(subject, [], wanted))
-            continue
-        least = smallest_set(name, states, subject.points)
-        asked = [e.question for e in least.equations]
-        if not asked or None in asked:
-            made.append(_of_all(subject, states, wanted))
-            continue
-        try:
-            made.append(_closed(subject, _in_letters(subject, least.equations), wanted))
-        except TooLarge:  # what drops out at these numbers does not in letters
-            made.append(_of_all(subject, states, wanted))
+def _told(subject: Subject, system: Enough, labels: dict[str, str]) -> list[Block]:
+    """The balances that were not told before, numbered on."""
+    made: list[Block] = []
+    for stated in system.stated:
+        if stated.title not in labels:
+            labels[stated.title] = str(len(labels) + 1)
+            made += blocks(subject, replace(stated, label=labels[stated.title]))
     return made
 
 
-def _is_prescribed(free: FreeBodies, wanted: Sym) -> bool:
-    """Whether motions and loops alone give an acceleration."""
-    rows = np.array([list(row.coefficients.values()) for row in free.rows])
-    if not len(rows):
-        return False
-    unit = np.array([name == wanted.name for name in free.rows[0].coefficients], dtype=float)
-    return bool(np.linalg.norm(unit - np.linalg.pinv(rows) @ (rows @ unit)) < AGREES)
-
-
-def _in_letters(subject: Subject, equations: Sequence[BalanceEquation]) -> list[Stated]:
-    balances = subject.balances([each.question for each in equations if each.question])
-    return [
-        Stated(b, e.about, "about" if b.turns else "along", str(i), e.constructed)
-        for i, (b, e) in enumerate(zip(balances, equations, strict=True), 1)
-    ]
-
-
-def _of_all(subject: Subject, states: Sequence[FreeBodies], wanted: Sym) -> _System:
-    """The balances of the coordinates, and for a load that is not in them the fewest more, the motion being known from those."""
-    stated = of_coordinates(subject)
-    if not wanted.dots and not any(wanted in s.balance.linear.coefficients for s in stated):
-        more = smallest_set(wanted.name, states, subject.points, known_motion=True).equations
-        if any(each.question is None for each in more):
-            raise TooLarge(f"{wanted.name}: no set of balances about named points gives it; ask for numbers")
-        stated += _in_letters(subject, more)
-    return _closed(subject, [replace(s, label=str(i)) for i, s in enumerate(stated, 1)], wanted)
-
-
-def _closed(subject: Subject, stated: Sequence[Stated], wanted: Sym) -> _System:
-    """With as many rows as it takes to have an equation for every unknown."""
-    linear, rows = [s.balance.linear for s in stated], list[Row]()
-    while True:
-        unknown = {wanted, *(x for each in linear for x in each.coefficients)}
-        more = next((row for row in subject.rows if row not in rows and unknown & row.linear.coefficients.keys()), None)
-        if more is None or len(unknown) <= len(linear):
-            break
-        rows.append(more)
-        linear.append(more.linear)
-    if len(unknown) != len(linear) or not any(wanted in each.coefficients for each in linear):
-        raise TooLarge(f"{wanted.name}: {len(linear)} equations leave {len(unknown)} unknowns; ask for numbers")
-    return _System(tuple(stated), tuple(rows), tuple(unknown))
-
-
-def _solved(subject: Subject, system: _System, chosen: Given, patience: float) -> dict[Sym, Tree]:
+def _solved(subject: Subject, system: Enough, chosen: Given, patience: float) -> dict[Sym, Tree]:
     letters = subject.letters
-    unknowns = sorted(system.gives, key=lambda x: (x.dots == 0, letters.place(x.name)))
-    matrix = [[chosen.put(each.coefficients.get(x, ZERO)) for x in unknowns] for each in system.linear]
-    right = [chosen.put(negative(each.rest)) for each in system.linear]
+    unknowns = sorted(system.unknowns, key=lambda x: (x.dots == 0, letters.place(x.name)))
+    matrix = [[each.coefficients.get(x, ZERO) for x in unknowns] for each in system.linear]
+    right = [negative(each.rest) for each in system.linear]
     _require_short(matrix, right, chosen.measured)
-    solution = solve(matrix, right, letters, patience=patience)
-    return {x: with_positive_divisors(tree, subject.values) for x, tree in zip(unknowns, solution, strict=True)}
+    solution = zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True)
+    return {x: with_positive_divisors(tree, subject.values) for x, tree in solution if x in system.gives}
 
 
 def _require_short(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], measured: bool) -> None:
@@ -237,8 +183,10 @@ def _asked(rows: Sequence[Row]) -> list[Block]:
     return [Equation(row.acceleration, ZERO, f"With {names}" if i == 0 else "") for i, row in enumerate(rows)]
 
 
-def _shown(system: _System, solution: Mapping[Sym, Tree]) -> list[Block]:
-    name = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
+def _shown(system: Enough, solution: Mapping[Sym, Tree]) -> list[Block]:
+    name: Words = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
+    if system.known:
+        name = ["With ", *listed(system.known), " as above"]
     return [Equation(x, shown(tree), name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
 
 
@@ -250,8 +198,9 @@ def _letter(subject: Subject, name: str) -> Sym:
     loads = [load for load in subject.free.loads if load.unknown and plain in (load.symbol, load.name)]
     exact = [load for load in loads if load.symbol == plain] or loads
     if len(exact) != 1:
-        many = [load.symbol for load in loads] or [x.symbol for x in subject.free.loads if x.unknown]
-        raise KeyError(f"{name!r} is no coordinate and no single unknown load; there are {', '.join(many)}")
+        every = [c["name"] for c in subject.coordinates] + [x.symbol for x in subject.free.loads if x.unknown]
+        many = [load.symbol for load in loads] or every
+        raise NotUnknown(f"{name!r} is no coordinate and no single unknown load; there are {', '.join(many)}")
     return Sym(exact[0].symbol)
 
 
@@ -276,10 +225,15 @@ def _like(subject: Subject, there: Subject) -> Subject | None:
     from freebody import _core
 
     try:
-        same = [x.symbol for x in there.free.loads] == [x.symbol for x in subject.free.loads]
+        same = _acting(there) == _acting(subject)
     except _core.MotionError:  # what touches here would be pressed in
         return None
     return there if same else None
+
+
+def _acting(subject: Subject) -> list[tuple[str, float]]:
+    """The loads, and in which sense those act that follow from others."""
+    return [(load.symbol, float(np.sign(load.follows[1])) if load.follows else 0.0) for load in subject.free.loads]
 
 
 def _scale(there: Subject, x: Sym) -> float:
@@ -306,7 +260,8 @@ def _title(subject: Subject, chosen: Given) -> list[Block]:
 
 def _limits(subject: Subject, found: Mapping[tuple[str, str], Tree], limits: Mapping[str, Any]) -> list[Block]:
     made: list[Block] = [Heading("Limits")] if found else []
-    for (name, letter), tree in found.items():
-        to = "∞" if str(limits[letter]) == "inf" else str(limits[letter])
-        made.append(Equation(_letter(subject, name), shown(tree), [Sym(letter), f" → {to}"]))
+    for letter, to in limits.items():
+        goes = "∞" if str(to) == "inf" else str(to)
+        for i, (name, tree) in enumerate((name, tree) for (name, x), tree in found.items() if x == letter):
+            made.append(Equation(_letter(subject, name), shown(tree), "" if i else [Sym(letter), f" → {goes}"]))
     return made

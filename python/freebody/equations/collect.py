@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from freebody.equations.tree import Add, Mul, Num, Pow, Sym, Tree, add, mul, number, power, symbols
+from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number, power, symbols
 
 Powers = dict[Tree, Fraction]
 Term = tuple[Fraction | float, Powers]
+_CIRCLES = ({("sin", 2), ("cos", -2)}, {("sin", -2), ("cos", 2)})
 
 
 def factored(tree: Tree) -> Tree:
@@ -33,6 +35,16 @@ def collected(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     return add(*made, *rest)
 
 
+def pythagorean(tree: Tree) -> Tree:
+    """A sum in which sin²α and cos²α with the same factors have become one: a sin²α + b + a cos²α is a + b."""
+    if not isinstance(tree, Add):
+        return tree
+    terms = [_split(term) for term in tree.terms]
+    while pair := next(filter(_is_circle, itertools.combinations(terms, 2)), None):
+        terms = [term for term in terms if term not in pair] + [_radius(*pair)]
+    return add(*map(_joined, terms))
+
+
 def quotient(above: Tree, below: Tree) -> Tree:
     """``above / below`` without the factors that both have: (m g l)/(m l²) is g/l. It holds where these factors are not 0."""
     (size, top), (divisor, bottom) = _split(factored(above)), _split(factored(below))
@@ -40,6 +52,20 @@ def quotient(above: Tree, below: Tree) -> Tree:
     for factor, exponent in bottom.items():
         powers[factor] = powers.get(factor, Fraction(0)) - exponent
     return _joined((size / divisor, {factor: exponent for factor, exponent in powers.items() if exponent}))
+
+
+def _is_circle(pair: tuple[Term, Term]) -> bool:
+    """Whether two terms differ in nothing but sin² of an angle in one and cos² in the other."""
+    (size, powers), (other, rest) = pair
+    apart = {f: powers.get(f, 0) - rest.get(f, 0) for f in powers | rest if powers.get(f, 0) != rest.get(f, 0)}
+    angles = {f.args for f in apart if isinstance(f, Fn)}
+    return size == other and len(angles) == 1 and {(getattr(f, "name", ""), e) for f, e in apart.items()} in _CIRCLES
+
+
+def _radius(first: Term, second: Term) -> Term:
+    """The sum of two such terms."""
+    (size, powers), rest = first, second[1]
+    return size, {f: min(e, rest[f]) for f, e in powers.items() if f in rest and min(e, rest[f])}
 
 
 def _linear(tree: Add, unknowns: set[Sym]) -> tuple[Mapping[Sym, list[Tree]], list[Tree]] | None:

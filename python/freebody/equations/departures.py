@@ -13,7 +13,7 @@ from freebody.equations.measured import exact, exact_angle, is_measured, measure
 from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge, solve
 from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ONE, ZERO, Sym, Tree, evaluate, negative, operations, read
+from freebody.equations.tree import ONE, PI, ZERO, Sym, Tree, evaluate, is_zero, negative, operations, read, symbols
 from freebody.results import Array
 
 Matrix = list[list[Tree]]
@@ -108,6 +108,11 @@ def place_of(subject: Subject) -> dict[str, Tree]:
     """Where the coordinates of a subject are, as a person writes it, parts of π among them."""
     values = zip(subject.coordinates, subject.state.q.tolist(), strict=True)
     return {c["name"]: (exact_angle if c["dimension"] == "rad" else exact)(x) for c, x in values}
+
+
+def is_natural(place: Tree) -> bool:
+    """Whether a place is one whatever the lengths are: 0, or a part of a turn."""
+    return is_zero(place) or Sym(PI) in symbols(place)
 
 
 def numbers(subject: Subject, matrix: Matrix) -> Array:

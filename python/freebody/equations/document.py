@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 from freebody.equations.letters import Letters
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul
+from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,22 @@ class Vector:
     components: tuple[tuple[Tree, str], ...]
 
 
-Side: TypeAlias = Tree | Vector | Written
+@dataclass(frozen=True)
+class Matrix:
+    """Rows of trees; entries that are too long to stand in it have names of the ``letter``."""
+
+    rows: Sequence[Sequence[Tree]]
+    letter: str = ""
+
+
+@dataclass(frozen=True)
+class Matrices:
+    """A product of matrices, or one."""
+
+    factors: tuple[Matrix, ...]
+
+
+Side: TypeAlias = Tree | Vector | Written | Matrices
 """One side of an equation."""
 Words: TypeAlias = str | Sequence[str | Side]
 """A sentence; mathematics in it stands as trees: ``["The angle ", Sym("theta"), " is measured from x."]``."""
@@ -70,23 +85,6 @@ class MatrixEquation:
     label: str = ""
     note: Words = ""
     letter: str = "A"
-
-    def rows(self) -> list[tuple[Tree, Tree]]:
-        """Row by row as equations: the sum of its products, and its right-hand side."""
-        sums = [
-            add(*(mul(entry, x) for entry, x in zip(row, self.unknowns, strict=True) if not is_zero(entry)))
-            for row in self.matrix
-        ]
-        return list(zip(sums, self.right, strict=True))
-
-    def entries(self) -> dict[Tree, list[tuple[int, int]]]:
-        """The entries that are not 0, equal ones once, and where they stand, counted from 1."""
-        found: dict[Tree, list[tuple[int, int]]] = {}
-        for i, row in enumerate(self.matrix, 1):
-            for j, entry in enumerate(row, 1):
-                if not is_zero(entry):
-                    found.setdefault(entry, []).append((i, j))
-        return found
 
 
 @dataclass(frozen=True)
@@ -176,7 +174,19 @@ class Document:
         return [path, *(each.picture.save(path.with_name(f"{path.stem}-{each.name}{ending}")) for each in figures)]
 
     def html(self) -> str:
-        r"""A fragment of HTML with LaTeX in ``\(…\)`` and ``\[…\]``, for MathJax or KaTeX; figures are inside."""
+        """A whole page, formulas as MathML, figures inside; it needs nothing from elsewhere."""
+        from freebody.equations.rendering.page import page
+
+        return page(self.title, self._fragment())
+
+    @property
+    def title(self) -> str:
+        """The words of the first heading."""
+        from freebody.equations.rendering.plain import words_text
+
+        return next((words_text(block.words, self.letters) for block in self.blocks if isinstance(block, Heading)), "Equations")
+
+    def _fragment(self) -> str:
         from freebody.equations.rendering.markup import Html
 
         return Html(self.letters).render(self.blocks)
@@ -200,7 +210,9 @@ class Document:
         return self.text()
 
     def _repr_html_(self) -> str:
-        return self.html()
+        from freebody.equations.rendering.page import fragment
+
+        return fragment(self._fragment())
 
     def _repr_latex_(self) -> str:
         return self.latex()
@@ -217,6 +229,11 @@ def is_tree(side: Any) -> bool:
 def pieces(words: Words) -> list[str | Side]:
     """The words as a list of texts and mathematics."""
     return [words] if isinstance(words, str) else list(words)
+
+
+def listed(sides: Iterable[Side]) -> list[str | Side]:
+    """Mathematics in a sentence, commas between."""
+    return [piece for i, side in enumerate(sides) for piece in ([", ", side] if i else [side])]
 
 
 def letters_table(letters: Letters) -> Table:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from dataclasses import replace as replaced
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +13,9 @@ import numpy as np
 
 from freebody.equations.derivation.told import Subject
 from freebody.equations.measured import exact, shown, with_exact_numbers
-from freebody.equations.tree import PI, Sym, Tree, evaluate, mul, number, replace, symbols
+from freebody.equations.tree import PI, ZERO, Sym, Tree, evaluate, mul, number, replace, symbols
 from freebody.instant import State
+from freebody.results import Array
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -26,22 +28,33 @@ _NEAR = 0.15
 
 @dataclass(frozen=True)
 class Given:
-    """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages."""
+    """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages.
+    ``still``: coordinates whose rates and accelerations are 0."""
 
     trees: Mapping[str, Tree]
     measured: bool = False
+    still: frozenset[str] = frozenset()
+
+    def is_still(self, letter: Sym) -> bool:
+        """Whether a letter is the rate or acceleration of a coordinate that stands still."""
+        return letter.dots > 0 and letter.name in self.still
 
     def put(self, tree: Tree) -> Tree:
         """An expression with the letters replaced, and plain numbers exact."""
         from freebody.equations.to_sympy import from_sympy, to_sympy
 
         new = {Sym(name): value for name, value in self.trees.items()}
+        new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
         made = with_exact_numbers(tree)
         return from_sympy(to_sympy(replace(made, new))) if symbols(made) & new.keys() else made
 
     def and_numbers(self, numbers: Mapping[str, float]) -> Given:
         """With more letters set, to measured numbers."""
-        return Given({name: exact(value) for name, value in numbers.items()} | dict(self.trees), True)
+        return replaced(self, trees={name: exact(value) for name, value in numbers.items()} | dict(self.trees), measured=True)
+
+    def and_held(self, held: Given) -> Given:
+        """With what cannot move."""
+        return replaced(self, trees={**self.trees, **held.trees}, still=held.still)
 
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
         """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
@@ -54,24 +67,30 @@ class Given:
         return mechanism.start(initial, **changes)[0]
 
     def near(self, subject: Subject, rng: np.random.Generator) -> State | None:
-        """Another state, at rest if the subject is, in which the same letters are set; None where it cannot be assembled."""
+        """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
+        None where it cannot be assembled."""
         from freebody import _core
 
         source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
-        p = state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p))
-        values = _parameters(source.about, p)
-        set_to = self._numbers(values)
-        p = source.core.bind({name: set_to.get(name, value) for name, value in values.items()})
+        p = self.parameters_near(subject, state, rng)
+        set_to = self._numbers(_parameters(source.about, p))
         q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}
         fixed = {name: x for name, x in set_to.items() if name in q}
-        rates = {} if subject.at_rest else {n: float(x) for n, x in zip(names, rng.uniform(-1, 1, len(names)), strict=True)}
+        parts = rng.uniform(-1, 1, len(names))
+        rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
             q, u, _ = source.core.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
             if rates and source.about["freedom"]["count"] == len(names):
-                u = np.array(list(rates.values()))
+                u = np.array(rates)
             return State(p, state.t, q, u)
         except _core.MotionError:
             return None
+
+    def parameters_near(self, subject: Subject, state: State, rng: np.random.Generator) -> Array:
+        """Parameters beside those of a state, with which it may not close; what is set stays so."""
+        values = _parameters(subject.source.about, state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p)))
+        set_to = self._numbers(values)
+        return subject.source.core.bind({name: set_to.get(name, value) for name, value in values.items()})
 
     def generic(self, subject: Subject) -> State:
         """The state where no parameter is 0 by chance, so that what drops out of a balance does so whatever they are."""

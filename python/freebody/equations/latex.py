@@ -17,6 +17,7 @@ from freebody.equations.text import TextPrinter, columns
 from freebody.equations.tree import Entries, Fn, Sym, Tree
 
 WIDTH = 80
+_MATRIX = 10  # columns of a matrix of amsmath
 _KNOWN = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "ln": r"\ln", "exp": r"\exp", "atan2": r"\operatorname{atan2}",
           "sign": r"\operatorname{sign}"}  # fmt: skip
 
@@ -56,6 +57,9 @@ def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
     printer = LatexPrinter(letters or Letters())
     rows = [row if isinstance(row, Sequence) else [row] for row in entries]
     body = " \\\\\n".join(" & ".join(map(printer.expression, row)) for row in rows)
+    across = len(rows[0]) if rows else 0
+    if across > _MATRIX:
+        return f"\\left[\\begin{{array}}{{{'c' * across}}}\n{body}\n\\end{{array}}\\right]"
     return f"\\begin{{bmatrix}}\n{body}\n\\end{{bmatrix}}"
 
 

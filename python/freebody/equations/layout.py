@@ -58,7 +58,8 @@ def stands_apart(laid: Product, letters: Letters) -> bool:
 
 
 def terms(tree: Tree, letters: Letters) -> list[Tree]:
-    """The terms of a sum: accelerations first, then rates, then the rest, each in the order of the letters.
+    """The terms of a sum: accelerations first, then rates, then the rest, each in the order of the letters;
+    of a polynomial in an indeterminate its powers falling.
 
     One with a plus goes first, if there is any, but none before an acceleration."""
     found = sorted(tree.terms, key=lambda term: _term_rank(term, letters)) if isinstance(tree, Add) else [tree]
@@ -101,7 +102,8 @@ def _class(factor: Tree, letters: Letters) -> int:
 
 
 def _factor_rank(factor: Tree, letters: Letters) -> tuple:
-    ranks = sorted((letter.dots, *letters.rank(letter)) for letter in symbols(factor))
+    found = [x for x in symbols(factor) if letters.kind(x.name) == "indeterminate"] or symbols(factor)
+    ranks = sorted((letter.dots, *letters.rank(letter)) for letter in found)
     return (ranks[0] if ranks else (), isinstance(factor, Add))
 
 
@@ -110,7 +112,15 @@ def _term_rank(term: Tree, letters: Letters) -> tuple:
     moves = any(letters.kind(letter.name) not in ("parameter", "constant") for letter in found)
     leading = sorted(letters.place(letter.name) for letter in found if letter.dots == dots)
     rest = sorted(letters.place(letter.name) for letter in found if letter.dots != dots)
-    return -dots, dots == 0 and moves, leading, rest
+    return -_degree(term, letters), -dots, dots == 0 and moves, leading, rest
+
+
+def _degree(term: Tree, letters: Letters) -> Fraction:
+    """The power of an indeterminate in a term of a polynomial."""
+    powers = (f if isinstance(f, Pow) else Pow(f, Fraction(1)) for f in _factors(term))
+    return sum(
+        (f.exponent for f in powers if isinstance(f.base, Sym) and letters.kind(f.base.name) == "indeterminate"), Fraction(0)
+    )
 
 
 def _dots(term: Tree) -> int:

@@ -10,13 +10,13 @@ from typing import Any
 from freebody.equations.names import Name
 from freebody.equations.tree import Sym
 
-KINDS = ("coordinate", "parameter", "time", "unknown", "constant")
+KINDS = ("coordinate", "parameter", "time", "unknown", "constant", "indeterminate")
 
 
 @dataclass(frozen=True)
 class Letter:
-    """One letter: its kind (coordinate, parameter, time, unknown or constant), SI unit, what it is, and, where that is not its
-    own name, how it is ``written``."""
+    """One letter: its kind (coordinate, parameter, time, unknown or constant; indeterminate is the one whose powers order a
+    polynomial), SI unit, what it is, and, where that is not its own name, how it is ``written``."""
 
     name: str
     kind: str = "parameter"

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, add, mul, read, symbols
+from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read, symbols
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,10 @@ class Linear:
     def read(cls, data: Mapping[str, Any]) -> Linear:
         """From an answer."""
         return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
+
+    def negative(self) -> Linear:
+        """−1 times the expression."""
+        return Linear({x: negative(tree) for x, tree in self.coefficients.items()}, negative(self.rest))
 
 
 def linear_in(tree: Tree, unknowns: Collection[Sym]) -> Linear:

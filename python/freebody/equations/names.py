@@ -42,7 +42,9 @@ class Name:
     def unicode(self, dots: int = 0) -> str:
         """``θ̈₁``, ``N_track``, ``pivot_x``; the rate of a word of several letters has primes."""
         stem = GREEK.get(self.stem, _word(self.stem))
-        below = "".join(part.translate(_SUBSCRIPTS) if part.isdigit() else f"_{_word(part)}" for part in self.below)
+        below = "".join(
+            part.translate(_SUBSCRIPTS) if part.isdigit() else f"_{GREEK.get(part, _word(part))}" for part in self.below
+        )
         made = stem + _COMBINING[dots] + below if self.is_letter else stem + below + "′" * dots
         return f"{self.owner.replace(' ', '_')}.{made}" if self.owner else made
 

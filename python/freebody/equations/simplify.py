@@ -125,7 +125,10 @@ def _without_squares(part: Any, rules: list[tuple[Any, Any]]) -> Any:
     import sympy
 
     for gone, kept in rules:
-        polynomial = sympy.Poly(sympy.expand(part), gone)
+        spread = sympy.expand(part)
+        if not spread.is_polynomial(gone):  # it stands under a root
+            continue
+        polynomial = sympy.Poly(spread, gone)
         part = sum(c * (1 - kept**2) ** (n // 2) * gone ** (n % 2) for (n,), c in polynomial.terms())
     return sympy.factor(sympy.expand(part))
 

@@ -8,10 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.equations.letters import Letters
+from freebody.equations.measured import is_measured
 from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import Mul, Num, Pow, Tree, is_zero, mul, number, power
+from freebody.equations.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
 
 MOST_OPERATIONS = 80
 """Operations in a characteristic polynomial above which its roots are not sought in letters."""
@@ -47,6 +48,26 @@ def characteristic(matrix: Sequence[Sequence[Tree]], letters: Letters | None = N
     return [shortest(factor, letters) for factor in _polynomial(matrix, ()).all_coeffs()]
 
 
+def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[tuple[list[Tree], int]]:
+    """The factors of a polynomial, each by its coefficients, the first being 1, and how often it is there; roots of 0 first.
+
+    With measured numbers only the roots of 0 are taken out."""
+    import sympy
+
+    zeros = next(i for i, factor in enumerate(reversed(polynomial)) if not is_zero(factor))
+    rest = list(polynomial[: len(polynomial) - zeros])
+    made = [([ONE, ZERO], zeros)] if zeros else []
+    if len(rest) == 1:
+        return made
+    expressions = [to_sympy(factor) for factor in rest]
+    if any(map(is_measured, expressions)):
+        return [*made, (rest, 1)]
+    s = sympy.Dummy("s")
+    above, _ = sympy.fraction(sympy.together(sympy.Poly(expressions, s).as_expr()))
+    found = [(sympy.Poly(factor, s), count) for factor, count in sympy.factor_list(above)[1] if factor.has(s)]
+    return made + [([shortest(c / p.LC(), letters) for c in p.all_coeffs()], count) for p, count in found]
+
+
 def eigenvalues(
     matrix: Sequence[Sequence[Tree]], letters: Letters | None = None, *, positive: Collection[str] = ()
 ) -> list[Eigenvalue]:
@@ -65,17 +86,20 @@ def eigenvalues(
     return sorted(made, key=lambda value: (str(value.imaginary), str(value.real)))
 
 
-def stability(coefficients: Sequence[Tree], letters: Letters | None = None, *, positive: Collection[str] = ()) -> Stability:
+def stability(
+    coefficients: Sequence[Tree], letters: Letters | None = None, *, positive: Collection[str] = (), symmetric: bool = False
+) -> Stability:
     """When all roots of a polynomial (highest power first, its coefficient positive, order 1 to 4) lie to the left: Routh–Hurwitz.
 
-    A polynomial with only even powers has no damping; then it is when all roots are imaginary and distinct. Conditions that
-    hold because the letters named ``positive`` are so are left out. Gantmacher, *Theory of Matrices* II, XV §6."""
+    A polynomial with only even powers has no damping; then it is when all roots are imaginary and distinct. Where it comes from
+    ``symmetric`` matrices M and K alone s² is real and equal roots have directions of their own, so they need not be distinct.
+    Conditions that hold because the letters named ``positive`` are so are left out. Gantmacher, *Theory of Matrices* II, XV §6."""
     order = len(coefficients) - 1
     if not 1 <= order <= MOST_ROWS:
         raise TooLarge(f"stability conditions in letters are for polynomials of order 1 to {MOST_ROWS}, not {order}")
     a = [to_sympy(factor, positive=positive, real=True) for factor in coefficients]
     even = order % 2 == 0 and all(is_zero(factor) for factor in coefficients[1::2])
-    left = _oscillates(a) if even else _hurwitz(a)
+    left = _oscillates(a)[: 2 if symmetric else 3] if even else _hurwitz(a)
     kept = [found for condition in left if (found := _reduced(condition)) is not None]
     never = any(condition.is_nonpositive for condition in kept)
     shown = tuple(dict.fromkeys(shortest(condition, letters) for condition in kept))
@@ -140,9 +164,20 @@ def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
 
     real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
-        real, imaginary = root, sympy.S.Zero
+        real, imaginary = _apart(root)
     parts = (_one_root(shortest(sympy.radsimp(sympy.simplify(part)), letters)) for part in (real, imaginary))
     return Eigenvalue(*parts, count)
+
+
+def _apart(root: Any) -> tuple[Any, Any]:
+    """Real and imaginary part of a root of which SymPy cannot tell them: (0, ± b) if its square is −b², else as it is."""
+    import sympy
+
+    square = sympy.simplify(sympy.expand(-(root**2)))
+    if not square.is_positive:
+        return root, sympy.S.Zero
+    upward = complex(root.subs(dict.fromkeys(root.free_symbols, 1))).imag > 0
+    return sympy.S.Zero, sympy.sqrt(square) if upward else -sympy.sqrt(square)
 
 
 def _one_root(tree: Tree) -> Tree:

@@ -1,4 +1,4 @@
-"""Equations as plain text, as a textbook prints them: ``(m₁/4 + m₂) l² θ̈₁ = −m₂ g l sin θ₁``."""
+"""Equations as plain text, as a textbook prints them: ``(¼ m₁ + m₂) l² θ̈₁ = −m₂ g l sin θ₁``."""
 
 from __future__ import annotations
 
@@ -97,9 +97,9 @@ class TextPrinter(Printer):
         return f"{mantissa}×10{superscript(str(int(exponent)))}" if exponent else mantissa
 
     def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
+        # One rule: in front where it is one sign, ½ m l²; else what is below stands behind, m l²/12.
         vulgar = self._vulgar(value)
-        alone = value.numerator == 1 and len(factors) == 1 and isinstance(factors[0], Sym)
-        if not factors or (vulgar and not alone):
+        if vulgar or not factors:
             return self.juxtapose([vulgar or str(value), *map(self._factor, factors)])
         ends_bare = layout.is_bare(factors[-1])
         return self.fraction(self._factors(value.numerator, factors), str(value.denominator), ends_bare, False)

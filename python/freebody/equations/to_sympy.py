@@ -79,6 +79,8 @@ def _special(expression: sympy.Expr) -> Tree:
         return Fn("exp", (Num(Fraction(1)),))
     if isinstance(expression, sympy.core.function.AppliedUndef) and [a.name for a in expression.args if a.is_Symbol] == ["t"]:
         return Sym(expression.func.__name__)
+    if isinstance(expression, sympy.atan):  # that which SymPy makes of an atan2 of numbers
+        return Fn("atan2", (from_sympy(expression.args[0]), Num(Fraction(1))))
     if isinstance(expression, sympy.Function):
         name = expression.func.__name__
         known = name in _SAME or name in _FROM or isinstance(expression, sympy.core.function.AppliedUndef)

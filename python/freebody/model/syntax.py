@@ -129,10 +129,9 @@ class Measure:
         for operator, tree in rest:
             if operator == "^":
                 return self._power(total, tree)
-            whole = _whole_number(tree)
             dimension = self.of(tree)
             if operator in ("*", "/"):
-                total = _product(total, dimension, operator, whole)
+                total = _product(total, dimension, operator, tree)
             elif operator in ("and", "or"):
                 total = None
             else:
@@ -199,9 +198,9 @@ class Measure:
         return self.text.encode()[start:end].decode(errors="replace")
 
 
-def _product(a: Dimension | None, b: Dimension | None, operator: str, whole: bool) -> Dimension | None:
-    """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides does not (``m2/3``)."""
-    if operator == "/" and whole and b is None:
+def _product(a: Dimension | None, b: Dimension | None, operator: str, tree: Tree) -> Dimension | None:
+    """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides, a root and π do not (``m2/3``, ``a*sqrt(2)``)."""
+    if b is None and (_is_root_or_pi(tree) or (operator == "/" and _whole_number(tree))):
         return a
     if a is None or b is None:
         return None
@@ -210,6 +209,15 @@ def _product(a: Dimension | None, b: Dimension | None, operator: str, whole: boo
 
 def _whole_number(tree: Tree) -> bool:
     return float(tree.get("number", 0.5)).is_integer()
+
+
+def _is_root_or_pi(tree: Tree) -> bool:
+    match tree:
+        case {"name": "pi"}:
+            return True
+        case {"call": ["sqrt", [argument]]}:
+            return _whole_number(argument)
+    return False
 
 
 def _no_name(name: str) -> float:

@@ -21,6 +21,7 @@ _LEVELS = 5  # places further and further out where an arrow may keep off others
 _APART = 1.6  # sizes of symbols between two arrows
 _Marks: TypeAlias = tuple[Array, list[Array]]
 """Arrow and guides."""
+_TWO_POINTS = "direction"
 _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 
 
@@ -28,7 +29,8 @@ _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 class Measure:
     """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guides`` (2, 2) to where it is 0 and, of an
     angle, to where it ends, and its value in words. An arrow of fixed size shows the sense of one that is nearly 0. ``place`` is the joint's point on the second
-    body; an angle has its vertex there, or, of a direction from point to point, at the first of these."""
+    body; an angle has its vertex there, or, of a direction from point to point, at the first of these. ``of_axis``: it is the angle
+    of the second body's x axis."""
 
     coordinate: str
     first: str
@@ -37,6 +39,7 @@ class Measure:
     guides: list[Array]
     place: Array
     angle: bool
+    of_axis: bool
     value: str
 
 
@@ -67,7 +70,9 @@ def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
         taken.append(arrow)
         angle = asked.dimension == "rad"
         told = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
-        yield Measure(asked.name, asked.first, asked.second, arrow, guides, place, angle, told)
+        yield Measure(
+            asked.name, asked.first, asked.second, arrow, guides, place, angle, angle and asked.word != _TWO_POINTS, told
+        )
 
 
 def _asked(sketch: Sketch) -> Iterator[_Asked]:
@@ -105,7 +110,7 @@ def _drawn(sketch: Sketch, asked: _Asked, place: Array, radius: float, level: in
 
 def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Marks:
     """About the joint to the second body's x axis, or about the first of two points to the second."""
-    if asked.word == "direction":
+    if asked.word == _TWO_POINTS:
         at, second = (sketch.place(name) for name in _two_points(asked.joint))
         end = float(np.arctan2(*(second - at)[::-1]))
     else:

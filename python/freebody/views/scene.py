@@ -196,8 +196,12 @@ class Sketch:
 
     def value(self, text: str) -> float:
         """An expression at the drawn state."""
+        return float(self.values([text])[0])
+
+    def values(self, texts: Sequence[str]) -> Array:
+        """Expressions at the drawn state."""
         s = self._state
-        return float(self._core.evaluate([text], s.p, s.t, s.q, s.u)[0])
+        return np.array(self._core.evaluate(list(texts), s.p, s.t, s.q, s.u), float)
 
     def gap(self, limit: str) -> Array:
         """How far (nt,) a contact is from touching or a string from being taut, m."""

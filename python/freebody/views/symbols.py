@@ -177,8 +177,8 @@ def _curve(sketch: Sketch, joint: str, name: str) -> None:
 
 def points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) -> Array:
     """Points (k, 2) of a curve in its body's frame."""
-    texts = [[re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({float(s)!r})", curve[axis]) for axis in ("x", "y")] for s in parameter]
-    return np.array([[sketch.value(text) for text in pair] for pair in texts])
+    texts = [re.sub(r"(?<![\w.'])s(?![\w(.'])", f"({float(s)!r})", curve[axis]) for s in parameter for axis in ("x", "y")]
+    return sketch.values(texts).reshape(-1, 2)
 
 
 def _wheel(sketch: Sketch, circle: Mapping[str, Any], style: str) -> None:

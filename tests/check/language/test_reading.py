@@ -21,7 +21,7 @@ from freebody.check.language.nodes import (
 from freebody.check.language.parser import parse, parse_expression
 from freebody.check.language.spelling import latex, spell
 
-KNOWN = known("m l g theta phi alpha x y t m1 m2 R I1 I2 T omega F i j k a_G r_G1/O pivot.Fx link[2].angle")
+KNOWN = known("eps m l g theta phi alpha x y t m1 m2 R I1 I2 T omega F i j k a_G r_G1/O pivot.Fx link[2].angle")
 
 
 @pytest.mark.parametrize(("names", "text", "reading"), STATEMENTS)
@@ -42,6 +42,7 @@ ONE_READING = {
         "m l theta_ddot = -m*g*sin theta",
         r"m l \ddot\theta = -m g \sin\theta",
         r"$$ m\,l\,\ddot{\theta} = -m g\,\sin\!\left(\theta\right) $$",
+        r"\[\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{$\displaystyle m l \ddot\theta = -m g \sin\theta$} \tag{3}\]",
         "m l theta'' = -m g sin(theta)",
         "m l diff(theta, t, 2) = -m g sin(theta)",
         "m l d²θ/dt² = -m g sin(theta)",
@@ -49,6 +50,7 @@ ONE_READING = {
         "AMB about O: m l thetaddot = -m g sin(theta)   # about the hinge",
         "m l thetaddot\n  = -m g sin(theta)",
     ],
+    "eps*x = l": ["eps x = l", "ε x = l", r"\varepsilon x = l", r"\epsilon x = l", "epsilon x = l"],
     "m1*x = m2*y": [
         "m_1 x = m_2 y",
         "m₁x = m₂y",

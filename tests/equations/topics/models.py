@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import freebody as fb
+from freebody.equations import from_sympy
 from freebody.equations.derivation.told import Subject
 from freebody.equations.given import given
 
@@ -66,3 +67,10 @@ def spring_pendulum() -> fb.Mechanism:
     m.torsion_spring(name="spring", on=rod, stiffness=k)
     m.initial(theta=0)
     return m
+
+
+def tree(text: str, names: str) -> object:
+    """An expression written with SymPy's words."""
+    import sympy
+
+    return from_sympy(sympy.sympify(text, locals={name: sympy.Symbol(name) for name in names.split()}))

@@ -2,22 +2,14 @@
 
 import numpy as np
 import pytest
-from models import SYSTEMS, atwood, sliding_rod, spring_pendulum, system
+from models import SYSTEMS, atwood, sliding_rod, spring_pendulum, system, tree
 from typer.testing import CliRunner
 
 from freebody.cli import app
-from freebody.equations import Sym, evaluate, from_sympy, symbols, to_sympy
+from freebody.equations import Sym, evaluate, symbols, to_sympy
 from freebody.equations.answers import solve_in_letters
 from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
-
-
-def tree(text: str, names: str) -> object:
-    """An expression written with SymPy's words."""
-    import sympy
-
-    return from_sympy(sympy.sympify(text, locals={name: sympy.Symbol(name) for name in names.split()}))
-
 
 # Each with where the closed form stands: Meriam & Kraige, Dynamics (Atwood, sliding rod); the wedge and the cart from elimination by hand.
 CLOSED = {

@@ -28,6 +28,14 @@ pub struct Force {
     pub potential: Option<Law>,
 }
 
+impl Force {
+    /// Whether its law has cases, like `max` or `if`.
+    pub fn has_cases(&self) -> bool {
+        let pulls = self.pulls.iter().map(|pull| &pull.value);
+        pulls.chain(self.pushes.iter().flat_map(|push| [&push.x, &push.y])).any(|law| law.kinks().next().is_some())
+    }
+}
+
 /// A force that acts to increase a gauge.
 #[derive(Clone, Debug)]
 pub struct Pull {

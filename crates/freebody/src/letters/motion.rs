@@ -97,8 +97,11 @@ impl Letters<'_> {
             Source::Limit(limit) | Source::Friction(limit) => self.m.groups[self.m.limits[limit].group].word,
             Source::Rub(_) => "friction",
         };
+        // Of gears only the change counts: their place holds a constant of the assembly.
+        let phased = matches!(row.source, Source::Joint(j, r) if self.m.joints[j].kind.card().rows[r].phased);
+        let value = row.value.filter(|_| !phased);
         json!({
-            "name": row.source.name(self.m), "kind": kind, "value": row.value.map(tree), "rate": row.rate.map(tree),
+            "name": row.source.name(self.m), "kind": kind, "value": value.map(tree), "rate": row.rate.map(tree),
             "acceleration": tree(row.bias), "linear": linear_in(row.bias, unknowns),
         })
     }

@@ -63,6 +63,7 @@ LATEX_WORDS: dict[str, str] = {
 """LaTeX commands that are letters."""
 
 _NUMBERED = re.compile(r"[_{},\s]")
+_EPS = re.compile(r"eps(?=\d*$)")
 
 
 def plain(char: str) -> str:
@@ -78,8 +79,9 @@ def plain(char: str) -> str:
 
 @lru_cache(4096)
 def folded(name: str) -> str:
-    """The spelling by which names are compared: ``m₁``, ``m_1`` → ``m1``; ``θ_A`` → ``thetaA``."""
-    return _NUMBERED.sub("", "".join(plain(c) for c in name if not unicodedata.combining(c)))
+    """The spelling by which names are compared: ``m₁``, ``m_1`` → ``m1``; ``θ_A`` → ``thetaA``; ``eps``, ``ε`` → ``epsilon``."""
+    spelt = _NUMBERED.sub("", "".join(plain(c) for c in name if not unicodedata.combining(c)))
+    return "epsilon" + spelt[3:] if _EPS.match(spelt) else spelt
 
 
 def dots(char: str) -> int:

@@ -99,11 +99,14 @@ _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
 _LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
+_FITTED = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$)(.*?)\$\}", re.DOTALL)
 
 
 def glyphs(text: str) -> list[Glyph]:
-    """All glyphs of a statement. Comments, labels in front of a colon and numbers of equations at the end read as blanks. Raises ``StatementError``."""
-    bare = _LABEL.sub(_blank, _COMMENT.sub(_blank, text))
+    """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and what fits the width
+    read as blanks. Raises ``StatementError``."""
+    fitted = _FITTED.sub(lambda found: f"{' ' * len(found[1])}{found[2]}  ", _COMMENT.sub(_blank, text))
+    bare = _LABEL.sub(_blank, fitted)
     try:
         return _Reader(bare).all()
     except StatementError as error:

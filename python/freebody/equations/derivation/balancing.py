@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -12,9 +13,12 @@ from freebody.equations.collect import collected, factored
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
+from freebody.equations.linear import Linear
 from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative
-from freebody.free_body import Load
+from freebody.free_body import Body, Load
 
+_GIVEN = ("origin", "centre", "start", "end", "G")
+"""Points that bodies have without being told; the names of others are better known to a person."""
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
 
@@ -43,13 +47,23 @@ class Stated:
     @property
     def sides(self) -> tuple[Tree, Tree]:
         """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        left, right = self._collected
+        return (negative(left), negative(right)) if self._is_turned else (left, right)
+
+    @property
+    def linear(self) -> Linear:
+        """The equation as linear in what is unknown, with the sign of its sides."""
+        return self.balance.linear.negative() if self._is_turned else self.balance.linear
+
+    @cached_property
+    def _collected(self) -> tuple[Tree, Tree]:
         unknowns = list(self.balance.linear.coefficients)
-        left, right = (collected(side, unknowns) for side in (self.balance.right, self.balance.left))
-        return (
-            (negative(left), negative(right))
-            if _all_negative(left) and (_all_negative(right) or is_zero(right))
-            else (left, right)
-        )
+        return collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
+
+    @property
+    def _is_turned(self) -> bool:
+        left, right = self._collected
+        return _all_negative(left) and (_all_negative(right) or is_zero(right))
 
 
 def _all_negative(side: Tree) -> bool:
@@ -66,7 +80,7 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
     unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
     acting: list[Words] = [
-        [f"{load_words(subject.free.loads[c.load])}: ", factored(c.tree)]
+        [f"{load_words(subject.free.loads[c.load], balance.bodies)}: ", factored(c.tree)]
         for c in balance.contributions
         if not c.absent and c.load not in cancelled
     ]
@@ -87,7 +101,12 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
 def absent(subject: Subject, stated: Stated) -> list[str]:
     """Unknown loads that touch the bodies but are not in the equation, by reason: ``elbow.Fx and elbow.Fy (they act at elbow)``."""
     found = dropped(subject, stated).items()
-    return [f"{joined([load.symbol for load in loads])} ({agree(why, len(loads))})" for why, loads in found]
+    return [f"{joined([_symbol(load) for load in loads])} ({agree(why, len(loads))})" for why, loads in found]
+
+
+def _symbol(load: Load) -> str:
+    """The letter of a load; that which follows from another one has none."""
+    return f"the friction of {load.name}" if load.follows else load.symbol
 
 
 def dropped(subject: Subject, stated: Stated) -> dict[str, list[Load]]:
@@ -128,7 +147,8 @@ def size(subject: Subject) -> float:
 
 
 def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]) -> str:
-    """The name of a point: a pin there, else a mass centre, else another named point of the bodies."""
+    """The name of a point: a pin there, else a mass centre, else another named point of the bodies, by its own name if no other
+    body has one of that name."""
     free, near = subject.free, _SAME * size(subject)
     for load in free.loads:
         pinned = load.kind == "joint" and load.component in ("x", "y")
@@ -137,4 +157,20 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"
-    return ""
+    there = [
+        name for name, (body, x, y) in subject.points.items() if body in bodies and _near(free.bodies[body], (x, y), at) < near
+    ]
+    own = sorted(there, key=lambda name: name.rpartition(".")[2] in _GIVEN)
+    return _short(subject, own[0]) if own else ""
+
+
+def _near(body: Body, point: tuple[float, float], at: tuple[float, float]) -> float:
+    """How far a point of a body, in its frame, is from a place."""
+    c, s = np.cos(body.angle), np.sin(body.angle)
+    x, y = point
+    return float(np.hypot(*np.subtract((body.at[0] + c * x - s * y, body.at[1] + s * x + c * y), at)))
+
+
+def _short(subject: Subject, point: str) -> str:
+    last = point.rpartition(".")[2]
+    return last if [name.rpartition(".")[2] for name in subject.points].count(last) == 1 else point

@@ -13,7 +13,7 @@ def brute(subject: Subject) -> Form:
     """The form of a subject."""
     stated = _stated(subject)
     rows = subject.rows
-    equations = [Printed(s.title, *s.sides, s.balance.linear) for s in stated]
+    equations = [Printed(s.title, *s.sides, s.linear) for s in stated]
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
     form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(stated)))]

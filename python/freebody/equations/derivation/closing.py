@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Printed
@@ -17,6 +17,9 @@ _WHAT = {
     "coupling": ("couples motions", "couple motions"), "contact": ("holds", "hold"), "string": ("is taut", "are taut"),
     "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
 }  # fmt: skip
+
+_HELD = ("contact", "string", "stop", "friction")
+_STUCK = ("holds and does not slide", "hold and do not slide")
 
 _AGAIN = "Differentiated once more, for the accelerations"
 
@@ -48,13 +51,59 @@ def printed(rows: Sequence[Row]) -> list[Printed]:
 
 
 def _why(rows: Sequence[Row], everywhere: bool) -> str:
+    number = "This is one equation" if len(rows) == 1 else f"These are {len(rows)} equations"
+    return f"{what(rows, everywhere)}. {number} among the coordinates.{_of_rates(rows)}"
+
+
+def what(rows: Sequence[Row], everywhere: bool = False) -> str:
+    """What the rows stand for: ``C closes a loop; rope is taut``; ``everywhere``: joints of a tree have rows, too."""
     parts = []
     for kind, (one, several) in _WHAT.items():
         one, several = ("holds", "hold") if everywhere and kind == "joint" else (one, several)
         if names := list(dict.fromkeys(row.name for row in rows if row.kind == kind)):
             parts.append(f"{joined(names)} {one if len(names) == 1 else several}")
-    number = "This is one equation" if len(rows) == 1 else f"These are {len(rows)} equations"
-    return f"{'; '.join(parts)}. {number} among the coordinates."
+    return "; ".join(parts)
+
+
+def _of_rates(rows: Sequence[Row]) -> str:
+    """Which rows tell nothing of positions, where others do."""
+    silent = list(dict.fromkeys("sticking" if _sticks(row) else row.name for row in rows if row.value is None))
+    if not silent or all(row.value is None for row in rows):
+        return ""
+    return f" Of these {joined(silent)} {'has' if len(silent) == 1 else 'have'} none for the positions."
+
+
+def _sticks(row: Row) -> bool:
+    """Whether it holds something from sliding."""
+    return row.kind == "friction" or (row.kind == "contact" and row.value is None)
+
+
+def holding(rows: Sequence[Row]) -> str:
+    """What closed limits and sticking joints do: ``foot holds and does not slide``; empty where there are none."""
+    held = [row for row in rows if row.kind in _HELD]
+    found: dict[tuple[str, str], list[str]] = {}
+    for name in dict.fromkeys(row.name for row in held):
+        own = [row for row in held if row.name == name]
+        words = _STUCK if {_sticks(row) for row in own} == {True, False} else _WHAT[own[0].kind]
+        found.setdefault(words, []).append(name)
+    return joined([f"{joined(names)} {words[len(names) > 1]}" for words, names in found.items()]) if found else ""
+
+
+def followers(rows: Sequence[Row], free: Collection[str], needed: Collection[str]) -> list[Row]:
+    """The rows that tie accelerations of coordinates ``needed``, which are not ``free``, to each other and to free ones."""
+    tied = set(needed) - set(free)
+    while more := {x.name for row in rows if tied & _names(row) for x in row.linear.coefficients} - tied - set(free):
+        tied |= more
+    return [row for row in rows if tied & _names(row)]
+
+
+def accelerations(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
+    """Rows at the level of accelerations only."""
+    return _together(System.of([row.linear for row in rows], coordinates), "")
+
+
+def _names(row: Row) -> set[str]:
+    return {x.name for x in row.linear.coefficients}
 
 
 def _positions(rows: Sequence[Row]) -> list[Block]:

@@ -28,10 +28,11 @@ def energy(subject: Subject) -> tuple[Tree, Tree, str]:
 
 def _losses(subject: Subject, without: list[str], letters: set[Sym]) -> str:
     motions = [load.name for load in subject.free.loads if load.kind == "motion"]
-    rubs = [load.name for load in subject.free.loads if load.follows or load.component == "friction force"]
+    laws = {letter.name for letter, _ in subject.laws}
+    rubs = list(dict.fromkeys(load.name for load in subject.free.loads if load.follows or load.symbol in laws))
     why = [f"{joined(names)} {'does' if len(names) == 1 else 'do'} work that no potential has" for names in [without] if names]
     why += [f"the motion of {joined(list(dict.fromkeys(motions)))} is prescribed, which takes work"] if motions else []
-    why += [f"{joined(list(dict.fromkeys(rubs)))} rubs"] if rubs else []
+    why += [f"{joined(rubs)} {'rubs' if len(rubs) == 1 else 'rub'}"] if rubs else []
     why += ["the potential depends on time"] if Sym("t") in letters else []
     return "; ".join(why)
 

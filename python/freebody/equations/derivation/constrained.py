@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from freebody.equations.derivation import closing
 from freebody.equations.derivation.result import Form, Printed
+from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row, Subject
-from freebody.equations.document import Block, Equation, Heading, Paragraph
+from freebody.equations.document import Block, Equation, Heading, Matrices, Matrix, Paragraph, Written, listed
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import read
+from freebody.equations.tree import Tree, is_zero, negative, read
+
+_BLOCKS = Written(
+    "[M −W; G 0] [a; λ]",
+    r"\begin{bmatrix} M & -W \\ G & 0 \end{bmatrix} \begin{bmatrix} a \\ \lambda \end{bmatrix}",
+)
+_RIGHT = Written("[f; c]", r"\begin{bmatrix} f \\ c \end{bmatrix}")
+_LEGEND = (
+    "M has the masses and inertias, W what a unit of each unknown force does to the bodies, G what the constraints ask of the "
+    "accelerations a; λ are the unknown forces, f the known ones, c what of the constraints depends on velocities and time. "
+)
 
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
 
@@ -25,8 +39,48 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
     letters = _letters(names, subject.letters)
-    form = Form.of(letters, equations + closing.printed(rows), made)
-    return form, letters
+    form = Form.of(letters, equations + closing.printed(rows), [])
+    made += _in_blocks(form.system, len(equations))
+    return replace(form, blocks=tuple(made)), letters
+
+
+def _in_blocks(system: System, balances: int) -> list[Block]:
+    """Balances above constraints, accelerations before forces; accelerations in the order of the balances that hold them."""
+    moving = sum(1 for x in system.unknowns if x.dots)
+    above, below = system.matrix[:balances], system.matrix[balances:]
+    order = sorted(range(moving), key=lambda column: [is_zero(row[column]) for row in above])
+    masses, held = ([[row[column] for column in order] for row in rows] for rows in (above, below))
+    loads = [[negative(entry) for entry in row[moving:]] for row in above]
+    made: list[Block] = [Heading("Matrix form"), Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system")]
+    made.append(
+        Paragraph(
+            [
+                _LEGEND,
+                "a = (",
+                *listed([system.unknowns[column] for column in order]),
+                "), λ = (",
+                *listed(system.unknowns[moving:]),
+                ").",
+            ]
+        )
+    )
+    diagonal = _diagonal(masses)
+    if diagonal:
+        made.append(Paragraph(["M = diag(", *listed(diagonal), ")"]))
+    columns = (("f", system.right[:balances]), ("c", system.right[balances:]))
+    blocks = [
+        ("M", masses if not diagonal else []),
+        ("W", loads),
+        ("G", held),
+        *((name, [[x] for x in side]) for name, side in columns),
+    ]
+    return made + [Equation(Written(name, name), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]]
+
+
+def _diagonal(rows: Sequence[Sequence[Tree]]) -> list[Tree]:
+    """The diagonal of a matrix that has nothing else; else nothing."""
+    off = any(not is_zero(entry) for i, row in enumerate(rows) for j, entry in enumerate(row) if i != j)
+    return [] if off or any(len(row) != len(rows) for row in rows) else [row[i] for i, row in enumerate(rows)]
 
 
 def _balance(data: dict) -> Printed:

@@ -105,11 +105,11 @@ class Equations:
         return self.text()
 
     def html(self) -> str:
-        """The derivation as a fragment of HTML, for MathJax or KaTeX."""
+        """The derivation as a page of HTML, formulas as MathML."""
         return self.document.html()
 
     def _repr_html_(self) -> str:
-        return self.html()
+        return self.document._repr_html_()
 
     def _repr_latex_(self) -> str:
         return self.latex()

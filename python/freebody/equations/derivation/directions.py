@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from freebody.equations.collect import factored
@@ -11,17 +12,42 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
 from freebody.equations.document import Vector, Words, Written
 from freebody.equations.names import latex_name, unicode_name
-from freebody.equations.tree import Add, Mul, Sym, Tree, add, is_zero, mul, number, symbols
+from freebody.equations.tree import Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link between points of two bodies, whose ``angle`` at the state one ``coordinate`` tells."""
+
+    name: str
+    first: str
+    second: str
+    coordinate: str
+    angle: float
+
+    def quarters(self, angle: Tree, moving: Collection[str], values: Mapping[Sym, float]) -> int | None:
+        """By how many quarters of a turn the link is ahead of an angle that turns with it; None for another angle."""
+        if {x.name for x in symbols(angle)} & set(moving) != {self.coordinate}:
+            return None
+        turns = (self.angle - evaluate(angle, values)) / (math.pi / 2)
+        return round(turns) % 4 if abs(turns - round(turns)) < _QUARTER else None
+
+
+_QUARTER = 1e-9
+"""Part of a right angle by which a link may be off the angle of a direction."""
 
 
 @dataclass(frozen=True)
 class Direction:
-    """A pair of unit directions that turn with an angle: ``λ_below`` at the angle, ``n_below`` a right angle on."""
+    """A pair of unit directions that turn with an angle: ``λ_below`` at the angle and some ``quarters`` of a turn, ``n_below`` a right
+    angle on."""
 
     below: str
     angle: Tree
     owners: tuple[str, ...]
     turning: tuple[str, ...] = ()
+    link: Link | None = None
+    quarters: int = 0
 
     @property
     def along(self) -> str:
@@ -35,6 +61,9 @@ class Direction:
 
     def sentence(self) -> Words:
         """What it is."""
+        if self.link:
+            where = f" points along {self.link.name}, from {self.link.first} to {self.link.second}; "
+            return [unit(self.along), where, unit(self.across), " = k × ", unit(self.along), "."]
         at = ["at the angle ", self.angle, " from i, counter-clockwise"]
         where = [f"along the x axis of {joined(self.owners)}, "] if self.owners else []
         if self.turning and not self.owners:
@@ -50,8 +79,16 @@ class Directions:
     moving: frozenset[str]
 
     @classmethod
-    def of(cls, motions: Sequence[Motion], arrows: Iterable[Arrow], moving: Collection[str]) -> Directions:
-        """The pairs for some vectors (``moving`` letters change with time), named after bodies that turn with them, after the letter of the angle, or numbered."""
+    def of(
+        cls,
+        motions: Sequence[Motion],
+        arrows: Iterable[Arrow],
+        moving: Collection[str],
+        links: Sequence[Link] = (),
+        values: Mapping[Sym, float] | None = None,
+    ) -> Directions:
+        """The pairs for some vectors (``moving`` letters change with time), named after bodies that turn with them, after the
+        link that they are along, after the letter of the angle, or numbered; ``values`` of the letters tell links."""
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
         bodies = [body for body in motions if not body.particle]
         owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
@@ -59,11 +96,15 @@ class Directions:
         angles.sort(key=lambda angle: next((i for i, b in enumerate(bodies) if b.body in turning[angle]), len(bodies)))
         made: list[Direction] = []
         for angle in angles:
-            named = [_word(body) for body in (*owners[angle], *turning[angle])]
+            alone = links if not (owners[angle] or turning[angle]) else ()
+            link, quarters = next(
+                ((x, k) for x in alone if (k := x.quarters(angle, moving, values or {})) is not None), (None, 0)
+            )
+            named = [_word(body) for body in (*owners[angle], *turning[angle], *([link.name] if link else []))]
             named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
             taken = {pair.below for pair in made}
             below = next((word for word in named if word not in taken), str(len(made) + 1))
-            made.append(Direction(below, angle, owners[angle], turning[angle]))
+            made.append(Direction(below, angle, owners[angle], turning[angle], link, quarters))
         return cls(tuple(made), frozenset(moving))
 
     def vector(self, arrow: Arrow) -> Vector:
@@ -71,7 +112,10 @@ class Directions:
         parts: list[tuple[Tree, str]] = [(arrow.i, "i"), (arrow.j, "j")]
         for part in arrow.parts:
             pair = next(pair for pair in self.pairs if pair.angle == part.angle)
-            parts += [(part.along, pair.along), (part.across, pair.across)]
+            x, y = part.along, part.across
+            for _ in range(pair.quarters):
+                x, y = y, negative(x)
+            parts += [(x, pair.along), (y, pair.across)]
         return Vector(tuple((factored(tree), name) for tree, name in parts if not is_zero(tree)))
 
     def rates(self) -> list[tuple[Written, Vector]]:
@@ -88,9 +132,7 @@ class Directions:
 
 def unit(name: str) -> Written:
     """A unit direction in a sentence."""
-    stem, _, below = name.partition("_")
-    letter = r"\boldsymbol{\lambda}" if stem == "λ" else rf"\mathbf{{{stem}}}"
-    return Written(name, f"{letter}_{{{latex_name(below)}}}" if below else letter)
+    return Written(name, _latex(name, "{}"))
 
 
 def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
@@ -122,5 +164,10 @@ def _word(name: str) -> str:
 
 
 def _rate(name: str) -> Written:
-    shown = unit(name)
-    return Written(f"d{shown.text}/dt", rf"\dot{{{shown.latex}}}")
+    return Written(f"d{name}/dt", _latex(name, r"\dot{{{}}}"))
+
+
+def _latex(name: str, letter: str) -> str:
+    stem, _, below = name.partition("_")
+    shown = letter.format(r"\boldsymbol{\lambda}" if stem == "λ" else rf"\mathbf{{{stem}}}")
+    return f"{shown}_{{{latex_name(below)}}}" if below else shown

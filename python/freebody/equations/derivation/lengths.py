@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from freebody.equations.document import Block, Bullets, Equation, MatrixEquation, Paragraph, Words, is_tree, pieces
+from freebody.equations.document import (
+    Block,
+    Bullets,
+    Equation,
+    Matrices,
+    Matrix,
+    MatrixEquation,
+    Paragraph,
+    Words,
+    is_tree,
+    pieces,
+)
 from freebody.equations.tree import Tree, walk
 
 LONGEST = 2500
@@ -15,6 +26,8 @@ def readable(block: Block) -> Block:
     """The block, or a sentence in its place where an expression in it is too long."""
     match block:
         case Equation(left, right) if (size := _size([left, right])) > LONGEST:
+            return Paragraph([*_named(block.name), *_instead(size)])
+        case Equation(_, Matrices((Matrix(rows),))) if (size := max(map(_size, rows), default=0)) > LONGEST:
             return Paragraph([*_named(block.name), *_instead(size)])
         case MatrixEquation(matrix, _, right) if (size := max(map(_size, [*matrix, right]), default=0)) > LONGEST:
             return Paragraph([*_named(block.name), *_instead(size)])

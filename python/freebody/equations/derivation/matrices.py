@@ -1,28 +1,12 @@
-"""The last steps: the matrix form, and the first-order form for integration."""
+"""The last steps: the matrix form (that with constraints has blocks of its own), and the first-order form for integration."""
 
 from __future__ import annotations
 
 from freebody.equations.collect import quotient
 from freebody.equations.derivation.result import Form
-from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph, Words, Written
+from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph, Words
 from freebody.equations.letters import Letters
 from freebody.equations.tree import Sym
-
-_NAMES = {
-    "minimal": "The equations together",
-    "brute": "The equations together",
-    "constraints": "Balances and constraints as one block system",
-}
-
-_BLOCKS = Written(
-    "[M −W; G 0] [a; λ]",
-    r"\begin{bmatrix} M & -W \\ G & 0 \end{bmatrix} \begin{bmatrix} a \\ \lambda \end{bmatrix}",
-)
-_RIGHT = Written("[f; c]", r"\begin{bmatrix} f \\ c \end{bmatrix}")
-_LEGEND = (
-    "M has the masses and inertias, W what a unit of each unknown force does to the bodies, G what the constraints ask of the "
-    "accelerations a; λ are the unknown forces, f the known ones, c what of the constraints depends on velocities and time."
-)
 
 
 def section(form: str, content: Form, letters: Letters) -> list[Block]:
@@ -31,12 +15,13 @@ def section(form: str, content: Form, letters: Letters) -> list[Block]:
     if not system.unknowns:
         return []
     moving = [x for x in system.unknowns if x.dots]
-    made: list[Block] = [Heading("Matrix form")]
-    if form == "constraints":
-        made += [Equation(_BLOCKS, _RIGHT, "In blocks"), Paragraph(_LEGEND)]
-    made.append(
-        MatrixEquation(system.matrix, system.unknowns, system.right, _NAMES[form], letter="M" if form == "minimal" else "A")
-    )
+    made: list[Block] = []
+    if form != "constraints":
+        letter = "M" if form == "minimal" else "A"
+        made = [
+            Heading("Matrix form"),
+            MatrixEquation(system.matrix, system.unknowns, system.right, "The equations together", letter=letter),
+        ]
     if not system.is_square:
         made.append(Paragraph(_uneven(content)))
     if moving:
@@ -46,12 +31,13 @@ def section(form: str, content: Form, letters: Letters) -> list[Block]:
 
 def _uneven(content: Form) -> str:
     equations, unknowns = len(content.system.matrix), len(content.system.unknowns)
+    these = "This is one equation" if equations == 1 else f"These are {equations} equations"
     if equations < unknowns:
         return (
-            f"These are {equations} equations in {unknowns} unknowns: what is held in more ways than needed, or rubs, "
+            f"{these} in {unknowns} unknowns: what is held in more ways than needed, or rubs, "
             "takes a law of its own besides the balances."
         )
-    return f"These are {equations} equations in {unknowns} unknowns: some follow from the others."
+    return f"{these} in {unknowns} unknowns: some follow from the others."
 
 
 def _first_order(content: Form, moving: list[Sym], letters: Letters) -> list[Block]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from freebody.equations.derivation.told import Subject
 from freebody.equations.letters import Letter, Letters
@@ -12,7 +12,7 @@ from freebody.naming import load_names
 _NUMBERS = {"g": "gravity"}
 _BY_PREFIX = {"m": "mass", "I": "inertia about the mass centre"}
 _COMPONENTS = {"x": "force along x", "y": "force along y"}
-_UNITS = {"couple": "N*m"}
+_KINDS = {"contact": "normal force", "friction": "friction", "string": "tension"}
 
 
 def meanings(subject: Subject) -> Letters:
@@ -26,7 +26,8 @@ def meanings(subject: Subject) -> Letters:
     written = load_names(subject.free.loads, subject.source)
     for load in subject.free.loads:
         if load.unknown and not load.follows:
-            unit, doc = _UNITS.get(load.component or "", ""), f"{load_words(load)} ({load.symbol})"
+            turns = not any(any(part.force) for part in load.on) and any(part.couple for part in load.on)
+            unit, doc = "N*m" if turns else "", f"{load_words(load)} ({load.symbol})"
             found[load.symbol] = Letter(load.symbol, "unknown", unit, doc, written[load.symbol])
     return Letters(found | {"t": Letter("t", "time", "s", "time")})
 
@@ -36,20 +37,27 @@ def plain(doc: str) -> str:
     return doc.replace("`", "")
 
 
-def load_words(load: Load) -> str:
-    """What a load is: ``force along x of pivot on rod, from ground``."""
+def load_words(load: Load, bodies: Collection[str] = ()) -> str:
+    """What a load is: ``force along x of pivot on rod, from ground``; where it acts on some ``bodies``, as that on them."""
     if load.kind == "weight":
         return f"weight of {load.of[-1]}"
     if load.kind == "force":
         return load.name
     if load.kind in ("motion", "coupling"):
         return f"what {load.name} exerts"
-    what = _COMPONENTS.get(load.component or "", load.component) or {"contact": "normal force", "string": "tension"}.get(
-        load.kind
-    )
-    first, second = load.of[0], load.of[-1]
-    between = f" on {second}, from {first}" if GROUND in (first, second) or first != second else ""
-    return f"{what or ('friction' if load.kind == 'friction' else 'force')} of {load.name}{between}"
+    what = _COMPONENTS.get(load.component or "", load.component) or _KINDS.get(load.kind, "force")
+    return f"{'tension' if load.symbol.endswith('.tension') else what} of {load.name}{_between(load, bodies)}"
+
+
+def _between(load: Load, bodies: Collection[str]) -> str:
+    """On which body, from which. Its value is positive on the first body of a contact, on the second one of a joint."""
+    other, on = (load.of[-1], load.of[0]) if load.path.startswith("contacts.") else (load.of[0], load.of[-1])
+    pair = load.kind in ("contact", "string") or load.symbol.endswith(".tension")
+    if (bodies and on not in bodies) or (not bodies and pair and on == GROUND):
+        on, other = other, on
+    if load.kind == "string":
+        return f" on {on}" if bodies else f" between {load.of[0]} and {load.of[-1]}"
+    return f" on {on}, from {other}" if on != other else ""
 
 
 def joined(words: Sequence[str], last: str = "and") -> str:

@@ -14,7 +14,10 @@ from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.document import Block, Heading, Paragraph
+from freebody.equations.document import Block, Bullets, Heading, Paragraph, Words
+from freebody.equations.tree import Sym
+from freebody.naming import coefficient
+from freebody.tables import figure
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ def minimal(subject: Subject) -> Form:
     equations = [_printed(s) for s in stated]
     form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
-    made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, chosen))]
+    made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, chosen)), *_friction(subject)]
     for s in stated:
         made += blocks(subject, s)
     if chosen.search and (chosen.search.stays or not chosen.search.equations) and stated:
@@ -73,13 +76,14 @@ def _chosen(subject: Subject) -> _Chosen:
 
 
 def _printed(stated: Stated) -> Printed:
-    return Printed(stated.title, *stated.sides, stated.balance.linear)
+    return Printed(stated.title, *stated.sides, stated.linear)
 
 
 def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
     number, search = len(chosen.stated), chosen.search
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
-    others = [name for name in form.reactions if name not in prescribed]
+    rubbing = [name for name in form.reactions if search and name in search.rubbing]
+    others = [name for name in form.reactions if name not in (*prescribed, *rubbing)]
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
         return "Nothing is free to move: no equation of motion is left. What holds it is found by brute force."
@@ -90,11 +94,27 @@ def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
         said.append(
             f"Here {joined(others)} {'stays' if len(others) == 1 else 'stay'}, so there {'is' if number == 1 else 'are'} {number}."
             if search.equations
-            else f"So the balances of the coordinates stand, and in them {joined(others)}, which hold what is closed above."
+            else f"So the balances of the coordinates stand, and in them {joined(others)}."
         )
+    elif rubbing:
+        each = "" if number == 1 else f", one for each degree of freedom and one for {joined(rubbing)},"
+        said = [f"{count}{each} in which no other reaction stands."]
     elif prescribed:
         said = [f"{count}{each} in which no reaction of a joint stands."]
     if prescribed:
         verb = "is" if len(prescribed) == 1 else "are"
         said.append(f"The accelerations of prescribed motions are known; {joined(prescribed)} {verb} unknown in their place.")
     return " ".join(said)
+
+
+def _friction(subject: Subject) -> list[Block]:
+    """The law of the friction that follows from forces in the equations."""
+    loads = subject.free.loads
+    made: list[Words] = []
+    for load in loads:
+        if load.follows:
+            place, ratio = load.follows
+            factor = coefficient(subject.source, load.name)
+            size = [Sym(factor), " "] if factor else f"{figure(abs(ratio))} "
+            made.append([f"the friction of {load.name} is ", *size, Sym(loads[place].symbol), ", against the sliding"])
+    return [Paragraph("As it slides now:"), Bullets(made)] if made else []

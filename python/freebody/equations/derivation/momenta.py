@@ -115,7 +115,7 @@ def _reason(subject: Subject, found: Lasting) -> str:
             continue
         rubs = any(other.follows and other.follows[0] == i for other in subject.free.loads)
         why = why_absent(load, found.bodies, place, size(subject), rubs) if load.unknown or not _works(load, found) else _CANCEL
-        said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load))
+        said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load, found.bodies))
     if not said:
         return "nothing acts from outside"
     return f"from outside act {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"

@@ -5,9 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 
-from freebody.equations.derivation.directions import Directions
+import numpy as np
+
+from freebody.balances.system import DEPENDENT
+from freebody.equations.derivation.closing import holding
+from freebody.equations.derivation.directions import Directions, Link
 from freebody.equations.derivation.meaning import joined, plain
-from freebody.equations.derivation.told import Motion, Subject
+from freebody.equations.derivation.told import Arrow, Motion, Subject
 from freebody.equations.document import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.names import latex_name, superscript, unicode_name
@@ -18,18 +22,44 @@ _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a l
 
 def configuration(subject: Subject) -> list[Block]:
     """The coordinates, and what each measures."""
-    freedom, coordinates = subject.source.about["freedom"], subject.coordinates
+    coordinates = subject.coordinates
     if not coordinates:
         return [Heading("Configuration"), Paragraph("Nothing can move: there are no coordinates.")]
     rows = [([Sym(c["name"])], _doc(c), c["dimension"] or "1") for c in coordinates]
-    degrees = "one degree" if freedom["count"] == 1 else f"{freedom['count'] or 'no'} degrees"
-    prescribed = f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     return [
         Heading("Configuration"),
-        Paragraph(f"The mechanism has {degrees} of freedom{prescribed}. {_count(len(coordinates))} where it is:"),
+        Paragraph(f"{_freedom(subject)} {_count(len(coordinates))} where it is:"),
         Table(("coordinate", "what it measures", "unit"), rows),
         sketch(subject),
+        *map(Paragraph, _reservations(subject)),
     ]
+
+
+def _reservations(subject: Subject) -> list[str]:
+    """What holds for a while only, and does not show in the equations."""
+    cases = [force["name"] for force in subject.source.about["forces"] if force["cases"]]
+    said = [f"The law of {joined(cases)} has cases: it stands here as it is at this state."] if cases else []
+    if opening := sorted(subject.source.openings):
+        said.append(f"At the start of a motion {joined(opening)} happens; the equations are those before.")
+    return said
+
+
+def _freedom(subject: Subject) -> str:
+    """How many degrees of freedom there are; fewer while something holds."""
+    freedom, held = subject.source.about["freedom"], holding(subject.rows)
+    count = degrees(subject) if held else freedom["count"]
+    said = "one degree" if count == 1 else f"{count or 'no'} degrees"
+    prescribed = f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
+    lead = f"While {held}, the" if held else "The"
+    return f"{lead} mechanism has {said} of freedom{prescribed}."
+
+
+def degrees(subject: Subject) -> int:
+    """Degrees of freedom, prescribed ones among them, with what holds now."""
+    names = [c["name"] for c in subject.coordinates]
+    free = [row for row, told in zip(subject.free.rows, subject.rows, strict=True) if told.kind != "motion"]
+    table = np.array([[row.coefficients[name] for name in names] for row in free]).reshape(-1, len(names))
+    return len(names) - int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max(initial=1.0)))
 
 
 def sketch(subject: Subject) -> Figure:
@@ -51,11 +81,23 @@ def kinematics(subject: Subject) -> list[Block]:
     return made
 
 
-def directions(subject: Subject) -> Directions:
-    """The unit directions in which the motions of all bodies are told."""
+def directions(subject: Subject, arrows: Sequence[Arrow] = ()) -> Directions:
+    """The unit directions in which some vectors are told, or the motions of all bodies."""
     motions = subject.motions
     names = [c["name"] for c in subject.coordinates]
-    return Directions.of(motions, [a for b in motions for a in (b.r, b.v, b.a)], [*names, "t"])
+    arrows = arrows or [a for b in motions for a in (b.r, b.v, b.a)]
+    return Directions.of(motions, arrows, [*names, "t"], _links(subject), subject.values)
+
+
+def _links(subject: Subject) -> list[Link]:
+    """Every link of the tree, from its first end to its second."""
+    found = []
+    for joint in subject.source.about["joints"]:
+        load = next((load for load in subject.free.loads if load.kind == "joint" and load.name == joint["name"]), None)
+        if joint["type"] == "link" and joint["coordinates"] and load:
+            x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first
+            found.append(Link(joint["name"], joint["first"], joint["second"], joint["coordinates"][0], float(np.arctan2(-y, -x))))
+    return found
 
 
 def letters(known: Letters, used: Collection[str]) -> list[Block]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, read
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
 from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.source import Source
@@ -101,6 +101,15 @@ class Balance:
         coefficients = {x: tree for x, tree in self.linear.coefficients.items() if x.dots or x.name not in letters}
         linear = Linear(coefficients, self.linear.rest)
         return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
+
+    def with_trees(self, put: Callable[[Tree], Tree]) -> Balance:
+        """The same, every expression as ``put`` makes it; what is unknown and vanishes is left out."""
+        loads = tuple(replace(each, tree=put(each.tree)) for each in self.contributions)
+        inertia = tuple((body, put(tree)) for body, tree in self.inertia)
+        momentum, left, right, residual = map(put, (self.momentum, self.left, self.right, self.residual))
+        kept = {x: put(tree) for x, tree in self.linear.coefficients.items() if not is_zero(put(mul(tree, x)))}
+        linear = Linear(kept, put(self.linear.rest))
+        return Balance(self.bodies, self.turns, self.place, loads, inertia, momentum, left, right, residual, linear)
 
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> Balance:

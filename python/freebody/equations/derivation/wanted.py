@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from freebody.balances.show import show
 from freebody.balances.smallest import SmallestSet, smallest_set
 from freebody.balances.states import nearby
+from freebody.equations.derivation import closing
 from freebody.equations.derivation.balancing import blocks
-from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.minimal import from_search
 from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Bullets, Heading, Paragraph, Table
+from freebody.equations.derivation.told import Row, Subject
+from freebody.equations.document import Block, Bullets, Heading, Paragraph, Table, Words
 from freebody.equations.tree import Sym
 from freebody.tables import figure
 
@@ -25,20 +27,51 @@ def wanted(subject: Subject, name: str) -> Form:
     stated = from_search(subject, list(found.equations)) if found.equations else None
     if stated is None:
         return Form.of(subject.letters, [], [*_numeric(found), *_numbers(found)])
-    equations = [Printed(s.title, *s.sides, s.balance.linear) for s in stated]
+    equations = [Printed(s.title, *s.sides, s.linear) for s in stated]
+    free = [name[6:-1] for name in found.values if name.startswith("accel(")]
+    moving = {x.name for equation in equations for x in equation.linear.coefficients if x.dots}
+    rows = closing.followers(subject.rows, free, moving)
+    form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = [Heading("Balance equations"), Paragraph(_introduction(found))]
     for s in stated:
         made += blocks(subject, s)
-    form = Form.of(subject.letters, equations, [])
+    made += _following(subject, form, free, rows)
     return Form(form.equations, (*made, *_numbers(found)), form.system, form.reactions)
 
 
-def _introduction(found: SmallestSet) -> str:
+def _following(subject: Subject, form: Form, free: Sequence[str], rows: Sequence[Row]) -> list[Block]:
+    """The accelerations in the equations that are not unknown: what is closed or prescribed gives them."""
+    if not rows:
+        return []
+    several = [x for x in form.system.unknowns if x.dots and x.name not in free]
+    ones = [x for x in form.system.unknowns if x.dots and x.name in free]
+    verb, none = ("follows", "is no unknown of its own") if len(several) == 1 else ("follow", "are no unknowns of their own")
+    source = [" from ", *_listed(ones)] if ones else []
+    said = [*_listed(several), f" {none}: {'it' if len(several) == 1 else 'they'} {verb}", *source]
+    said.append(f", since {closing.what(rows)}:")
+    names = [c["name"] for c in subject.coordinates]
+    return [Heading("Accelerations that follow"), Paragraph(said), *closing.accelerations(rows, names)]
+
+
+def _listed(letters: Sequence[Sym]) -> list:
+    """``a, b and c``."""
+    last = len(letters) - 1
+    return [piece for i, x in enumerate(letters) for piece in (*([" and " if i == last else ", "] if i else []), x)]
+
+
+def _introduction(found: SmallestSet) -> Words:
     number = len(found.equations)
-    names = joined([_shown(name) for name in found.values])
+    names = _listed([_letter(name) for name in found.values])
     if number == 1:
-        return f"One balance equation gives {names} by itself; no other unknown is in it."
-    return f"{_COUNT[number].capitalize()} balance equations hold {names} and no other unknown; fewer do not give {_shown(found.wanted)}."
+        return ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
+    count = _COUNT[number].capitalize()
+    return [
+        f"{count} balance equations hold ", *names, " and no other unknown; fewer do not give ", _letter(found.wanted), "."
+    ]  # fmt: skip
+
+
+def _letter(name: str) -> Sym:
+    return Sym(name[6:-1], 2) if name.startswith("accel(") else Sym(name)
 
 
 def _shown(name: str) -> str:
@@ -63,10 +96,7 @@ def _numeric(found: SmallestSet) -> list[Block]:
 
 
 def _numbers(found: SmallestSet) -> list[Block]:
-    rows = [
-        ([Sym(name[6:-1], 2)] if name.startswith("accel(") else [Sym(name)], figure(value))
-        for name, value in found.values.items()
-    ]
+    rows = [([_letter(name)], figure(value)) for name, value in found.values.items()]
     said = f"They differ from the solution of all equations by {found.check:.0e} of their size."
     exact = "" if found.exact else " Not every set of bodies was tried: there are too many."
     return [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(said + exact)]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any
 
-from freebody.equations.document import Block, Figure, Vector, Written, is_tree
+from freebody.equations.document import Block, Figure, Matrices, Vector, Written, is_tree
 from freebody.equations.letters import Letters
 from freebody.equations.rendering.markup import side_latex
 from freebody.equations.rendering.plain import side_text
@@ -28,6 +28,8 @@ def _value(value: Any, letters: Letters) -> Any:
         if isinstance(value, Vector):
             return {"vector": [[write(tree), direction] for tree, direction in value.components]} | printed
         return {"tree": write(value)} | printed if is_tree(value) else printed
+    if isinstance(value, Matrices):
+        return {"matrices": [_value(matrix.rows, letters) for matrix in value.factors]}
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [_value(each, letters) for each in value]
     return value

@@ -1,4 +1,4 @@
-"""Documents as Markdown, LaTeX and HTML: mathematics is LaTeX in all three."""
+"""Documents as Markdown, LaTeX and HTML: mathematics is LaTeX, in HTML the same as MathML."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import html
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from unicodedata import normalize
 
 from freebody.equations.document import (
@@ -15,6 +15,7 @@ from freebody.equations.document import (
     Equation,
     Figure,
     Heading,
+    Matrices,
     MatrixEquation,
     Paragraph,
     Side,
@@ -27,8 +28,10 @@ from freebody.equations.document import (
 )
 from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
 from freebody.equations.letters import Letters
+from freebody.equations.mathml import broken, mathml
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
-from freebody.equations.rendering.plain import FEW, side_text
+from freebody.equations.rendering.matrices import fitted, has_matrices
+from freebody.equations.rendering.plain import side_text
 from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
 
@@ -40,6 +43,8 @@ def side_latex(side: Side, letters: Letters) -> str:
     """One side of an equation, or mathematics in a sentence."""
     if isinstance(side, Written):
         return side.latex
+    if isinstance(side, Matrices):
+        return " ".join(matrix_latex(matrix.rows, letters) for matrix in side.factors)
     if isinstance(side, Vector):
         parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
         return " + ".join(parts).replace("+ -", "- ") or "0"
@@ -89,10 +94,10 @@ class Markup(ABC):
                 return self.heading(self.words(words), level)
             case Paragraph(words):
                 return self.paragraph(self.words(words))
+            case Equation() | MatrixEquation() if has_matrices(block):
+                return self.matrices(block)
             case Equation():
                 return self.stated(block, self.equation(block))
-            case MatrixEquation():
-                return self.stated(block, self.matrices(block))
             case Bullets(items):
                 return self.bullets([self.words(item) for item in items])
             case Table():
@@ -108,10 +113,16 @@ class Markup(ABC):
             for piece in pieces(words)
         )
 
-    def matrices(self, block: MatrixEquation) -> str:
-        """LaTeX of A x = b."""
-        parts = [matrix_latex(part, self.letters) for part in (block.matrix, block.unknowns, block.right)]
-        return f"{parts[0]} {parts[1]} = {parts[2]}"
+    def matrices(self, block: Equation | MatrixEquation) -> str:
+        """An equation of matrices, and below it the entries that have names."""
+        made, letters = fitted(block, self.letters, WIDTH)
+        writer = replace(self, letters=letters)
+        parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in made]
+        return "\n\n".join(parts)
+
+    def whole(self, block: Equation) -> str:
+        """LaTeX of an equation on one line."""
+        return " = ".join(side_latex(side, self.letters) for side in (block.left, block.right))
 
     def equation(self, block: Equation) -> str:
         """LaTeX of an equation."""
@@ -123,7 +134,7 @@ class Markup(ABC):
             return f"{sides[0][0]} = {sides[1][0]}"
         return aligned(*sides, beside=isinstance(left, Written))
 
-    def stated(self, block: Equation | MatrixEquation, body: str) -> str:
+    def stated(self, block: Equation, body: str) -> str:
         """An equation between its name and its note."""
         name, note = self.words(block.name), self.words(block.note)
         named = name if not name or name.endswith((":", ".")) else f"{name}:"
@@ -202,25 +213,6 @@ class Latex(Markup):
     def plain(self, text: str) -> str:
         return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
 
-    def matrices(self, block: MatrixEquation) -> str:
-        """In brackets where they fit on the line, else entry by entry if there are few, else row by row."""
-        if _across(block, self.letters) <= WIDTH:
-            return super().matrices(block)
-        lines = self._entries(block) if len(block.unknowns) <= FEW else [equation_latex(*s, self.letters) for s in block.rows()]
-        return "\\begin{gathered}\n" + " \\\\\n".join(lines) + "\n\\end{gathered}"
-
-    def _entries(self, block: MatrixEquation) -> list[str]:
-        def equal(left: str, tree: Tree) -> str:
-            right = latex_lines(tree, self.letters)
-            return f"{left} = {right[0]}" if len(right) == 1 else aligned([left], right, beside=True)
-
-        unknowns = ", ".join(latex(x, self.letters) for x in block.unknowns)
-        told = rf"{block.letter} x = b, \quad x = ({unknowns}); \quad \text{{what is not told is }} 0"
-        entries = [
-            equal(" = ".join(f"{block.letter}_{{{i}{j}}}" for i, j in places), tree) for tree, places in block.entries().items()
-        ]
-        return [told, *entries, *(equal(f"b_{i}", entry) for i, entry in enumerate(block.right, 1))]
-
     def inline(self, math: str) -> str:
         return f"${math}$"
 
@@ -243,7 +235,12 @@ class Latex(Markup):
         body = [" & ".join(row) + r" \\" for row in rows]
         top = [rf"\begin{{tabular}}{{{'l' * len(heads)}}}", " & ".join(heads) + r" \\ \hline"]
         return "\n".join(
-            [r"\begin{center}", *([caption, "", ""] if caption else []), *top, *body, r"\end{tabular}", r"\end{center}"]
+            [
+                r"\begin{center}",
+                *([caption, "", ""] if caption else []),
+                _fitted("\n".join([*top, *body, r"\end{tabular}"])),
+                r"\end{center}",
+            ]
         )
 
     def figure(self, figure: Figure, caption: str) -> str:
@@ -254,17 +251,20 @@ class Latex(Markup):
 
 
 class Html(Markup):
-    """A fragment of a page."""
+    """A fragment of a page, formulas as MathML."""
 
     def plain(self, text: str) -> str:
         return html.escape(text)
 
     def inline(self, math: str) -> str:
-        return rf"\({html.escape(math)}\)"
+        return mathml(math)
+
+    def equation(self, block: Equation) -> str:
+        return self.whole(block)
 
     def display(self, math: str, label: str) -> str:
-        tag = rf" \tag{{{label}}}" if label else ""
-        return f'<div class="equation">\\[{html.escape(math)}{html.escape(tag)}\\]</div>'
+        tag = f'<div class="label">({html.escape(label)})</div>' if label else ""
+        return f'<div class="equation"><div class="formula">{broken(math)}</div>{tag}</div>'
 
     def heading(self, title: str, level: int) -> str:
         return f"<h{level}>{title}</h{level}>"
@@ -292,13 +292,6 @@ def _fitted(shown: str) -> str:
 def _signs_of(line: str) -> int:
     """How many signs a line of a formula has, about."""
     return len(re.sub(r"\\[a-zA-Z]+|[{}_^&\\\s]", "", line))
-
-
-def _across(block: MatrixEquation, letters: Letters) -> int:
-    """Columns that A x = b takes as text."""
-    rows = [[columns(side_text(entry, letters)) for entry in row] for row in block.matrix]
-    widths = [max(each) + 3 for each in zip(*rows, strict=True)]
-    return sum(widths) + sum(max(columns(side_text(entry, letters)) for entry in side) for side in (block.unknowns, block.right))
 
 
 _SIGNS = {sign: rf"\{word}" for word, sign in GREEK.items()}

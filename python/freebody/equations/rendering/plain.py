@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from freebody.equations.document import (
     Block,
@@ -14,6 +14,7 @@ from freebody.equations.document import (
     Equation,
     Figure,
     Heading,
+    Matrices,
     MatrixEquation,
     Paragraph,
     Side,
@@ -25,13 +26,11 @@ from freebody.equations.document import (
     pieces,
 )  # fmt: skip
 from freebody.equations.letters import Letters
-from freebody.equations.names import ascii_name, unicode_name
+from freebody.equations.rendering.matrices import fitted, has_matrices
 from freebody.equations.text import columns, equation_text, folded, text
 from freebody.equations.tree import Add, Tree, is_zero
 
 _INDENT = "    "
-FEW = 4
-"""Unknowns up to which a matrix that is too wide is told entry by entry."""
 _TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
 
@@ -47,7 +46,8 @@ def render(document: Document, *, ascii: bool, width: int) -> str:
 
 def _space(above: Block, below: Block) -> str:
     """Equations without words between them stand together."""
-    close = isinstance(above, Equation) and isinstance(below, Equation) and not above.note and not below.name
+    equations = isinstance(above, Equation) and isinstance(below, Equation) and not above.note and not below.name
+    close = equations and not has_matrices(above) and not has_matrices(below)
     return "\n" if close else "\n\n"
 
 
@@ -59,6 +59,11 @@ def side_text(side: Side, letters: Letters, *, ascii: bool = False) -> str:
         parts = [_component(tree, direction, letters, ascii) for tree, direction in side.components if not is_zero(tree)]
         return " + ".join(parts).replace("+ −", "− ").replace("+ -", "- ") or "0"
     return text(side, letters, ascii=ascii)
+
+
+def words_text(words: Words, letters: Letters, *, ascii: bool = False) -> str:
+    """A sentence on one line."""
+    return "".join(piece if isinstance(piece, str) else side_text(piece, letters, ascii=ascii) for piece in pieces(words))
 
 
 def _tied(math: str) -> str:
@@ -86,10 +91,10 @@ class _Writer:
                 return f"{title}\n{('=' if level == 1 else '-') * columns(title)}" if level < 3 else title
             case Paragraph(words):
                 return self.filled(words)
+            case Equation() | MatrixEquation() if has_matrices(block):
+                return self.matrices(block)
             case Equation():
                 return self.stated(block, self.equation(block))
-            case MatrixEquation():
-                return self.stated(block, self.matrices(block))
             case Bullets(items):
                 return "\n".join(self.filled(item, "- ") for item in items)
             case Table():
@@ -98,9 +103,7 @@ class _Writer:
                 return ""
 
     def words(self, words: Words) -> str:
-        return "".join(
-            piece if isinstance(piece, str) else side_text(piece, self.letters, ascii=self.ascii) for piece in pieces(words)
-        )
+        return words_text(words, self.letters, ascii=self.ascii)
 
     def filled(self, words: Words, lead: str = "") -> str:
         whole = "".join(
@@ -112,7 +115,7 @@ class _Writer:
         )
         return filled.replace(_TIE, " ")
 
-    def stated(self, block: Equation | MatrixEquation, body: str) -> str:
+    def stated(self, block: Equation, body: str) -> str:
         lines = textwrap.indent(body, _INDENT).split("\n")
         if block.label:
             lines[-1] += " " * max(2, self.width - columns(lines[-1]) - len(block.label) - 2) + f"({block.label})"
@@ -128,18 +131,31 @@ class _Writer:
         left, right = (side_text(side, self.letters, ascii=self.ascii) for side in (left, right))
         return folded(f"{left} = ", right, room)
 
-    def matrices(self, block: MatrixEquation) -> str:
-        shown = [[text(entry, self.letters, ascii=self.ascii) for entry in row] for row in block.matrix]
-        unknowns, right = (
-            [[text(entry, self.letters, ascii=self.ascii)] for entry in side] for side in (block.unknowns, block.right)
-        )
-        height = max(len(shown), len(unknowns))
-        parts = [_padded(self.bracketed(part), height) for part in (shown, unknowns, right)]
+    def matrices(self, block: Equation | MatrixEquation) -> str:
+        """An equation of matrices, and below it the entries that have names."""
+        made, letters = fitted(block, self.letters, self.width - len(_INDENT) - 8)
+        writer = replace(self, letters=letters)
+        return "\n".join(writer.spread(each) if has_matrices(each) else writer.block(each) for each in made)
+
+    def spread(self, block: Equation) -> str:
+        """Matrices side by side, over several lines."""
+        parts = [self.grid(side) for side in (block.left, block.right)]
+        height = max(map(len, parts))
+        left, right = (_padded(part, height) for part in parts)
         middle = (height - 1) // 2
-        lines = [f"{a} {x} {'=' if row == middle else ' '} {b}" for row, (a, x, b) in enumerate(zip(*parts, strict=True))]
-        if all(columns(line) <= self.width - len(_INDENT) - 8 for line in lines):
-            return "\n".join(lines)
-        return self.listed(block)
+        lines = [f"{a} {'=' if row == middle else ' '} {b}" for row, (a, b) in enumerate(zip(left, right, strict=True))]
+        return self.stated(block, "\n".join(lines))
+
+    def grid(self, side: Side) -> list[str]:
+        """The lines of a product of matrices, or of a letter."""
+        if not isinstance(side, Matrices):
+            return [side_text(side, self.letters, ascii=self.ascii)]
+        parts = [
+            self.bracketed([[text(tree, self.letters, ascii=self.ascii) for tree in row] for row in matrix.rows])
+            for matrix in side.factors
+        ]
+        height = max(map(len, parts))
+        return [" ".join(row) for row in zip(*(_padded(part, height) for part in parts), strict=True)]
 
     def bracketed(self, rows: Sequence[Sequence[str]]) -> list[str]:
         widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
@@ -150,33 +166,6 @@ class _Writer:
             cells = (_centred(cell, width) for cell, width in zip(row, widths, strict=True))
             made.append(f"{ends[0]} {'  '.join(cells)} {ends[1]}")
         return made
-
-    def listed(self, block: MatrixEquation) -> str:
-        """What is too wide for brackets: entry by entry if there are few, else row by row, as equations."""
-        if len(block.unknowns) <= FEW:
-            return self.entries(block)
-        width = self.width - len(_INDENT) - 8
-        return "\n".join(equation_text(*sides, self.letters, ascii=self.ascii, width=width) for sides in block.rows())
-
-    def entries(self, block: MatrixEquation) -> str:
-        """Every entry that is not 0, equal ones once, behind what they are entries of."""
-        lines = [
-            folded(
-                f"{' = '.join(self.indexed(block.letter, f'{i}{j}') for i, j in places)} = ",
-                text(entry, self.letters, ascii=self.ascii),
-                self.width - len(_INDENT) - 8,
-            )
-            for entry, places in block.entries().items()
-        ]
-        for i, entry in enumerate(block.right, 1):
-            name = self.indexed("b", str(i))
-            lines.append(folded(f"{name} = ", text(entry, self.letters, ascii=self.ascii), self.width - len(_INDENT) - 8))
-        unknowns = ", ".join(text(x, self.letters, ascii=self.ascii) for x in block.unknowns)
-        return "\n".join([f"{block.letter} x = b with x = ({unknowns}); what is not told is 0", *lines])
-
-    def indexed(self, letter: str, digits: str) -> str:
-        """A letter with digits below."""
-        return ascii_name(letter + digits) if self.ascii else unicode_name(letter + digits)
 
     def table(self, block: Table) -> str:
         rows = [[self.words(cell) for cell in row] for row in (block.heads, *block.rows)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from freebody.equations.collect import factored
+from freebody.equations.collect import factored, pythagorean
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.sentences import lettered
@@ -34,8 +34,7 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
-    sketch = [opening.sketch(subject)] if subject.coordinates else []
-    made = (first, *sketch, *opening.letters(letters, used(list(blocks))), *blocks)
+    made = (first, *opening.configuration(subject), *opening.letters(letters, used(list(blocks))), *blocks)
     return Document(tuple(lettered(block, letters) for block in made), letters)
 
 
@@ -73,10 +72,10 @@ def brief(tree: Tree, letters: Letters) -> Tree:
 
 
 def spread(tree: Tree) -> Tree:
-    """The sum of all products, with what they have in common in front."""
+    """The sum of all products, sin² + cos² being 1, with what they have in common in front."""
     import sympy
 
-    return factored(from_sympy(sympy.expand(to_sympy(tree))))
+    return factored(pythagorean(from_sympy(sympy.expand(to_sympy(tree)))))
 
 
 def place_of(subject: Subject, point: str) -> Arrow:

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from freebody.equations.derivation import conserved
-from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words
+from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, listed
 from freebody.equations.letters import Letter
+from freebody.equations.linear import linear_in
+from freebody.equations.names import unicode_name
 from freebody.equations.solve import linear_system, solve
 from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, brief, document, moving_names, rate, subject_of
 from freebody.equations.topics.lagrange import Lagrange, equations
-from freebody.equations.tree import ZERO, Sym, Tree, is_zero, replace, symbols
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -48,7 +49,7 @@ def eliminated(subject: Subject) -> Eliminated:
     kept = [each for each in found if each not in gone]
     names = moving_names(subject)
     second = {Sym(x.name, 2): rate(tree, [n for n in names if n not in constants]) for x, tree in rates.items()}
-    left = {each.coordinate: _put(subject, each.residual, rates, second) for each in kept}
+    left = {each.coordinate: _bare(subject, _put(subject, each.residual, rates, second)) for each in kept}
     total = conserved.total(subject)
     energy = None if total is None else _put(subject, total, rates, {})
     return Eliminated({each.coordinate: each.momentum for each in gone}, constants, rates, left, energy)
@@ -67,7 +68,7 @@ def elimination(mechanism: Builder, state: State) -> Document:
     made += [Equation(tree, ZERO, ["For ", Sym(name)]) for name, tree in found.equations.items()]
     if found.energy is not None:
         made.append(Equation(Sym("E"), found.energy, "Its first integral, the energy, which is constant"))
-    more = [Letter(x.name, "constant", "", f"conserved momentum of {name}") for name, x in found.constants.items()]
+    more = [Letter(x.name, "constant", "", f"conserved momentum of {unicode_name(name)}") for name, x in found.constants.items()]
     return document(subject, "elimination by what is conserved", made, [*more, Letter("E", "constant", "J", "energy")])
 
 
@@ -87,15 +88,36 @@ def _put(subject: Subject, tree: Tree, first: Mapping[Sym, Tree], second: Mappin
     return brief(tree, subject.letters)
 
 
+def _bare(subject: Subject, tree: Tree) -> Tree:
+    """What vanishes if the tree does, without factors of parameters and what stands below; accelerations with one factor each."""
+    import sympy
+
+    if is_zero(tree):
+        return tree
+    fixed = set(subject.letters.of_kind("parameter", "constant"))
+    above, _ = sympy.fraction(sympy.cancel(sympy.together(to_sympy(tree))))
+    kept = sympy.Mul(
+        *(factor**n for factor, n in sympy.factor_list(above)[1] if not {str(x) for x in factor.free_symbols} <= fixed)
+    )
+    moving = [Sym(name, 2) for name in moving_names(subject)]
+    parts = linear_in(from_sympy(sympy.expand(kept)), moving)
+    terms = [mul(brief(factor, subject.letters), x) for x, factor in parts.coefficients.items()]
+    return add(*terms, brief(parts.rest, subject.letters))
+
+
 def _why(names: Sequence[str]) -> Words:
     if len(names) == 1:
         return [Sym(names[0]), " stands in no energy, only its rate, and no force without a potential works on it. So its momentum "
                 "∂E_k/∂q̇ is constant:"]  # fmt: skip
-    return f"{joined(names)} stand in no energy, only their rates, and no force without a potential works on them. So the momenta are constant:"
+    return [
+        *listed([Sym(name) for name in names]),
+        " stand in no energy, only their rates, and no force without a potential works on them. So the momenta are constant:",
+    ]
 
 
 def _left(names: Sequence[str]) -> Words:
     if not names:
         return "Nothing: the rates above are the whole motion."
     count = "one equation" if len(names) == 1 else f"{len(names)} equations"
-    return f"With these rates, and their derivatives, Lagrange's equations of the other coordinates are {count} in {joined(list(names))} alone:"
+    said = "With these rates, and their derivatives, Lagrange's equations of the other coordinates are "
+    return [f"{said}{count} in ", *listed([Sym(name) for name in names]), " alone:"]

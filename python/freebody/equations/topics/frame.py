@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.derivation.directions import Directions
+from freebody.equations.derivation import opening
 from freebody.equations.derivation.told import Arrow, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
 from freebody.equations.simplify import equal
@@ -50,8 +50,8 @@ def _dull(answer: Mapping[str, Any]) -> tuple[bool, bool]:
 
 def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) -> list[Block]:
     arrows = {word: Arrow.read(told[word]) for word in _WORDS}
-    place, names = place_of(subject, point), moving_names(subject)
-    directions = Directions.of(subject.motions, [place, *arrows.values()], [*names, "t"])
+    place = place_of(subject, point)
+    directions = opening.directions(subject, [place, *arrows.values()])
     made: list[Block] = [Heading("The frame")]
     made.append(
         Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"])

@@ -20,6 +20,7 @@ from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.blow import Blow, after, blow, impulse
 from freebody.equations.topics.common import document, moving_names
 from freebody.equations.tree import Num, Sym, Tree, evaluate, is_zero, minus, operations, replace, symbols
+from freebody.free_body import Load
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -119,7 +120,7 @@ def _what(found: Blow) -> list[Block]:
     )
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
-        items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(load_words(load))}"] for load in loads]
+        items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(_on(load, body))}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
     from freebody.views.diagram.impulses import Impulses
 
@@ -248,6 +249,11 @@ def _numbers(found: Blow) -> list[Block]:
         Paragraph(f"At t = {change.t:.6g} s, rates in m/s or rad/s:"), Bullets(rows),
         Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses), lost,
     ]  # fmt: skip
+
+
+def _on(load: Load, body: str) -> str:
+    """A pair of equal pushes or pulls is told as that on the body, what has a sign as it is counted."""
+    return load_words(load, [body] if load.kind in ("contact", "string") else ())
 
 
 def _letters(found: Blow) -> Sequence[Letter]:

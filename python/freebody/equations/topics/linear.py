@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.balances.states import nearby
-from freebody.equations.departures import Held, Linearised, Matrix, held, independent, linearised, numbers, place_of
+from freebody.equations.departures import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Bullets, Document, Equation, Heading, MatrixEquation, Paragraph, Words
+from freebody.equations.document import Block, Document, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
+from freebody.equations.document import Matrix as Rows
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letter
 from freebody.equations.measured import shown
-from freebody.equations.solve import Singular, TooLarge
-from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
+from freebody.equations.solve import TooLarge
 from freebody.equations.topics.common import NotHere, document, subject_of
-from freebody.equations.tree import PI, ZERO, Sym, Tree, add, evaluate, is_zero, mul, symbols
+from freebody.equations.topics.stable import character
+from freebody.equations.tree import ZERO, Add, Sym, Tree, add, evaluate, is_zero, mul
 from freebody.instant import Instant
 
 if TYPE_CHECKING:
@@ -28,6 +29,10 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 
+_BOLD = (("𝐌", r"\mathbf{M}"), ("𝐂", r"\mathbf{C}"), ("𝐊", r"\mathbf{K}"))
+"""The matrices, apart from any letters of a model."""
+_VECTOR = (Written("𝐱", r"\mathbf{x}"), Written("𝐱\u0307", r"\dot{\mathbf{x}}"), Written("𝐱\u0308", r"\ddot{\mathbf{x}}"))
+"""The departures, their rates and accelerations."""
 _STANDS = 1e-9
 """Rate, rad/s or m/s, below which what is prescribed stands still."""
 
@@ -49,8 +54,8 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     made, found = _departures(subject, chosen)
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
-    more = [Letter("s", "parameter", "1/s", "eigenvalue"), *_letters_of(subject).values()]
-    return document(subject, title, where + made + _character(subject, found), more)
+    more = [Letter("s", "indeterminate", "1/s", "eigenvalue"), *_letters_of(subject).values()]
+    return document(subject, title, where + made + character(subject, found, _letters_of(subject)), more)
 
 
 def _rest(mechanism: Builder, state: State) -> State:
@@ -92,7 +97,7 @@ def _require_regular(subject: Subject) -> None:
 def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
     """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
     place = place_of(subject)
-    put = {name: tree for name, tree in place.items() if _is_natural(tree)} | dict(chosen.trees)
+    put = {name: tree for name, tree in place.items() if is_natural(tree)} | dict(chosen.trees)
     whole = linearised(subject, put)
     made = _equations(subject, whole)
     if not subject.rows:
@@ -110,7 +115,7 @@ def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearise
 def _letters_of(subject: Subject) -> dict[str, Letter]:
     """The letters of departures by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
     coordinates = subject.coordinates
-    if not subject.rows and all(map(_is_natural, place_of(subject).values())):
+    if not subject.rows and all(map(is_natural, place_of(subject).values())):
         return {c["name"]: subject.letters[c["name"]] for c in coordinates}
     stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
     return {
@@ -124,20 +129,25 @@ def _letters_of(subject: Subject) -> dict[str, Letter]:
 def _equations(subject: Subject, found: Linearised) -> list[Block]:
     letters = _letters_of(subject)
     pairs = [(name, letter.name) for name, letter in letters.items() if name != letter.name]
-    said: list[str | Tree] = ["For small departures"]
+    said: list[str | Side] = ["For small departures"]
     for i, (name, letter) in enumerate(pairs):
         said += ["," * bool(i) + " ", Sym(letter), " of ", Sym(name)]
-    said.append(f"{'' if pairs else ' of the coordinates'} from there, M ẍ + C ẋ + K x = ")
-    said.append(
-        "what the loads that hold it change by, these loads being in K as they are at rest:" if subject.rows else "0, with"
-    )
-    return [Heading("Linear equations"), Paragraph(said), *_matrices(found, letters)]
+    said.append(f"{'' if pairs else ' of the coordinates'} from there")
+    right = "what the loads that hold it change by, these loads being in 𝐊 as they are at rest" if subject.rows else ""
+    return [Heading("Linear equations"), *_stated(found, letters, said, right)]
 
 
-def _matrices(found: Linearised, letters: Mapping[str, Letter]) -> list[Block]:
-    shown = (("M", found.mass, 2), ("C", found.damping, 1), ("K", found.stiffness, 0))
-    unknowns = [letters[name].name for name in found.coordinates]
-    return [_matrix(letter, matrix, unknowns, dots) for letter, matrix, dots in shown]
+def _stated(found: Linearised, letters: Mapping[str, Letter], said: Sequence[str | Side], right: str = "") -> list[Block]:
+    """M ẍ + C ẋ + K x = 0 with its matrices; of one coordinate as one equation. ``right``: what stands there if not 0."""
+    departures = [letters[name].name for name in found.coordinates]
+    parts = ((found.mass, 2), (found.damping, 1), (found.stiffness, 0))
+    if len(departures) == 1 and not right:
+        terms = (mul(shown(matrix[0][0]), Sym(departures[0], dots)) for matrix, dots in parts if not is_zero(matrix[0][0]))
+        return [Equation(Add(tuple(terms)), ZERO, said)]
+    names = [Written(*pair) for pair in _BOLD]
+    whole = [names[0], " ", _VECTOR[2], " + ", names[1], " ", _VECTOR[1], " + ", names[2], " ", _VECTOR[0], " = ", right or "0"]
+    where = [" with ", _VECTOR[0], " = (", *listed(map(Sym, departures)), ") and"]
+    return [Paragraph([*said, " ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(names, parts, strict=True))]
 
 
 def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Block]:
@@ -147,7 +157,7 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     names = joined(list(dict.fromkeys(row.name for row in subject.rows)))
     made: list[Block] = [Heading("What is left free")]
     if numbers:
-        made.append(Paragraph(["In letters this fills pages; here ", *_listed(map(Sym, numbers)), " are numbers, in SI."]))
+        made.append(Paragraph(["In letters this fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
         made.append(Paragraph(f"To first order {names} make these follow:"))
     made += [
@@ -160,22 +170,9 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
         undecided = len(left.reactions) > len(left.follow)
         made.append(Paragraph(f"The loads at rest{', of which some are not determined and taken to be 0' * undecided}:"))
     made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
-    made.append(
-        Paragraph(["What they change by does no work there. What is left is M ẍ + C ẋ + K x = 0 of ", *_listed(free), ", with"])
+    return made + _stated(
+        left.equations, letters, ["What they change by does no work there. What is left of ", *listed(free), " is"]
     )
-    return made + _matrices(left.equations, letters)
-
-
-def _listed(trees: Iterable[Tree]) -> list[str | Tree]:
-    words: list[str | Tree] = []
-    for tree in trees:
-        words += [", ", tree] if words else [tree]
-    return words
-
-
-def _is_natural(place: Tree) -> bool:
-    """Whether a place is one whatever the lengths are: 0, or a part of a turn."""
-    return is_zero(place) or Sym(PI) in symbols(place)
 
 
 def _place(subject: Subject, chosen: Given, near: bool) -> Words:
@@ -185,88 +182,7 @@ def _place(subject: Subject, chosen: Given, near: bool) -> Words:
     return [*said, " everything stays at rest."]
 
 
-def _matrix(letter: str, matrix: Matrix, names: Sequence[str], dots: int) -> Block:
+def _matrix(name: Written, matrix: Matrix) -> Block:
     if all(is_zero(entry) for row in matrix for entry in row):
-        return Paragraph(f"{letter} = 0.")
-    if len(matrix) == 1:
-        return Equation(Sym(letter), shown(matrix[0][0]))
-    unknowns = [Sym(name, dots) for name in names]
-    matrix = [list(map(shown, row)) for row in matrix]
-    product = [add(*(mul(entry, x) for entry, x in zip(row, unknowns, strict=True) if not is_zero(entry))) for row in matrix]
-    return MatrixEquation(matrix, unknowns, product, ["The product with ", letter])
-
-
-def _character(subject: Subject, found: Linearised) -> list[Block]:
-    made: list[Block] = []
-    positive = [name for name, value in subject.values.items() if not name.dots and value > 0]
-    names = [letter.name for letter in positive]
-    try:
-        matrix = found.first_order()
-        polynomial = characteristic(matrix, subject.letters)
-        made += [Heading("Eigenvalues"), Equation(shown(_powers(polynomial)), ZERO, "The characteristic equation")]
-        made += _eigenvalues(matrix, subject, names)
-        made += _when(_reduced(polynomial), subject, names)
-    except (TooLarge, Singular) as error:
-        made.append(Paragraph(f"In letters no more is said: {error}."))
-    return made + _numbers(subject, found)
-
-
-def _powers(polynomial: Sequence[Tree]) -> Tree:
-    from freebody.equations.tree import power
-
-    order = len(polynomial) - 1
-    return add(*(mul(factor, power(Sym("s"), order - i)) for i, factor in enumerate(polynomial) if not is_zero(factor)))
-
-
-def _eigenvalues(matrix: Matrix, subject: Subject, names: Sequence[str]) -> list[Block]:
-    try:
-        found = eigenvalues(matrix, subject.letters, positive=names)
-    except TooLarge as error:
-        return [Paragraph(f"{str(error).capitalize()}.")]
-    return [
-        Paragraph("The eigenvalues:"),
-        Bullets([_told(value) for value in found]),
-    ]
-
-
-def _told(value: Eigenvalue) -> Words:
-    real = [] if is_zero(value.real) and not is_zero(value.imaginary) else [shown(value.real)]
-    imaginary = [] if is_zero(value.imaginary) else [*([" + "] if real else []), shown(value.imaginary), " i"]
-    return [*real, *imaginary, f", {value.count} times" * (value.count > 1)]
-
-
-def _reduced(polynomial: Sequence[Tree]) -> list[Tree]:
-    """Without the roots 0 of coordinates that nothing brings back."""
-    kept = list(polynomial)
-    while len(kept) > 1 and is_zero(kept[-1]):
-        kept.pop()
-    return kept
-
-
-def _when(polynomial: list[Tree], subject: Subject, names: Sequence[str]) -> list[Block]:
-    if len(polynomial) == 1:
-        return [Paragraph("All eigenvalues are 0: nothing brings it back.")]
-    found = stability(polynomial, subject.letters, positive=names)
-    made: list[Block] = [Heading("Stability"), Paragraph(_verdict(found))]
-    return made + [Bullets([[shown(condition), " > 0"] for condition in found.conditions])] * bool(
-        found.conditions and not found.never
-    )
-
-
-def _verdict(found: Stability) -> str:
-    kind = "Small departures die out" if found.kind == "decays" else "Small departures stay small and oscillate"
-    if found.never:
-        return f"{kind} for no values of the letters: it is unstable."
-    return f"{kind} if" if found.conditions else f"{kind} for all values of the letters (those of the model being positive)."
-
-
-def _numbers(subject: Subject, found: Linearised) -> list[Block]:
-    m, c, k = (numbers(subject, matrix) for matrix in (found.mass, found.damping, found.stiffness))
-    n = len(m)
-    try:
-        roots = np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]))
-    except np.linalg.LinAlgError:
-        return []
-    told = sorted({(round(float(r.real), 6), round(abs(float(r.imag)), 6)) for r in roots})
-    said = [f"{a:.5g} 1/s" if not b else f"{a + 0.0:.5g} ± {b:.5g} i 1/s (period {2 * np.pi / b:.5g} s)" for a, b in told]
-    return [Heading("In numbers"), Paragraph("With the parameters of the model the eigenvalues are"), Bullets(said)]
+        return Equation(name, ZERO)
+    return Equation(name, Matrices((Rows([list(map(shown, row)) for row in matrix], name.text),)))

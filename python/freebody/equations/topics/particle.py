@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.told import Arrow, Balance, Subject
-from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Words
+from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
 from freebody.equations.letters import Letter
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
 from freebody.equations.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _R, _PHI = "r", "phi"
 
 
-def particle(mechanism: Builder, state: State, *, body: str | None = None, about: str = f"{GROUND}.origin") -> Document:
+def particle(mechanism: Builder, state: State, *, body: str | None = None, about: str = f"{GROUND}.O") -> Document:
     """Newton's law for a ``body`` (the first particle by default), its components along i, j and along e_r, e_φ ``about`` a
     fixed point."""
     subject = subject_of(mechanism, state)
@@ -39,8 +39,9 @@ def _cartesian(subject: Subject, body: str, balances: list[Balance]) -> list[Blo
     made: list[Block] = [Heading("Along i and j"), Paragraph(f"What acts on {body}, components along i and j:")]
     acting: list[Words] = []
     for along_x, along_y in zip(*(balance.contributions for balance in balances), strict=True):
-        load = subject.free.loads[along_x.load]
-        acting.append([f"{load_words(load)}: (", along_x.tree, ") i + (", along_y.tree, ") j"])
+        if not (is_zero(along_x.tree) and is_zero(along_y.tree)):
+            arrow = Vector(((along_x.tree, "i"), (along_y.tree, "j")))
+            acting.append([f"{load_words(subject.free.loads[along_x.load])}: ", arrow])
     made.append(Bullets(acting or ["nothing"]))
     names = ("Σ F·i = m a_x", "Σ F·j = m a_y")
     return made + [Equation(b.right, b.left, name) for b, name in zip(balances, names, strict=True)]

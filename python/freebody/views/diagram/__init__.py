@@ -15,8 +15,8 @@ from freebody.run import Source
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
-from freebody.views.diagram.describe import described, spoken
-from freebody.views.diagram.names import Labels
+from freebody.views.diagram.describe import described
+from freebody.views.diagram.names import Labels, spoken
 from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.paper import Row
 from freebody.views.diagram.picture import Picture

@@ -27,7 +27,8 @@ class Action:
     """A force or a couple on one body. ``at`` (2,) in m and ``force`` (2,), fixed axes; ``couple`` is counter-clockwise. Of a
     symbolic diagram ``force`` is a unit direction and ``couple`` a sign; to scale they are in N and N·m.
 
-    ``name`` and ``kind`` are those of the load; ``kind`` ``effective`` is a term m a or I α.
+    ``name`` and ``kind`` are those of the load; ``kind`` ``effective`` is a term m a or I α. ``pulls``: it can only be drawn away
+    from its body, as the pull of a string is; ``bound``: a couple that stands at the joint that passes it on or that it drives.
     """
 
     name: str
@@ -38,6 +39,8 @@ class Action:
     force: Array
     couple: float = 0.0
     loads: tuple[Load, ...] = ()
+    pulls: bool = False
+    bound: bool = False
 
     @property
     def turns(self) -> bool:
@@ -55,21 +58,40 @@ def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels:
     further on, where what is 0 now has a direction."""
     beyond = {load.symbol: load for load in near.on(*group)}
     for load in free.on(*group):
-        if not load.unknown and not any(any(part.force) or part.couple for part in load.on):
-            load = beyond.get(load.symbol, load)
+        if not load.unknown and all(part.idle for part in load.on):
+            load = _going(load, beyond.get(load.symbol, load))
         for part in load.on:
             if part.body in group:
                 yield from _positive(load, part, labels.of(load), sketch)
 
 
+def _going(load: Load, beyond: Load) -> Load:
+    """A load that is 0 in the directions that it has a little further on."""
+    at = {part.body: part.point for part in load.on}
+    return replace(load, on=tuple(replace(part, point=at.get(part.body, part.point)) for part in beyond.on))
+
+
 def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Action]:
     force, couple = _sense(load, part, sketch)
-    size, at = np.hypot(*force), attached(load, part, sketch)
-    plain = Action(load.name, load.kind, label, part.body, at, force, couple, (load,))
+    size, plain = np.hypot(*force), _acts(load, part, label, force, couple, sketch)
     if size > 0:
         yield replace(plain, force=force / size, couple=0.0)
     if couple:
         yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
+
+
+def _acts(load: Load, part: Part, label: str, force: Array, couple: float, sketch: Sketch) -> Action:
+    at = attached(load, part, sketch)
+    bound = load.kind in ("joint", "friction", "motion") or not np.array_equal(at, part.point)
+    return Action(load.name, load.kind, label, part.body, at, force, couple, (load,), _pulls(load, part, force), bound)
+
+
+def _pulls(load: Load, part: Part, force: Array) -> bool:
+    """Whether a string, a link or a spring between two points pulls."""
+    if load.kind == "string" or load.component == "thrust":
+        return bool(force @ part.force > 0)
+    others = [other.point for other in load.on if other is not part]
+    return load.kind == "force" and len(others) == 1 and bool(force @ np.subtract(others[0], part.point) > 0)
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
@@ -132,9 +154,7 @@ def _acting(loads: Collection[Load], group: Collection[str], labels: Labels, ske
             if part.body not in group:
                 continue
             force, couple = load.value * np.array(part.force), load.value * part.couple
-            new = Action(
-                load.name, load.kind, labels.whole(load), part.body, attached(load, part, sketch), force, couple, (load,)
-            )
+            new = _acts(load, part, labels.whole(load), force, couple, sketch)
             for one in (replace(new, couple=0.0), replace(new, force=np.zeros(2))):
                 key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
                 if one.force.any() or one.couple:

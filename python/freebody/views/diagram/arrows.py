@@ -17,9 +17,12 @@ LENGTH = 36.0  # pt of a symbolic arrow
 LONGEST = 72.0  # pt of the largest force to scale
 SHORTEST = 9.0  # pt below which an arrow is all head
 _LONGER = (1.0, 1.5, 2.0)
-_ASIDES = (0.0, 6.0, -6.0)  # pt that the force of a slider may be moved, as its couple makes up for
+_ASIDES = (0.0, 6.0, -6.0)  # pt that one may be moved which else would be hidden: of a slider its couple makes up for it
+_MOVED = 5.0  # how much worse it is to move any other
 _HEAD_ROOM = 13.0  # pt between two heads
 _RADII = (11.0, 15.0, 19.0, 23.0)
+_OWN = 6.0  # pt about its own point, where an arrow may meet others
+_TOWARDS = (0.0, 8.0, 16.0, 24.0)  # pt from its joint to the middle of its body at which the couple of a motor may stand
 _OPEN = np.deg2rad(80.0)
 _GAPS = np.linspace(0, 2 * np.pi, 8, endpoint=False)
 
@@ -72,13 +75,16 @@ def _arrow(action: Action, scenery: Scenery, marks: Sequence[Mark], per_newton: 
     at, size = scenery.place(action.at), float(np.hypot(*action.force))
     way = action.force / size
     lengths = [LENGTH * more for more in _LONGER] if per_newton is None else [max(per_newton * size, SHORTEST)]
-    asides = _ASIDES if per_newton is None and scenery.slides(action) else (0.0,)
+    slides = scenery.slides(action)
+    movable = per_newton is None and (slides or action.pulls or action.kind == "force")
+    asides = _ASIDES if movable else (0.0,)
     starts = [at + aside * np.array([-way[1], way[0]]) for aside in asides]
     choices = [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
-    if action.kind not in ("weight", "effective"):
+    if action.kind not in ("weight", "effective") and not action.pulls:
         choices += [Arrow(action, start, start - length * way, start) for start in starts for length in lengths]
     ink = scenery.ink
-    costs = [_cost(choice, scenery, ink, marks) + float(np.hypot(*(choice.at - at))) for choice in choices]
+    moved = 1.0 if slides else _MOVED
+    costs = [_cost(choice, scenery, ink, marks) + moved * float(np.hypot(*(choice.at - at))) for choice in choices]
     return choices[int(np.argmin(costs))]
 
 
@@ -87,11 +93,12 @@ def _cost(arrow: Arrow, scenery: Scenery, ink: Array, marks: Sequence[Mark]) -> 
     shaft = dense([arrow.line])
     inside = sum(int(_within(shaft, solid).sum()) for solid in scenery.solids)
     other = dense([mark.line for mark in marks])
-    near = _near(shaft[2:-2], other, 4.0)
+    beyond = shaft[np.hypot(*(shaft - arrow.at).T) > _OWN]
+    near = _near(beyond, other, 4.0)
     heads = [mark.line[-1] for mark in marks] + [mark.at for mark in marks if isinstance(mark, Arrow)]
     crowded = sum(float(np.hypot(*(arrow.head - head)) < _HEAD_ROOM) for head in heads if not np.allclose(head, arrow.at))
     converging = sum(float(np.hypot(*(mark.line[-1] - arrow.head)) < 1.0) for mark in marks)
-    drawn = _near(shaft[3:], ink, 2.5)
+    drawn = _near(beyond, ink, 2.5)
     reverse = 3.0 * np.array_equal(arrow.head, arrow.at)
     return (
         1.5 * inside
@@ -99,7 +106,7 @@ def _cost(arrow: Arrow, scenery: Scenery, ink: Array, marks: Sequence[Mark]) -> 
         + 40.0 * crowded
         + 8.0 * converging
         + 1.0 * drawn
-        + 0.25 * float(np.hypot(*(arrow.head - arrow.tail)))
+        + 0.6 * float(np.hypot(*(arrow.head - arrow.tail)))
         + reverse
     )
 
@@ -120,9 +127,12 @@ def _within(places: Array, outline: Array) -> Array:
 
 
 def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
-    """A couple may stand anywhere on its body; its own point comes first, then the mass centre."""
+    """A couple may stand anywhere on its body: that of a joint at it, that of its motor near it; else its own point comes first,
+    then the mass centre."""
     own, centre = scenery.place(action.at), scenery.centres[action.body]
-    places = [own] if action.kind == "joint" else [own + part * (centre - own) for part in (0.0, 1.0, 0.5, 0.75, 1.4)]
+    parts = [min(0.5, step / (float(np.hypot(*(centre - own))) or 1.0)) for step in _TOWARDS]
+    parts = [0.0] if action.kind in ("joint", "friction") else parts if action.bound else [0.0, 1.0, 0.5, 0.75, 1.4]
+    places = [own + part * (centre - own) for part in parts]
     turn, ink, others = np.sign(action.couple), scenery.ink, dense([mark.line for mark in marks])
     best: tuple[float, Bow] | None = None
     for rank, place in enumerate(places):

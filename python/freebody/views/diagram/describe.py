@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from freebody.views.diagram.actions import Action
+from freebody.views.diagram.names import spoken
 
 _WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to the left", "down and to the left", "down",
          "down and to the right")  # fmt: skip
@@ -24,10 +24,3 @@ def _way(action: Action) -> str:
         return "counter-clockwise" if action.couple > 0 else "clockwise"
     eighth = round(float(np.arctan2(action.force[1], action.force[0])) / (np.pi / 4)) % 8
     return _WAYS[eighth]
-
-
-def spoken(label: str) -> str:
-    """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``."""
-    plain = re.sub(r"\\(?:mathrm|mathbf|text)\{([^{}]*)\}", r"\1", label)
-    plain = re.sub(r"\\[, ]", " ", plain)
-    return re.sub(r"[{}]|\\", "", plain)

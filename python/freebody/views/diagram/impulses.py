@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import ClassVar
 
 from freebody.blow import Blow
-from freebody.free_body import Body, FreeBodies, Load
+from freebody.free_body import Body, FreeBodies
 from freebody.naming import ImpulseNaming
 from freebody.views.diagram import Cut, Desk, Diagram
 from freebody.views.diagram.names import Labels
@@ -22,10 +22,6 @@ class _Jumps(Labels):
 
     unit: ClassVar[str] = "N·s"
     turning_unit: ClassVar[str] = "N·m·s"
-
-    def plain(self, load: Load) -> str:
-        """Of an impulse, in a remark."""
-        return self.naming.loads[load.symbol].unicode()
 
     def acceleration(self, body: str, alone: bool) -> str:
         """Of the jump of the velocity of a body's mass centre."""

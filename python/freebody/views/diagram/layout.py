@@ -21,6 +21,8 @@ _FINE = 4  # text is measured on a grid this much finer than a point
 _DIRECTIONS = np.linspace(0, 2 * np.pi, 16, endpoint=False)
 _DISTANCES = (3.0, 7.0, 13.0, 22.0, 34.0, 48.0)
 _LED = 14.0  # pt from which a thin line leads to what is labelled
+_ALONG = np.linspace(0.1, 1.0, 8)  # of a leader, where it is looked at
+_CROSSED = 1e3  # what a leader through a label costs
 _SWEEPS = 6
 
 
@@ -33,7 +35,6 @@ class Label:
     size: float
     colour: str
     bold: bool = False
-    led: bool = True
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,7 @@ def placed(labels: Sequence[Label], ink: Ink) -> list[Placed]:
     halves = [extent(label.text, label.size, label.bold) / 2 + AIR for label in labels]
     options = [_options(label, half) for label, half in zip(labels, halves, strict=True)]
     own = [_covering(centres, half, ink) + near for (centres, near, _), half in zip(options, halves, strict=True)]
+    leaders = [_leaders(option, half) for option, half in zip(options, halves, strict=True)]
     chosen = [-1] * len(labels)
     order = sorted(range(len(labels)), key=lambda i: -float(np.prod(halves[i])))
     for _ in range(_SWEEPS):
@@ -72,7 +74,10 @@ def placed(labels: Sequence[Label], ink: Ink) -> list[Placed]:
             cost = own[i].copy()
             for j, at in enumerate(chosen):
                 if j != i and at >= 0:
-                    cost += 1e3 * _overlap(options[i][0], halves[i], options[j][0][at], halves[j])
+                    other = options[j][0][at]
+                    cost += 1e3 * _overlap(options[i][0], halves[i], other, halves[j])
+                    cost += _CROSSED * (np.abs(leaders[i] - other) < halves[j]).all(axis=2).any(axis=1)
+                    cost += _CROSSED * (np.abs(options[i][0][:, None] - leaders[j][at]) < halves[i]).all(axis=2).any(axis=1)
             chosen[i] = int(np.argmin(cost))
         if chosen == before:
             break
@@ -105,11 +110,25 @@ def _overlap(centres: Array, half: Array, other: Array, its_half: Array) -> Arra
     return shared
 
 
+def _edges(centres: Array, anchors: Array, half: Array) -> tuple[Array, Array]:
+    """Where the lines from anchors (k, 2) to centres enter the boxes there (k, 2), and which are so long that they are drawn."""
+    ways = centres - anchors
+    edges = centres - ways * np.minimum(1.0, np.min(half / np.maximum(np.abs(ways), 1e-9), axis=1))[:, None]
+    return edges, np.hypot(*(edges - anchors).T) > _LED
+
+
+def _leaders(options: tuple[Array, Array, Array], half: Array) -> Array:
+    """Places (k, n, 2) along the leader of each option, NaN where it has none."""
+    centres, _, anchors = options
+    edges, far = _edges(centres, anchors, half)
+    places: Array = anchors[:, None] + _ALONG[:, None] * (edges - anchors)[:, None]
+    places[~far] = np.nan
+    return places
+
+
 def _done(label: Label, options: tuple[Array, Array, Array], i: int, half: Array) -> Placed:
     centre, anchor = options[0][i], options[2][i]
-    way = centre - anchor
-    edge = centre - way * min(1.0, float(np.min(half / np.maximum(np.abs(way), 1e-9))))
-    far = label.led and np.hypot(*(edge - anchor)) > _LED
+    [edge], [far] = _edges(centre[None], anchor[None], half)
     return Placed(label, centre, half, np.array([anchor, edge]) if far else None)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -37,7 +38,8 @@ class Labels:
 
     def plain(self, load: Load) -> str:
         """Of a load, in a remark."""
-        return load.symbol
+        name = self.naming.loads.get(load.symbol)
+        return name.unicode() if name else spoken(self.of(load))
 
     def whole(self, load: Load) -> str:
         """Of a force of which a load is one component."""
@@ -72,6 +74,13 @@ class Labels:
     def _of_body(self, stem: str, body: str, alone: bool) -> Name:
         heavy = [mass for mass, _ in self.naming.bodies.values() if not is_zero(mass)]
         return Name(stem) if alone or len(heavy) == 1 else Name.parse(f"{stem}_{body}")
+
+
+def spoken(label: str) -> str:
+    """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``."""
+    plain = re.sub(r"\\(?:mathrm|mathbf|text)\{([^{}]*)\}", r"\1", label)
+    plain = re.sub(r"\\[, ]", " ", plain)
+    return re.sub(r"[{}]|\\", "", plain)
 
 
 def letter(name: str) -> str:

@@ -41,7 +41,7 @@ class Panel:
     def labels(self) -> list[Placed]:
         """Every letter in its place."""
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
-        ink = Ink.of((self.scenery.ink, 2.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
+        ink = Ink.of((self.scenery.ink, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
         return placed([*_letters(self.marks), *_others(self.scenery, self.names)], ink)
 
     @cached_property
@@ -77,8 +77,10 @@ def _others(scenery: Scenery, names: Sequence[str]) -> Iterator[Label]:
     for dimension in scenery.dimensions:
         n = len(dimension.arrow)
         yield Label(f"${dimension.text}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
+        if dimension.axis is not None:
+            yield Label(f"${dimension.axis.text}$", dimension.axis.at[None], 8.0, MEASURE)
     for tag in scenery.points:
-        yield Label(f"${tag.text}$", tag.at[None], 9.0, INK, led=False)
+        yield Label(f"${tag.text}$", tag.at[None], 9.0, INK)
     for name in names:
         yield Label(name.replace("$", r"\$"), scenery.centres[name][None], 9.0, GREY, bold=True)
 
@@ -95,7 +97,7 @@ def _corner(inside: Sequence[Array], labels: Sequence[Placed], scenery: Scenery,
         np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
     ]
     for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
-        start, end = at - 4, at + _CORNER
+        start, end = at - 8, at + _CORNER
         written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
         if written or ((ink > start) & (ink < end)).all(axis=1).any():
             continue

@@ -60,12 +60,14 @@ class Tag:
 
 @dataclass(frozen=True)
 class Dimension:
-    """A coordinate on paper: its arrow (k, 2) and guides (2, 2)."""
+    """A coordinate on paper: its arrow (k, 2) and guides (2, 2); ``axis`` names the direction that turns where the body does not
+    show it."""
 
     text: str
     arrow: Array
     guides: list[Array]
     angle: bool
+    axis: Tag | None = None
 
 
 @dataclass(frozen=True)
@@ -138,7 +140,7 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     pins = scale * _pins(sketch, free, group)
     points = _points(sketch, group, centres, scale)
     across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
-    dimensions = _dimensions(sketch, group, scale, scaled, max(across, _FAR))
+    dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR))
     return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
@@ -156,7 +158,7 @@ def whole(source: Source, state: State) -> Scenery:
     strokes = _strokes(scene, [GROUND, *names], scale, hidden=())
     inner = [scale * line for line in _joining(scene)]
     centres = {name: scale * sketch.place(f"{name}.G") for name in names}
-    dimensions = _dimensions(sketch, [GROUND, *names], scale, False, float(np.hypot(*_WIDEST)))
+    dimensions = _dimensions(sketch, [GROUND, *names], strokes, scale, False, float(np.hypot(*_WIDEST)))
     made = Scenery(strokes, inner, np.zeros((0, 2)), centres, [], dimensions, scale, sketch)
     low, high = made.ink.min(axis=0) - _NEARBY, made.ink.max(axis=0) + _NEARBY
     points = _points(sketch, [GROUND, *names], centres, scale)
@@ -240,7 +242,9 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
     return tags
 
 
-def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bool, far: float) -> list[Dimension]:
+def _dimensions(
+    sketch: Sketch, group: Collection[str], strokes: Sequence[Drawn], scale: float, scaled: bool, far: float
+) -> list[Dimension]:
     """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
     found = []
     for measure in measures(sketch, _RADIUS):
@@ -259,8 +263,19 @@ def _dimensions(sketch: Sketch, group: Collection[str], scale: float, scaled: bo
             arrow, guides = _end(arrow, _STUB), []
         elif not measure.angle:
             guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
-        found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle))
+        axis = _axis(measure.second, guides[1], strokes) if measure.of_axis else None
+        found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle, axis))
     return found
+
+
+def _axis(body: str, guide: Array, strokes: Sequence[Drawn]) -> Tag | None:
+    """The name of a body's x axis at the end of a guide that runs along it, unless the body lies there."""
+    own = [stroke for stroke in strokes if stroke.body == body]
+    seen = shapes.dense([closed(stroke) for stroke in own])
+    lies = any(_contains(stroke.points, guide[1:]) for stroke in own if stroke.style in _SOLID)
+    if not own or lies or np.hypot(*(seen - guide[1]).T).min() < SYMBOL:
+        return None
+    return Tag(letter(f"x_{body}"), guide[1])
 
 
 def _end(line: Array, length: float) -> Array:

@@ -1,0 +1,86 @@
+"""How linear equations move, in numbers: what is free, what drifts, where equal eigenvalues share one direction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody.equations.departures import Linearised, Matrix
+from freebody.equations.derivation.told import Subject
+from freebody.equations.simplify import equal
+from freebody.equations.tree import evaluate, is_zero
+from freebody.results import Array
+
+_SMALL = 1e-7
+"""Singular value, relative to the largest, below which a direction is free; a part of a mode, below which a coordinate rests."""
+_EQUAL = 1e-4
+"""Relative difference of eigenvalues, below which they are equal: a double one that shares its direction splits as √ε."""
+_ASIDE = 0.2
+_SEED = 13
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Coordinates that nothing brings back (``free``), of which those ``drifting`` keep a speed; those ``moving`` otherwise.
+
+    ``symmetric``: M and K are, and there is no C. ``grows``: equal eigenvalues ± i ω lack directions of their own."""
+
+    free: tuple[str, ...]
+    drifting: tuple[str, ...]
+    moving: tuple[str, ...]
+    symmetric: bool
+    grows: bool
+
+
+def modes(subject: Subject, found: Linearised) -> Modes:
+    """The modes beside the numbers of a subject, so that nothing is so by chance."""
+    m, c, k = (_beside(subject, part) for part in (found.mass, found.damping, found.stiffness))
+    free = null_space(k)
+    reached = null_space(k.T).T @ c @ free  # a speed v that C v, in the range of K, lets be
+    drifting = free @ null_space(reached) if free.size else free
+    a = first_order(m, c, k)
+    values, vectors = np.linalg.eig(a)
+    own = [i for i, value in enumerate(values) if abs(value) > _EQUAL * np.abs(values).max(initial=0.0)]
+    moving = vectors[: len(m), own]
+    symmetric = all(is_zero(entry) for row in found.damping for entry in row) and all(
+        map(_is_symmetric, (found.mass, found.stiffness))
+    )
+    names = found.coordinates
+    grows = not symmetric and any(_lacks(a, values, values[i]) for i in own)
+    return Modes(_in(free, names), _in(drifting, names), _in(moving, names), symmetric, grows)
+
+
+def first_order(m: Array, c: Array, k: Array) -> Array:
+    """A of ż = A z with z = (x, ẋ). Raises ``LinAlgError``."""
+    n = len(m)
+    return np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]])
+
+
+def null_space(matrix: Array) -> Array:
+    """Orthonormal directions, as columns, that a matrix takes to 0."""
+    _, sizes, directions = np.linalg.svd(matrix)
+    rank = int((sizes > _SMALL * sizes.max(initial=0.0)).sum())
+    return directions[rank:].conj().T
+
+
+def _lacks(a: Array, values: Array, value: complex) -> bool:
+    """Whether an eigenvalue on the imaginary axis is there more often than it has directions."""
+    scale = np.abs(values).max()
+    count = int((np.abs(values - value) < _EQUAL * scale).sum())
+    sizes = np.linalg.svd(a - value * np.eye(len(a)), compute_uv=False)
+    return abs(value.real) < _EQUAL * scale and count > int((sizes < _EQUAL * sizes.max()).sum())
+
+
+def _in(directions: Array, names: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(name for name, row in zip(names, directions, strict=True) if np.abs(row).max(initial=0.0) > _SMALL)
+
+
+def _is_symmetric(matrix: Matrix) -> bool:
+    return all(equal(matrix[i][j], matrix[j][i]) for i in range(len(matrix)) for j in range(i))
+
+
+def _beside(subject: Subject, matrix: Matrix) -> Array:
+    rng = np.random.default_rng(_SEED)
+    values = {x: v * (1 + _ASIDE * rng.uniform(-1, 1)) for x, v in subject.values.items()}
+    return np.array([[float(evaluate(entry, values, subject.tables)) for entry in row] for row in matrix])

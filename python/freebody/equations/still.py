@@ -1,0 +1,51 @@
+"""What loops, motions and contacts hold still: coordinates that cannot move, and where they are, whatever the lengths are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from freebody.equations.departures import is_natural, place_of
+from freebody.equations.derivation.told import Row, Subject
+from freebody.equations.given import Given
+from freebody.equations.tree import Tree, is_zero, symbols
+from freebody.free_body import FreeBodies
+
+_HELD = 1e-7
+"""Part of a unit departure that rows leave free below which they hold it."""
+
+
+def held_still(subject: Subject, chosen: Given, states: Sequence[FreeBodies]) -> Given:
+    """The coordinates that nothing lets move, at all ``states``, as ``still``, and their places where these do not depend on any
+    letter but those ``chosen``."""
+    names = [c["name"] for c in subject.coordinates]
+    fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Given({}, still=frozenset(names)))]
+    free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
+    still = frozenset(name for i, name in enumerate(names) if fixed and all(holds(rows, i) for rows in free))
+    held = Given({}, still=still)
+    natural = {
+        name: place for name, place in place_of(subject).items() if is_natural(place) and name in still - chosen.trees.keys()
+    }
+    closed = [held.put(chosen.put(value)) for i in fixed if (value := subject.rows[i].value) is not None]
+    return replace(held, trees=_closing(closed, natural))
+
+
+def holds(rows: np.ndarray, place: int) -> bool:
+    """Whether rows, linear in some unknowns, determine the one at a place."""
+    unit = np.eye(rows.shape[1])[place]
+    return bool(np.linalg.norm(unit - np.linalg.pinv(rows) @ (rows @ unit)) < _HELD)
+
+
+def _is_fixed(row: Row, rest: Given) -> bool:
+    """Whether it asks for rest: it is met where all rates and accelerations are 0. A motion may ask for accelerations alone."""
+    asked = [row.acceleration, *([] if row.rate is None else [row.rate])]
+    return not (row.rate is None and row.kind == "motion") and all(is_zero(rest.put(tree)) for tree in asked)
+
+
+def _closing(closed: Sequence[Tree], places: Mapping[str, Tree]) -> Mapping[str, Tree]:
+    """Of these places those with which everything that they are in vanishes, whatever the letters are."""
+    there = Given(places)
+    open_by = {x.name for value in closed if not is_zero(there.put(value)) for x in symbols(value)}
+    return _closing(closed, {n: place for n, place in places.items() if n not in open_by}) if open_by & places.keys() else places

@@ -1,0 +1,169 @@
+"""What derivations say of loads, points, freedom and friction: each sentence is held against the mechanics that it tells."""
+
+import numpy as np
+import pytest
+from conftest import FILES, ROOT, loaded, named, numbers
+
+import freebody as fb
+from freebody import _core
+from freebody.balances.reasons import agree
+from freebody.balances.smallest import smallest_set
+from freebody.balances.states import nearby
+from freebody.equations.derivation.meaning import load_words
+from freebody.equations.derivation.opening import degrees, directions
+from freebody.equations.derivation.told import Subject
+from freebody.equations.tree import evaluate, symbols
+from freebody.free_body import GROUND
+
+LADDER = """
+freebody: 1
+name: leaning ladder
+parameters: {m: 10 kg, l: 4 m, mu: 0.3}
+ground: {lines: {floor: {through: O, angle: 0}, wall: {through: O, angle: -90 deg}}}
+bodies:
+  ladder: {shape: rod, length: l, mass: m, points: {A: start, B: end}}
+joints:
+  pos: {type: free, of: [ground.O, ladder.A], coordinates: [x, y, phi]}
+contacts:
+  foot: {of: [ladder.A, ground.floor], friction: mu}
+  top: {of: [ladder.B, ground.wall]}
+initial: {x: 2 m, y: 0, phi: 120 deg, at_rest: true}
+"""
+BLOCK = """
+freebody: 1
+name: block sliding down a slope
+parameters: {m: 2 kg, alpha: 30 deg, mu: 0.2}
+ground: {lines: {slope: {through: O, angle: -alpha}}}
+bodies:
+  block: {shape: rectangle, width: 0.4 m, height: 0.2 m, mass: m, points: {B: [0, -0.1]}, lines: {base: {through: B, angle: 0}}}
+joints:
+  guide: {type: slider, along: ground.slope, line: block.base, coordinate: s, friction: mu}
+initial: {s: 0, rates: {s: 0.1}}
+"""
+BEARING = """
+freebody: 1
+name: pendulum in a bearing that rubs
+parameters: {m: 2 kg, l: 1 m, mu: 0.1, r: 2 cm}
+bodies:
+  rod: {shape: rod, length: l, mass: m}
+joints:
+  pin: {type: hinge, of: [ground.O, rod.start], coordinate: {name: theta, zero: down}, friction: mu, bearing_radius: r}
+initial: {theta: 60 deg, rates: {theta: 1}}
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    def load(text):
+        path = tmp_path / "model.yaml"
+        path.write_text(text)
+        mechanism = fb.load(path)
+        return mechanism, Subject(mechanism.source(), mechanism.start()[0])
+
+    return load
+
+
+@pytest.fixture(params=FILES, ids=named)
+def model(request):
+    mechanism, start = loaded(request.param)
+    try:
+        mechanism.solve()
+    except _core.MotionError:
+        pytest.skip("the model has no motion at all")
+    return Subject(mechanism.source(), start)
+
+
+def test_a_load_in_a_balance_is_told_for_a_body_of_it(model):
+    for body in model.free.bodies:
+        for load in model.free.on(body):
+            said = load_words(load, [body])
+            assert " on " not in said or f" on {body}" in said, said
+
+
+def test_a_push_or_pull_on_the_ground_is_told_for_the_body(model):
+    for load in model.free.loads:
+        if load.kind in ("contact", "string"):
+            assert f"on {GROUND}" not in load_words(load)
+
+
+def test_directions_along_links_are_along_them(model):
+    """From the first end to the second: a tension pulls the second body against it."""
+    values = model.values
+    for pair in directions(model).pairs:
+        if pair.link:
+            load = next(load for load in model.free.loads if load.name == pair.link.name and load.kind == "joint")
+            pull = next(part.force for part in load.on if part.body == pair.link.second)
+            angle = evaluate(pair.angle, values, model.tables) + pair.quarters * np.pi / 2
+            assert [np.cos(angle), np.sin(angle)] == pytest.approx(-np.array(pull), abs=1e-12)
+
+
+@pytest.mark.parametrize("path", FILES, ids=named)
+def test_degrees_of_freedom_are_the_accelerations_that_what_is_closed_leaves(path):
+    """Rows of independent equations take one each: here by the null space, in the code by the rank."""
+    mechanism, start = loaded(path)
+    try:
+        subject = Subject(mechanism.source(), start)
+        rows = [row for row, told in zip(subject.free.rows, subject.rows, strict=True) if told.kind != "motion"]
+    except _core.MotionError:
+        pytest.skip("the model has no motion at all")
+    table = np.array([list(row.coefficients.values()) for row in rows]).reshape(-1, len(subject.coordinates))
+    sizes = np.linalg.svd(table, compute_uv=False)
+    assert degrees(subject) == len(subject.coordinates) - int((sizes > 1e-7 * max(1.0, sizes.max(initial=0.0))).sum())
+
+
+def test_a_ladder_that_stands_has_no_freedom_and_its_foot_none_for_the_positions(written):
+    text = " ".join(written(LADDER)[0].equations().text().split())
+    assert "While foot holds and does not slide and top holds, the mechanism has no degrees of freedom." in text
+    assert "These are 3 equations among the coordinates. Of these sticking has none for the positions." in text
+
+
+def test_accelerations_that_are_not_unknown_are_given_with_what_gives_them(written):
+    """Balances and closure together give what the full solve gives: nothing is left out."""
+    for mechanism, subject, want in [(*written(LADDER), "top.N"), (*of("examples/four_bar.yaml"), "B.Fx")]:
+        found, values = mechanism.equations(want=want), numbers(subject)
+        moving = {x for part in found.parts for x in symbols(part.residual) if x.dots == 2}
+        assert moving <= set(found.unknowns) and found.content.system.is_square
+        matrix, right = (
+            [[evaluate(x, values) for x in row] for row in rows] for rows in (found.mass_matrix, [found.right_hand_side])
+        )
+        assert np.linalg.solve(matrix, right[0]) == pytest.approx([values[x] for x in found.unknowns], rel=1e-9, abs=1e-9)
+
+
+def of(path):
+    mechanism, start = loaded(ROOT / path)
+    return mechanism, Subject(mechanism.source(), start)
+
+
+def test_what_slides_has_a_balance_for_its_normal_force(written):
+    """N = m g cos α; m s̈ = m g sin α − μ N."""
+    found = written(BLOCK)[0].equations()
+    assert [part.title for part in found.parts] == ["LMB along the normal of guide for block", "LMB along guide for block"]
+    assert "the friction of guide is μ N_guide, against the sliding" in found.text()
+    g, alpha, mu = 9.81, np.radians(30), 0.2
+    subject = written(BLOCK)[1]
+    values = numbers(subject)
+    matrix, right = (
+        [[evaluate(x, values) for x in row] for row in rows] for rows in (found.mass_matrix, [found.right_hand_side])
+    )
+    expected = [g * (np.sin(alpha) - mu * np.cos(alpha)), 2 * g * np.cos(alpha)]
+    assert np.linalg.solve(matrix, right[0]) == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_bearing_that_rubs_has_a_couple_and_loses_energy(written):
+    text = written(BEARING)[0].equations().text()
+    assert "M_pin = −μ r" in text and "Their sum is not conserved: pin rubs." in text
+
+
+def test_a_motor_between_two_bodies_is_internal_to_both():
+    _, subject = of("systems/EX-ARM/held.yaml")
+    (equation,) = smallest_set("shoulder motor", nearby(subject.source, subject.state), subject.points).equations
+    why = {name: item.why for item in equation.dropped for name in item.unknowns}
+    assert why["'elbow motor'.force"] == "they are internal to upper + forearm"
+
+
+def test_reasons_agree_in_number():
+    assert (
+        agree("it is a couple, which has no part in a force balance", 2)
+        == "they are couples, which have no part in a force balance"
+    )
+    assert agree("its sum with its friction is perpendicular to x", 2) == "their sums with their friction are perpendicular to x"

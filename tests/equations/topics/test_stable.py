@@ -1,0 +1,102 @@
+"""What becomes of small departures, where eigenvalues are 0 or equal: against closed forms and against simulated motions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from models import SYSTEMS
+
+import freebody as fb
+from freebody.equations.topics import topic
+
+CART = """
+freebody: 1
+name: a pendulum on a free cart
+parameters: {M: 2 kg, m: 1 kg, l: 1 m, c: 0.5 N*s/m, g: 9.81 m/s^2}
+gravity: g
+bodies: {cart: {mass: M}, bob: {shape: particle, mass: m}}
+joints:
+  rail: {type: slider, along: {through: ground.O, angle: 0}, line: {through: cart.origin, angle: 0}, coordinate: x}
+  cord: {type: link, of: [cart.origin, bob.centre], length: l, coordinate: {name: theta, zero: down, absolute: true}}
+initial: {x: 0, theta: 0, at_rest: true}
+"""
+DRAG = 'forces: {drag: {type: force, at: cart.origin, x: "-c*vx(cart.origin)"}}\n'
+PENDULUMS = """
+freebody: 1
+name: two pendulums that share nothing
+parameters: {l: 0.5 m, m: 2 kg, k: 3 N*m/rad, c: 0.4 N*m*s/rad, g: 9.81 m/s^2}
+gravity: g
+bodies: {a: {mass: m, inertia: 0, points: {A: [0, l]}}, b: {mass: m, inertia: 0, points: {A: [0, l]}}}
+joints:
+  one: {type: hinge, of: [ground.O, a.A], coordinate: theta}
+  two: {type: hinge, of: [ground.O, b.A], coordinate: phi}
+forces: {FORCES}
+initial: {theta: 0, phi: 0, at_rest: true}
+"""
+PULL = 'pull: {type: torque, on: a, value: "k*phi"}'
+BEARING = "bearing: {type: torsion_spring, on: a, stiffness: 0, damping: c}"
+
+
+def said(text: str) -> str:
+    return " ".join(topic(fb.Mechanism.loads(text), "linear").text().split())
+
+
+def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
+    """s² (s² + (M + m) g/(M l)) = 0: the mass centre keeps its speed. Meirovitch, Elements of Vibration Analysis, ch. 4, of semidefinite systems."""
+    told = said(CART)
+    assert "s² (s² + (M + m) g/(M l)) = 0" in told and "± √((M + m) g/(M l)) i" in told
+    assert "Nothing brings back x: with any small constant speed it drifts on" in told
+    assert "Apart from that small departures of x, θ stay small and oscillate" in told
+    run = fb.Mechanism.loads(CART).simulate(50.0, initial={"rates": {"x": 1e-3, "theta": 0}}, t_eval=[50.0])
+    assert run["x"][-1] > 0.02 and abs(run["theta"][-1]) < 1e-3
+
+
+def test_a_cart_that_rubs_stays_where_it_comes_to_rest() -> None:
+    """With −c ẋ the root 0 is single: nothing drifts, and the rest dies out, as the cart takes part in all of it."""
+    told = said(CART + DRAG)
+    assert "Nothing brings back x: a small departure stays as it is." in told and "drift" not in told
+    assert "Apart from that small departures of x, θ die out for all values" in told
+
+
+def test_matrices_do_not_take_letters_of_the_model() -> None:
+    """The mass M of the cart stands in the matrix 𝐌, the coordinate x in the vector 𝐱."""
+    mechanism = fb.Mechanism.loads(CART)
+    told = topic(mechanism, "linear").text()
+    assert "𝐌 = ⎡ M + m  m l  ⎤" in told and "𝐱 = (x, θ)" in told and "𝐂 = 0" in told
+    assert r"\mathbf{M} = \begin{bmatrix}" in topic(mechanism, "linear").latex()
+
+
+# Two equal pendulums: what else acts, and what then becomes of small departures.
+EQUAL = {
+    "equal frequencies, each with a direction of its own": ("", "Small departures stay small and oscillate for all values"),
+    "one is pulled by the other's angle and so at its own frequency": (PULL, "Equal eigenvalues share one direction"),
+    "one of them is damped": (BEARING, "Small departures stay small: some die out, others oscillate for all values"),
+}
+
+
+@pytest.mark.parametrize("name", EQUAL)
+def test_equal_pendulums(name: str) -> None:
+    """Equal eigenvalues are harmless unless they lack directions; then a swing grows as t, as at resonance. Each is simulated, too."""
+    forces, verdict = EQUAL[name]
+    text = PENDULUMS.replace("FORCES", forces)
+    assert verdict in said(text)
+    run = fb.Mechanism.loads(text).simulate(60.0, initial={"theta": 1e-4, "phi": 1e-4, "at_rest": True})
+    late = run.t > 45
+    growth = np.abs(run["theta"][late]).max() / 1e-4
+    assert growth > 5 if forces == PULL else growth < 1.1
+
+
+def test_upside_down_it_falls() -> None:
+    """Upright the polynomial is s² (s² − (M + m) g/(M l))."""
+    told = " ".join(topic(fb.Mechanism.loads(CART), "linear", theta="180 deg").text().split())
+    assert "grow, whatever the values of the letters: it is unstable" in told
+
+
+def test_two_equal_rods_hang_from_each_other() -> None:
+    """ω² = (3 ± 6/√7) g/l. Timoshenko & Young, Advanced Dynamics, of two bars."""
+    path = SYSTEMS / "19.3.28" / "model.yaml"
+    told = topic(fb.load(path), "linear", phi1=0, phi2=0).text()
+    l = fb.load(path).start()[0].p[[p["name"] for p in fb.load(path).source().about["parameters"]].index("l")]
+    for sign in (1, -1):
+        assert f"± {np.sqrt((3 + sign * 6 / np.sqrt(7)) * 9.81 / l):.5g} i" in told
+    assert told.count("± √(") == 2 and "stay small and oscillate for all values" in " ".join(told.split())
