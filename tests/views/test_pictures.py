@@ -75,7 +75,7 @@ def test_rounded_hull_keeps_its_distance():
     hull = shapes.rounded_hull(np.array([[0, 0], [2, 0], [1, 1], [1, 0.3]]), 0.1)
     assert (np.hypot(*(hull - [2, 0]).T) >= 0.1 - 1e-12).all()
     assert hull[:, 1].min() == pytest.approx(-0.1, abs=1e-3) and hull[:, 0].max() == pytest.approx(2.1, abs=1e-3)
-    assert len(shapes.rounded_hull(np.array([[1.0, 2.0]]), 0.5)) == 36
+    assert np.hypot(*(shapes.rounded_hull(np.array([[1.0, 2.0]]), 0.5) - [1.0, 2.0]).T) == pytest.approx(0.5)
     assert np.ptp(shapes.rounded_hull(np.array([[0, 0], [1, 0]]), 0.2), axis=0) == pytest.approx([1.4, 0.4], abs=1e-2)
 
 

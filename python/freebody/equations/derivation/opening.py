@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Collection, Sequence
 
@@ -39,7 +40,7 @@ def _reservations(subject: Subject) -> list[str]:
     """What holds for a while only, and does not show in the equations."""
     cases = [force["name"] for force in subject.source.about["forces"] if force["cases"]]
     said = [f"The law of {joined(cases)} has cases: it stands here as it is at this state."] if cases else []
-    if opening := sorted(subject.source.openings):
+    if opening := [event["name"] for event in json.loads(subject.source.spec).get("events", []) if event.get("opening")]:
         said.append(f"At the start of a motion {joined(opening)} happens; the equations are those before.")
     return said
 
