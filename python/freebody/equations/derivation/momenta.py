@@ -21,9 +21,7 @@ from freebody.free_body import Load
 
 _ABSENT = 1e-9
 """Part of a load below which it has none in a balance."""
-_NONE = (
-    "No momentum is conserved, of no set of bodies that are joined: along no direction, about no fixed point and no mass centre."
-)
+_NONE = "No momentum of bodies that are joined is conserved: along no direction, about no fixed point and about no mass centre."
 _CANCEL = "in this they cancel each other"
 
 
