@@ -97,8 +97,8 @@ class TextPrinter(Printer):
         return f"{mantissa}×10{superscript(str(int(exponent)))}" if exponent else mantissa
 
     def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
-        # One rule: in front where it is one sign, ½ m l²; else what is below stands behind, m l²/12.
-        vulgar = self._vulgar(value)
+        # One rule: in front where it is one sign, ½ m l²; else what is below stands behind, m l²/12, as it does in angles, π/2.
+        vulgar = "" if list(factors) == [Sym("pi")] else self._vulgar(value)
         if vulgar or not factors:
             return self.juxtapose([vulgar or str(value), *map(self._factor, factors)])
         ends_bare = layout.is_bare(factors[-1])
