@@ -142,3 +142,12 @@ def test_what_stands_above_and_below_cancels(data):
     made = quotient(mul(Sym("a"), tree), below)
     assert evaluate(made, values) == pytest.approx(evaluate(tree, values) / evaluate(Sym("l"), values) ** 2, rel=1e-14)
     assert Sym("a") not in symbols(quotient(below, mul(Sym("a"), Sym("b"))))
+
+
+def test_a_damper_of_no_length_has_no_direction():
+    m = fb.Mechanism("block on a damper", gravity="none")
+    block = m.particle("block", mass=1)
+    m.free(m.ground.O, block.centre, coordinates=["x", "y"], name="place")
+    m.damper(between=[m.ground.O, block.centre], damping=2, name="damper")
+    with pytest.raises(fb.MotionError, match="line of no length"):
+        m.free_bodies()

@@ -169,9 +169,7 @@ impl Balance<'_> {
     pub fn hold(&mut self, reached: &Reached, slips: &[f64], scale: Scale) -> Result<Holding, Trouble> {
         let mut free = self.free_accelerations(reached)?;
         if !free.iter().all(|a| a.is_finite()) {
-            let what =
-                "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
-            return Err(Trouble::new("not_finite", what));
+            return Err(Trouble::not_finite());
         }
         // Round-off is no reason to part.
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.pace).for_each(|a| *a = 0.0);

@@ -71,6 +71,12 @@ impl Route {
 const CANCELLED: f64 = 1e-13;
 
 impl Trouble {
+    /// Accelerations that are no numbers.
+    pub(crate) fn not_finite() -> Trouble {
+        let what = "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
+        Trouble::new("not_finite", what)
+    }
+
     /// A motion of a body that nothing resists.
     pub(crate) fn can_move_freely(m: &Mechanism, body: usize) -> Trouble {
         let branch = m.bodies[body].branch.expect("a body of the tree");

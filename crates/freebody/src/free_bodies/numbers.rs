@@ -13,9 +13,12 @@ const NO_COUPLE: f64 = 1e-12;
 /// Bodies, loads with their sizes, and what joints and motions ask of the accelerations, at the state of `balance`.
 ///
 /// # Errors
-/// As [`Balance::solve`].
+/// `not_finite`; as [`Balance::solve`].
 pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
     balance.solve()?;
+    if !balance.solved().nu_dot.iter().all(|a| a.is_finite()) {
+        return Err(Trouble::not_finite());
+    }
     let labels = balance.labels();
     let sizes = Sizes::of(balance, &labels);
     let at = balance.at();
