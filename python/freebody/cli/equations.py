@@ -42,7 +42,10 @@ def equations(
         ),
     ] = Form.minimal,
     want: Annotated[
-        str | None, typer.Option("--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …")
+        list[str] | None,
+        typer.Option(
+            "--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …; with --form solved repeatable."
+        ),
     ] = None,
     at_rest: Annotated[bool, typer.Option("--at-rest", help="All rates are 0.")] = False,
     fixed: Annotated[
@@ -65,10 +68,13 @@ def equations(
 
     if limits and form is not Form.solved:
         raise Mistake(f"--limit is not for --form {form.value}", "take --form solved")
+    wanted = [name.strip() for each in want or () for name in each.split(",")]
+    if form is not Form.solved and len(wanted) > 1:
+        raise Mistake("several unknowns are wanted", "ask for one, or take --form solved")
     if form is Form.solved:
-        found = solved(opened(model), want, at_rest, pairs(fixed), pairs(limits))
+        found = solved(opened(model), wanted, at_rest, pairs(fixed), pairs(limits))
     else:
-        found = derived(opened(model), form.value, want, at_rest, pairs(fixed))
+        found = derived(opened(model), form.value, wanted[0] if wanted else None, at_rest, pairs(fixed))
     asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json)) if given]
     if len(asked) > 1:
         raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json")
@@ -96,11 +102,10 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
         raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
 
-def solved(mechanism: Mechanism, want: str | None, at_rest: bool, fixed: dict[str, str], limits: dict[str, str]) -> Document:
-    """Accelerations, or what is wanted (names with commas between), solved in letters."""
-    wanted = [name.strip() for name in want.split(",")] if want else None
+def solved(mechanism: Mechanism, wanted: list[str], at_rest: bool, fixed: dict[str, str], limits: dict[str, str]) -> Document:
+    """Accelerations, or what is wanted, solved in letters."""
     try:
-        return mechanism.solve_in_letters(wanted, at_rest=at_rest, set=fixed, limits=limits).document
+        return mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=fixed, limits=limits).document
     except KeyError as error:
         raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
