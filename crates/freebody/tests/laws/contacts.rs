@@ -355,7 +355,7 @@ fn polygons_that_meet_with_corners_touch_just_where_they_are() {
         // Pushed off one side, it may be too far from another.
         for _ in 0..1000 {
             let (height, normal) = parted(&placed(at), &fixed);
-            at = at - normal * height;
+            at -= normal * height;
         }
         let mut balance = Balance::new(&m, &[]);
         balance.place(0.0, &[at.x, at.y, angle], &[0.0; 3]);
