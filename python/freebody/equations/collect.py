@@ -45,6 +45,18 @@ def pythagorean(tree: Tree) -> Tree:
     return add(*map(_joined, terms))
 
 
+def without_circles(tree: Tree) -> Tree:
+    """The expression with ``pythagorean`` applied to every sum in it."""
+    match tree:
+        case Add(terms):
+            return pythagorean(add(*map(without_circles, terms)))
+        case Mul(factors):
+            return mul(*map(without_circles, factors))
+        case Pow(base, exponent):
+            return power(without_circles(base), exponent)
+    return tree
+
+
 def quotient(above: Tree, below: Tree) -> Tree:
     """``above / below`` without the factors that both have: (m g l)/(m l²) is g/l. It holds where these factors are not 0."""
     (size, top), (divisor, bottom) = _split(factored(above)), _split(factored(below))

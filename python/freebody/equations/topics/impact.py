@@ -10,7 +10,7 @@ import numpy as np
 
 from freebody.balances.reasons import agree
 from freebody.equations.answers import AGREES, with_positive_divisors
-from freebody.equations.collect import collected
+from freebody.equations.collect import collected, without_circles
 from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance
@@ -222,11 +222,12 @@ def _answers(found: Blow) -> list[Block]:
     made: list[Block] = [Heading("After the blow")]
     try:
         solved = rates_after(found)
-        made += _given(found) + [Equation(x, tree) for x, tree in solved.items()]
+        made += _given(found) + [Equation(x, without_circles(tree)) for x, tree in solved.items()]
         joints = impulses_of_joints(found, solved)
     except (TooLarge, Singular, ArithmeticError) as error:
         return [*made, Paragraph(f"In letters no more is said: {error}.")]
-    return made + [Equation(x, tree, "and in the joints" if i == 0 else "") for i, (x, tree) in enumerate(joints.items())]
+    told = [(x, without_circles(tree)) for x, tree in joints.items()]
+    return made + [Equation(x, tree, "and in the joints" if i == 0 else "") for i, (x, tree) in enumerate(told)]
 
 
 def _given(found: Blow) -> list[Block]:
