@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -70,15 +71,20 @@ def _sum(terms: list[tuple[float, Any]], unit: float) -> Tree:
 
 def with_exact_numbers(tree: Tree) -> Tree:
     """An expression with its plain measured numbers as fractions."""
+    return _with_numbers(tree, lambda value: exact(value) if isinstance(value, float) else Num(value))
+
+
+def _with_numbers(tree: Tree, told: Callable[[float | Fraction], Tree]) -> Tree:
+    """An expression with every number as it is ``told``."""
     match tree:
-        case Num(float() as value):
-            return exact(value)
+        case Num(value):
+            return told(value)
         case Add(parts) | Mul(parts):
-            return type(tree)(tuple(map(with_exact_numbers, parts)))
+            return type(tree)(tuple(_with_numbers(part, told) for part in parts))
         case Pow(base, exponent):
-            return Pow(with_exact_numbers(base), exponent)
+            return Pow(_with_numbers(base, told), exponent)
         case Fn(name, args):
-            return Fn(name, tuple(map(with_exact_numbers, args)))
+            return Fn(name, tuple(_with_numbers(arg, told) for arg in args))
         case _:
             return tree
 
@@ -97,16 +103,9 @@ def exact(value: float) -> Tree:
 
 def shown(tree: Tree) -> Tree:
     """With numbers to five figures, as they are printed."""
-    match tree:
-        case Num(float() as value):
-            return Num(float(f"{value:.{_FIGURES}g}"))
-        case Num(Fraction(denominator=below) as value) if below > _PLAIN:
-            return Num(float(f"{float(value):.{_FIGURES}g}"))
-        case Add(parts) | Mul(parts):
-            return type(tree)(tuple(map(shown, parts)))
-        case Pow(base, exponent):
-            return Pow(shown(base), exponent)
-        case Fn(name, args):
-            return Fn(name, tuple(map(shown, args)))
-        case _:
-            return tree
+    return _with_numbers(tree, _in_figures)
+
+
+def _in_figures(value: float | Fraction) -> Tree:
+    plain = isinstance(value, Fraction) and value.denominator <= _PLAIN
+    return Num(value if plain else float(f"{float(value):.{_FIGURES}g}"))
