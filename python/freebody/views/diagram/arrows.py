@@ -17,8 +17,14 @@ LENGTH = 36.0  # pt of a symbolic arrow
 LONGEST = 72.0  # pt of the largest force to scale
 SHORTEST = 9.0  # pt below which an arrow is all head
 _LONGER = (1.0, 1.5, 2.0)
-_ASIDES = (0.0, 6.0, -6.0)  # pt that one may be moved which else would be hidden: of a slider its couple makes up for it
-_MOVED = 5.0  # how much worse it is to move any other
+_ASIDES = (0.0, 6.0, -6.0, 11.0, -11.0)  # pt that one may be moved which else would be hidden
+_MOVED = 5.0  # what a pt of that costs; of a slider, whose couple makes up for it, less
+_OFF_ITS_POINT = 120.0  # what it costs to move one that has a point of its own at all
+_HIDDEN = 700.0  # what it costs that two arrows lie on each other, all along the shorter one
+_SIDE_BY_SIDE = 3.0  # pt between two parallel arrows that can be told apart
+_MEETING = 4.0  # pt that two arrows on one line may share where they meet
+_PARALLEL = 0.05  # rad, between arrows that could be taken for one
+_SWEEPS = 3
 _HEAD_ROOM = 13.0  # pt between two heads
 _RADII = (11.0, 15.0, 19.0, 23.0)
 _OWN = 6.0  # pt about its own point, where an arrow may meet others
@@ -42,6 +48,11 @@ class Arrow:
         return np.array([self.tail, self.head])
 
     @property
+    def length(self) -> float:
+        """In pt."""
+        return float(np.hypot(*(self.head - self.tail)))
+
+    @property
     def free(self) -> Array:
         """The end at which it has room for a letter."""
         return self.head if np.array_equal(self.tail, self.at) else self.tail
@@ -61,54 +72,79 @@ Mark = Arrow | Bow
 
 def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | None = None) -> list[Mark]:
     """Arrows for all actions. ``per_newton``: pt for each N, to scale; None for arrows of one length."""
-    marks: list[Mark] = []
     order = sorted((a for a in actions if not a.turns), key=lambda a: 2 * (a.kind != "weight") + scenery.slides(a))
-    for action in order:
-        marks.append(_arrow(action, scenery, marks, per_newton))
+    offered = [_choices(action, scenery, per_newton) for action in order]
+    own = [[_alone(choice, scenery) for choice in choices] for choices in offered]
+    chosen: list[Arrow | None] = [None] * len(order)
+    for _ in range(_SWEEPS):
+        before = list(chosen)
+        for i, choices in enumerate(offered):
+            others = [arrow for j, arrow in enumerate(chosen) if arrow is not None and j != i]
+            costs = [alone + _among(choice, others) for choice, alone in zip(choices, own[i], strict=True)]
+            chosen[i] = choices[int(np.argmin(costs))]
+        if all(new is old for new, old in zip(chosen, before, strict=True)):
+            break
+    marks: list[Mark] = [arrow for arrow in chosen if arrow is not None]
     for action in actions:
         if action.turns:
             marks.append(_bow(action, scenery, marks))
     return marks
 
 
-def _arrow(action: Action, scenery: Scenery, marks: Sequence[Mark], per_newton: float | None) -> Arrow:
+def _choices(action: Action, scenery: Scenery, per_newton: float | None) -> list[Arrow]:
+    """The ways in which a force may be drawn."""
     at, size = scenery.place(action.at), float(np.hypot(*action.force))
     way = action.force / size
     lengths = [LENGTH * more for more in _LONGER] if per_newton is None else [max(per_newton * size, SHORTEST)]
-    slides = scenery.slides(action)
-    movable = per_newton is None and (slides or action.pulls or action.kind == "force")
-    asides = _ASIDES if movable else (0.0,)
-    starts = [at + aside * np.array([-way[1], way[0]]) for aside in asides]
+    starts = [at + aside * np.array([-way[1], way[0]]) for aside in _ASIDES]
     choices = [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
     if action.kind not in ("weight", "effective") and not action.pulls:
         choices += [Arrow(action, start, start - length * way, start) for start in starts for length in lengths]
-    ink = scenery.ink
-    moved = 1.0 if slides else _MOVED
-    costs = [_cost(choice, scenery, ink, marks) + moved * float(np.hypot(*(choice.at - at))) for choice in choices]
-    return choices[int(np.argmin(costs))]
+    return choices
 
 
-def _cost(arrow: Arrow, scenery: Scenery, ink: Array, marks: Sequence[Mark]) -> float:
-    """What an arrow hides and what hides it."""
+def _moved(action: Action, scenery: Scenery, aside: Array) -> float:
+    """What it costs to draw a force beside its line."""
+    if scenery.slides(action):
+        return float(np.hypot(*aside))
+    pinned = not (action.pulls or action.kind == "force")
+    return _MOVED * float(np.hypot(*aside)) + _OFF_ITS_POINT * (pinned and bool(aside.any()))
+
+
+def shared(one: Arrow, other: Arrow) -> float:
+    """How far, in pt, two arrows lie on each other."""
+    way = (one.head - one.tail) / one.length
+    along, aside = np.array([way, (-way[1], way[0])]) @ (other.line - one.tail).T
+    if abs(aside[1] - aside[0]) > _PARALLEL * other.length or np.abs(aside).max() > _SIDE_BY_SIDE:
+        return 0.0
+    return max(0.0, min(one.length, along.max()) - max(0.0, along.min()))
+
+
+def _alone(arrow: Arrow, scenery: Scenery) -> float:
+    """What an arrow hides of the bodies, and how far it is from where one expects it."""
     shaft = dense([arrow.line])
     inside = sum(int(_within(shaft, solid).sum()) for solid in scenery.solids)
-    other = dense([mark.line for mark in marks])
-    beyond = shaft[np.hypot(*(shaft - arrow.at).T) > _OWN]
-    near = _near(beyond, other, 4.0)
-    heads = [mark.line[-1] for mark in marks] + [mark.at for mark in marks if isinstance(mark, Arrow)]
-    crowded = sum(float(np.hypot(*(arrow.head - head)) < _HEAD_ROOM) for head in heads if not np.allclose(head, arrow.at))
-    converging = sum(float(np.hypot(*(mark.line[-1] - arrow.head)) < 1.0) for mark in marks)
-    drawn = _near(beyond, ink, 2.5)
+    drawn = _near(_beyond(arrow, shaft), scenery.ink, 2.5)
     reverse = 3.0 * np.array_equal(arrow.head, arrow.at)
-    return (
-        1.5 * inside
-        + 12.0 * near
-        + 40.0 * crowded
-        + 8.0 * converging
-        + 1.0 * drawn
-        + 0.6 * float(np.hypot(*(arrow.head - arrow.tail)))
-        + reverse
-    )
+    aside = _moved(arrow.action, scenery, arrow.at - scenery.place(arrow.action.at))
+    return 1.5 * inside + 1.0 * drawn + 0.6 * arrow.length + reverse + aside
+
+
+def _among(arrow: Arrow, others: Sequence[Arrow]) -> float:
+    """What an arrow hides of others, and they of it."""
+    hidden = sum(max(0.0, shared(arrow, other) - _MEETING) / min(arrow.length, other.length) for other in others)
+    near = _near(_beyond(arrow, dense([arrow.line])), dense([other.line for other in others]), 4.0)
+    heads = np.array([other.head for other in others]).reshape(-1, 2)
+    places = np.vstack([heads, np.array([other.at for other in others]).reshape(-1, 2)])
+    meeting = np.hypot(*(places - arrow.at).T) < 1.0
+    crowded = int((np.hypot(*(places - arrow.head).T)[~meeting] < _HEAD_ROOM).sum())
+    converging = int((np.hypot(*(heads - arrow.head).T) < 1.0).sum())
+    return _HIDDEN * hidden + 12.0 * near + 40.0 * crowded + 8.0 * converging
+
+
+def _beyond(arrow: Arrow, shaft: Array) -> Array:
+    """What of its shaft is away from where it acts, where arrows may meet."""
+    return shaft[np.hypot(*(shaft - arrow.at).T) > _OWN]
 
 
 def _near(places: Array, ink: Array, distance: float) -> int:
