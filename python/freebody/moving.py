@@ -225,6 +225,7 @@ class Moving:
         *,
         to_scale: bool = False,
         effective: bool = True,
+        column: float = 160.0,
         initial: Mapping[str, Any] | None = None,
         **changes: Any,
     ) -> Diagram:
@@ -233,15 +234,16 @@ class Moving:
         ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
         by itself. Drawn is the start with ``changes`` (as in ``solve``), or a time ``at`` of the motion (s, or ``"200 ms"``;
         0 is after the events at the start).
-        ``effective`` draws m a and I α beside. Raises ``ValueError`` for a body that is none and for a time that the motion
-        does not reach.
+        ``effective`` draws m a and I α beside. ``column`` is the width of the text in which it will stand, mm: the drawings are
+        made for it, letters keep their size. Raises ``ValueError`` for a body that is none, for a time that the motion does not
+        reach and for a column that is too narrow.
         """
-        from freebody.views.diagram import diagram, groups
+        from freebody.views.diagram import diagram, groups, points
 
         now = self.solve(initial=initial, **changes) if at is None else self._instant_at(at)
         with self.told():
             free = now.free_bodies()
-        return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective)
+        return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective, points(column))
 
     def blow(self: Builder, number: int = 1, *, of: str | None = None, at: float | str | None = None) -> Blow:
         """The blow of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
@@ -259,14 +261,15 @@ class Moving:
         at: float | str | None = None,
         to_scale: bool = False,
         effective: bool = True,
+        column: float = 160.0,
     ) -> Diagram:
-        """Impulse diagrams of a blow, chosen as in ``blow`` by ``number`` and ``at``; ``of``, ``to_scale`` and ``effective`` as in
-        ``diagram``, with m Δv and I Δω in place of m a and I α."""
-        from freebody.views.diagram import groups
+        """Impulse diagrams of a blow, chosen as in ``blow`` by ``number`` and ``at``; all else as in ``diagram``, with m Δv and I Δω
+        in place of m a and I α."""
+        from freebody.views.diagram import groups, points
         from freebody.views.diagram.impulses import impulse_diagram
 
         found = self.blow(number, at=at)
-        return impulse_diagram(found, groups(of, found.impulses), to_scale, effective)
+        return impulse_diagram(found, groups(of, found.impulses), to_scale, effective, points(column))
 
     def _instant_at(self: Builder, at: float | str) -> Instant:
         """The motion at a time, after what happens then; at its start after the events there."""

@@ -127,6 +127,7 @@ def diagram(
     changes: Changes = None,
     to_scale: Annotated[bool, typer.Option("--to-scale", help="What acts at the instant, with a scale of forces.")] = False,
     effective: Annotated[bool, typer.Option("--effective/--no-effective", help="Draw m a and I alpha beside.")] = True,
+    column: Annotated[float, typer.Option(metavar="MM", help="Width of the text in which it will stand.")] = 160.0,
     blow: Annotated[
         int | None,
         typer.Option(metavar="NUMBER", help="Impulses during this blow of the run, from 1; --at TIME counts from then."),
@@ -137,11 +138,11 @@ def diagram(
 
     (time, state), mechanism = moment(at), opened(model, changes)
     if blow is None:
-        drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, **state)
+        drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, column=column, **state)
     elif state:
         raise Mistake("--blow is of the run, so --at takes a time", "change the start in the model")
     else:
-        drawn = mechanism.impulse_diagram(of, blow, at=time, to_scale=to_scale, effective=effective)
+        drawn = mechanism.impulse_diagram(of, blow, at=time, to_scale=to_scale, effective=effective, column=column)
     show.written([drawn.save(output)])
 
 

@@ -16,13 +16,16 @@ from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
 from freebody.views.diagram.describe import described
+from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.names import Labels, spoken
 from freebody.views.diagram.panel import Panel
-from freebody.views.diagram.paper import Row
+from freebody.views.diagram.rows import COLUMN, MARGIN, Row, fits
 from freebody.views.diagram.picture import Picture
-from freebody.views.diagram.scenery import Scenery, scenery
+from freebody.views.diagram.scenery import CROWD, Scenery, scenery
 
-_NAMED = 3  # bodies of which the title of a group has the names even where they are all
+_NARROWEST = 60.0  # mm
+_SMALLER = 0.85  # of what is drawn, step by step until it is as narrow as the column
+_SMALLEST = 0.5
 _STEP = 1e-3  # m, rad and their rates: enough for a spring at rest to pull
 
 
@@ -69,10 +72,13 @@ def diagram(
     groups: Sequence[Sequence[str]] | None = None,
     scaled: bool = False,
     effective: bool = True,
+    column: float = COLUMN,
 ) -> Diagram:
-    """Free-body diagrams of groups of bodies (by default every body by itself) at a state."""
+    """Free-body diagrams of groups of bodies (by default every body by itself) at a state, on a sheet as wide as a ``column`` in
+    pt."""
     near = free if scaled else _further(source, state, free)
-    desk = Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective)
+    laws = None if scaled else Laws(source, state, free)
+    desk = Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective, column, laws)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
     return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
 
@@ -88,22 +94,40 @@ class Desk:
     labels: Labels
     scaled: bool
     effective: bool
+    column: float = COLUMN
+    laws: Laws | None = None
 
     def cut(self, group: tuple[str, ...]) -> Cut:
-        """The diagram of a group."""
-        drawn = scenery(self.source, self.state, self.free, group, self.scaled)
+        """The diagram of a group, as large as the column allows."""
+        size = 1.0
+        while not fits(row := self._row(group, size)) and size > _SMALLEST:
+            size *= _SMALLER
+        return Cut(group, row)
+
+    def _row(self, group: tuple[str, ...], size: float) -> Row:
+        drawn = scenery(self.source, self.state, self.free, group, self.scaled, size)
+        crowd = len(group) > CROWD
         forces, terms, notes = self._sides(group, drawn)
         longest = max((action.size for action in forces + terms if not action.turns), default=0.0)
         per_newton = LONGEST / longest if self.scaled and longest > 0 else None
         if per_newton is not None:
             short = [spoken(a.label) for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
-        panels = [Panel(drawn, arranged(forces, drawn, per_newton), group if len(group) > 1 else (), oriented=True)]
+        loaded, bare = drawn.loaded() if crowd else drawn, drawn.bare()
+        panels = [Panel(loaded, arranged(forces, loaded, per_newton), group if len(group) > 1 else (), oriented=True)]
         if terms:
-            bare = drawn.bare()
             panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))
-        title = "all bodies" if len(group) == len(self.free.bodies) > _NAMED else " + ".join(group)
-        return Cut(group, Row(title, panels, per_newton, notes, self.effective and not terms, self.labels.unit))
+        return Row(
+            "all bodies" if len(group) == len(self.free.bodies) > CROWD else " + ".join(group),
+            panels,
+            per_newton,
+            notes,
+            vanishes=self.effective and not terms,
+            unit=self.labels.unit,
+            apart=Panel(drawn, [], (), oriented=False) if crowd and drawn.dimensions else None,
+            column=self.column,
+            laws=self.laws.told(forces, self.column - 2 * MARGIN) if self.laws else (),
+        )
 
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
         """What acts, m a and I α, and remarks."""
@@ -128,6 +152,13 @@ def _further(source: Source, state: State, free: FreeBodies) -> FreeBodies:
 def _uneven(row: Array) -> Array:
     """Small steps, all different, so that differences of coordinates change as well."""
     return _STEP * (1.0 + np.arange(len(row)) % 7 / 3.0)
+
+
+def points(column: float) -> float:
+    """The width of a column in pt, from mm. Raises ``ValueError`` for one that has no room."""
+    if not column >= _NARROWEST:
+        raise ValueError(f"a diagram needs a column of {_NARROWEST:g} mm or more, not {column:g}")
+    return column / 25.4 * 72.0
 
 
 def groups(of: str | Sequence[str] | None, free: FreeBodies) -> list[tuple[str, ...]] | None:

@@ -12,7 +12,7 @@ from freebody.free_body import Body, FreeBodies
 from freebody.naming import ImpulseNaming
 from freebody.views.diagram import Cut, Desk, Diagram
 from freebody.views.diagram.names import Labels
-from freebody.views.diagram.paper import Row
+from freebody.views.diagram.rows import COLUMN, Row
 from freebody.views.diagram.picture import Picture
 
 
@@ -61,12 +61,16 @@ class Impulses(Picture):
 
 
 def impulse_diagram(
-    blow: Blow, groups: Sequence[Sequence[str]] | None = None, scaled: bool = False, effective: bool = True
+    blow: Blow,
+    groups: Sequence[Sequence[str]] | None = None,
+    scaled: bool = False,
+    effective: bool = True,
+    column: float = COLUMN,
 ) -> Diagram:
     """Impulse diagrams of groups of bodies (by default every body by itself) during a blow, with what is absent and why."""
     free, source = blow.impulses, blow.source
     touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
-    desk = Desk(source, blow.state, touched, touched, _Jumps(ImpulseNaming.of(blow)), scaled, effective)
+    desk = Desk(source, blow.state, touched, touched, _Jumps(ImpulseNaming.of(blow)), scaled, effective, column)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
     return Diagram(f"impulse diagrams of {source.name}", tuple(_told(desk.cut(group), blow) for group in chosen))
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.results import Array
 from freebody.views.diagram.arrows import Bow
-from freebody.views.diagram.layout import extent
 from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone
+from freebody.views.diagram.rows import LINE, MARGIN, NOTE, TITLE, Laid, Row, laid
 from freebody.views.paint import patch
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, PAPER, quiet
@@ -21,38 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLUMN = 454.0  # pt, 160 mm: the text of a page
-_MARGIN, _BETWEEN, _ROWS, _HEAD, _LINE = 8.0, 26.0, 22.0, 20.0, 13.0
+_ROWS = 22.0  # pt between rows
 _PIN = 2.6  # pt
-_TITLE, _NOTE = 10.5, 8.0
-_LETTERS = 90  # of a remark in a line
-
-
-@dataclass(frozen=True)
-class Row:
-    """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks; ``vanishes``: the panel
-    stands for nothing, a body without mass. ``unit``: of what is drawn."""
-
-    title: str
-    panels: Sequence[Panel]
-    per_newton: float | None
-    notes: Sequence[str]
-    vanishes: bool = False
-    unit: str = "N"
-
-    @property
-    def lines(self) -> list[str]:
-        """The remarks, line by line."""
-        return [line.replace("$", r"\$") for note in self.notes for line in wrap(note, _LETTERS)]
-
-
-@dataclass(frozen=True)
-class _Set:
-    """A row laid out: the shift of every panel from the row's upper left corner, places of the signs =, and its size."""
-
-    shifts: list[Array]
-    signs: list[Array]
-    size: Array
 
 
 def sheet(rows: Sequence[Row]) -> Figure:
@@ -60,73 +28,37 @@ def sheet(rows: Sequence[Row]) -> Figure:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    laid = [_laid(row) for row in rows]
-    width = max(each.size[0] for each in laid) + 2 * _MARGIN
-    height = sum(each.size[1] for each in laid) + _ROWS * (len(rows) - 1) + 2 * _MARGIN
+    placed = [laid(row) for row in rows]
+    width = max(each.size[0] for each in placed) + 2 * MARGIN
+    height = sum(each.size[1] for each in placed) + _ROWS * (len(rows) - 1) + 2 * MARGIN
     with quiet():
         figure = Figure(figsize=(width / 72, height / 72), dpi=72)
         FigureCanvasAgg(figure)
         ax = figure.add_axes((0, 0, 1, 1))
         ax.set_axis_off()
         ax.set(xlim=(0, width), ylim=(0, height))
-        top = height - _MARGIN
-        for row, each in zip(rows, laid, strict=True):
-            _row(ax, row, each, np.array([_MARGIN, top]))
+        top = height - MARGIN
+        for row, each in zip(rows, placed, strict=True):
+            _row(ax, row, each, np.array([MARGIN, top]))
             top -= each.size[1] + _ROWS
     return figure
 
 
-def _laid(row: Row) -> _Set:
-    """Panels beside each other with the bodies at one height, or below each other where the column is too narrow."""
-    boxes = [panel.box() for panel in row.panels]
-    widths = [high[0] - low[0] for low, high in boxes]
-    beside = sum(widths) + _BETWEEN * (len(boxes) - 1) <= COLUMN
-    shifts, signs, x, y = [], [], 0.0, -_HEAD
-    top, bottom = max(high[1] for _, high in boxes), min(low[1] for low, _ in boxes)
-    for i, (low, high) in enumerate(boxes):
-        if i and beside:
-            signs.append(np.array([x + _BETWEEN / 2, y - top + _middle(row.panels[0])]))
-            x += _BETWEEN
-        elif i:
-            signs.append(np.array([_BETWEEN / 2, y - (high[1] - low[1]) / 2]))
-        indent = _BETWEEN if i and not beside else 0.0
-        shifts.append(np.array([x + indent - low[0], y - (top if beside else high[1])]))
-        if beside:
-            x += widths[i]
-        else:
-            y -= high[1] - low[1] + _LINE
-    if row.vanishes:
-        signs.append(np.array([x + _BETWEEN, y - top + _middle(row.panels[0])]))
-        x += 2 * _BETWEEN
-    depth = -y + (top - bottom if beside else -_LINE)
-    width = x if beside else max(w + (_BETWEEN if i else 0.0) for i, w in enumerate(widths))
-    written = [extent(row.title, _TITLE, True)[0], *(extent(note, _NOTE)[0] for note in row.lines)]
-    return _Set(shifts, signs, np.array([max(width, *written), depth + _foot(row)]))
-
-
-def _middle(panel: Panel) -> float:
-    """Height of the middle of what is drawn of the bodies."""
-    heights = np.concatenate([stroke.points[:, 1] for stroke in panel.scenery.strokes] or [np.zeros(1)])
-    return float((heights.min() + heights.max()) / 2)
-
-
-def _foot(row: Row) -> float:
-    return _LINE * (len(row.lines) + (row.per_newton is not None)) + (4.0 if row.lines or row.per_newton else 0.0)
-
-
-def _row(ax: Axes, row: Row, laid: _Set, corner: Array) -> None:
-    ax.text(*corner, row.title.replace("$", r"\$"), ha="left", va="top", fontsize=_TITLE, fontweight="bold", color=INK)
-    for sign in laid.signs:
+def _row(ax: Axes, row: Row, placed: Laid, corner: Array) -> None:
+    for i, line in enumerate(row.heading):
+        at = corner - (0.0, i * LINE)
+        ax.text(*at, line, ha="left", va="top", fontsize=TITLE, fontweight="bold", color=INK)
+    for sign in placed.signs:
         ax.text(*(corner + sign), "= 0" if row.vanishes else "=", ha="center", va="center", fontsize=16, color=INK)
-    for panel, shift in zip(row.panels, laid.shifts, strict=True):
+    for panel, shift in placed.panels:
         _panel(ax, panel, corner + shift)
-    foot = corner - (0.0, laid.size[1] - _foot(row) + 4.0)
+    foot = corner - (0.0, placed.size[1] - row.foot + 4.0)
     if row.per_newton is not None:
         _scale(ax, row.per_newton, row.unit, foot - (0.0, 8.0))
-        foot = foot - (0.0, _LINE)
-    for note in row.lines:
-        ax.text(*foot, note, ha="left", va="top", fontsize=_NOTE, color=GREY)
-        foot = foot - (0.0, _LINE)
+        foot = foot - (0.0, LINE)
+    for line in row.lines:
+        ax.text(*foot, line, ha="left", va="top", fontsize=NOTE, color=GREY)
+        foot = foot - (0.0, LINE)
 
 
 def _panel(ax: Axes, panel: Panel, shift: Array) -> None:

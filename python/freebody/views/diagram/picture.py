@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from zlib import crc32
 
-from freebody.views.diagram.paper import Row, sheet
+from freebody.views.diagram.paper import sheet
+from freebody.views.diagram.rows import Row
 from freebody.views.style import quiet
 
 if TYPE_CHECKING:

@@ -24,7 +24,8 @@ from freebody.views.style import colour
 SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
 _ROOM = 130.0, 115.0  # pt, what a single body may take
 _WIDER = 260.0, 160.0  # pt, what two or three may take
-_WIDEST = 380.0, 260.0  # pt, what more may take
+_WIDEST = 400.0, 300.0  # pt, what more may take
+CROWD = 3  # bodies of which a diagram has room for the names, the loads and the coordinates
 _LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
 _FAR = 60.0  # pt, longest arrow of a coordinate on a small body
 _STUB = 26.0  # pt, what is shown of a longer one
@@ -89,7 +90,11 @@ class Scenery:
 
     def bare(self) -> Scenery:
         """The same without coordinates and points other than mass centres."""
-        return replace(self, dimensions=[], points=[tag for tag in self.points if tag.text == "G"])
+        return replace(self.loaded(), points=[tag for tag in self.points if tag.text == "G"])
+
+    def loaded(self) -> Scenery:
+        """The same without coordinates, with room for loads."""
+        return replace(self, dimensions=[])
 
     @property
     def solids(self) -> list[Array]:
@@ -129,9 +134,12 @@ def _contains(outline: Array, places: Array) -> bool:
     return bool(Path(outline).contains_points(places).any())
 
 
-def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool) -> Scenery:
-    """The bodies of a group as large as the paper allows."""
-    room = _ROOM if len(group) == 1 else _WIDER if len(group) < 4 else _WIDEST
+def scenery(
+    source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0
+) -> Scenery:
+    """The bodies of a group as large as the paper allows, or ``size`` of that."""
+    width, height = _ROOM if len(group) == 1 else _WIDER if len(group) <= CROWD else _WIDEST
+    room = size * width, size * height
     sketch, scene, scale = _fitted(source, state, room, lambda scene, _: [each.points for each in _strokes(scene, group, 1.0)])
     strokes = _strokes(scene, group, scale)
     strokes = _arms(strokes, sketch, free, group, scale) + strokes

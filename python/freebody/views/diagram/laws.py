@@ -1,0 +1,134 @@
+"""What the letters of given forces stand for, in the sense of their arrows, as it stands in the balances of their bodies."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeAlias
+
+from freebody.equations.latex import latex, latex_lines
+from freebody.equations.text import columns
+from freebody.equations.tree import ZERO, Sym, Tree, is_zero, negative, number, read
+from freebody.free_body import FreeBodies
+from freebody.instant import State
+from freebody.run import Source
+from freebody.views.diagram.actions import Action
+from freebody.views.diagram.names import letter, spoken
+from freebody.views.draw import UNTOLD
+
+_LETTER = 5.0  # pt, of a formula below a diagram
+_LEAST = 20  # letters of a line
+_ON_AXIS = 1e-9
+_SPACE = re.compile(r"(\\text\{[^}]*\})|(?<=[\w})]) (?=[\w\\(])")
+"""Between factors; words keep theirs."""
+_PLAIN = re.compile(r"[^\W\d]\w*")
+_Parts: TypeAlias = tuple[Tree, Tree, Tree]
+"""What a load gives to the balances of a body: along x, along y, about its mass centre."""
+
+
+@dataclass(frozen=True)
+class Laws:
+    """The laws of the forces of a model at a state."""
+
+    source: Source
+    state: State
+    free: FreeBodies
+
+    def told(self, actions: Sequence[Action], width: float) -> list[str]:
+        """Lines of mathtext about the loads that have a law and not only a letter, ``width`` pt long as far as terms can be parted."""
+        lines: dict[str, list[str]] = {}
+        for action in actions:
+            if action.kind == "force" and action.label not in lines:
+                lines[action.label] = list(self._law(action, int(width / _LETTER)))
+        made = [line for each in lines.values() for line in each]
+        return [f"where {line}" if not i else line for i, line in enumerate(made)]
+
+    def size(self, action: Action) -> Tree | None:
+        """The size of a known load in the sense of its arrow, where that is along an axis or a couple; None where it is not."""
+        [load] = action.loads
+        x, y, moment = self._parts.get((load.symbol, action.body), (ZERO, ZERO, ZERO))
+        if action.turns:
+            return moment if action.couple > 0 else negative(moment)
+        for along, across, sense, aside in ((x, y, *action.force), (y, x, *action.force[::-1])):
+            if is_zero(across) and abs(aside) < _ON_AXIS:
+                return along if sense > 0 else negative(along)
+        return None
+
+    def _law(self, action: Action, width: int) -> Iterator[str]:
+        [load], size = action.loads, self.size(action)
+        if size is None:
+            law = self._of_length(load.name, load.symbol)
+        else:
+            law = latex_lines(size, width=max(_LEAST, width - columns(f"where {spoken(action.label)} = ")))
+        if law and law[0] != action.label:
+            law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""
+            yield f"${action.label} = {_plain(law[0])}$"
+            yield from (rf"$\qquad {_plain(line)}$" for line in law[1:])
+
+    def _has_cases(self, name: str) -> bool:
+        return any(force["cases"] for force in self.source.about["forces"] if force["name"] == name)
+
+    @cached_property
+    def _parts(self) -> Mapping[tuple[str, str], _Parts]:
+        """By symbol of the load and body. Empty where letters would fill pages."""
+        from freebody._core import MotionError
+
+        forces = [load for load in self.free.loads if load.kind == "force"]
+        bodies = [name for name in self.free.bodies if any(part.body == name for load in forces for part in load.on)]
+        ways: list[dict[str, Any]] = [{"along": "x"}, {"along": "y"}]
+        asked = [
+            {"ask": "equation", "bodies": [name], "momentum": False, **way}
+            for name in bodies
+            for way in (*ways, {"about": {"point": f"{name}.G"}})
+        ]
+        s = self.state
+        try:
+            told = json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps(asked)))["answers"]
+        except MotionError:
+            return {}
+        given = [{each["load"]: read(each["tree"]) for each in answer["loads"]} for answer in told]
+        return {
+            (load.symbol, name): tuple(given[3 * k + way].get(i, ZERO) for way in range(3))
+            for k, name in enumerate(bodies)
+            for i, load in enumerate(self.free.loads)
+            if load in forces and any(part.body == name for part in load.on)
+        }
+
+    def _of_length(self, name: str, symbol: str) -> list[str]:
+        """That of a spring or damper between two points, in the distance of these; of what else pulls aslant nothing is told."""
+        spec = next(each for each in json.loads(self.source.spec)["forces"] if each["name"] == name)
+        fields = spec["with"]
+        stiffness, rest, damping = (_quantity(fields.get(word, 0)) for word in ("stiffness", "rest_length", "damping"))
+        if "between" not in fields or stiffness is None or rest is None or damping is None:
+            return []
+        length = rf"\overline{{{' '.join(map(self._end, fields['between']))}}}"
+        if spec["type"] == "damper" or symbol.endswith(".2"):
+            return [_times(damping, rf"\frac{{d}}{{dt}}{length}")]
+        stretch = length if is_zero(rest) else rf"\left({length} - {latex(rest)}\right)"
+        return [_times(stiffness, stretch)]
+
+    def _end(self, point: str) -> str:
+        """The letter of a point; of a particle it is that of its body."""
+        body, _, last = point.rpartition(".")
+        if last not in UNTOLD:
+            return letter(last)
+        return letter(body if self.free.bodies[body].particle else f"{body}_{last}")
+
+
+def _quantity(given: Any) -> Tree | None:
+    """A number or a letter of the model; None of what is longer."""
+    if isinstance(given, int | float):
+        return number(given)
+    return Sym(given) if _PLAIN.fullmatch(given) else None
+
+
+def _times(factor: Tree, rest: str) -> str:
+    return rest if factor == number(1) else rf"{latex(factor)}\,{rest}"
+
+
+def _plain(line: str) -> str:
+    """As mathtext knows it, which has no space between letters of its own."""
+    return _SPACE.sub(lambda found: found[1] or r"\,", line.replace(r"\tfrac", r"\frac"))
