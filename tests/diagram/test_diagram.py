@@ -1,5 +1,7 @@
 """What a diagram is called, says and becomes on paper."""
 
+import re
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,6 +10,7 @@ from typer.testing import CliRunner
 
 from freebody.cli import app
 from freebody.model import Mechanism
+from freebody.views.diagram.gallery import write_gallery
 from freebody.views.diagram.layout import Ink, Label, placed
 from freebody.views.diagram.names import letter
 from freebody.views.diagram.paper import round_below
@@ -127,6 +130,17 @@ def test_the_page_of_all_diagrams(tmp_path):
     own = [line.split('"')[0] for line in text.split(' id="')[1:]]
     assert len(own) == len(set(own))
     assert {line.split('"')[0] for line in text.split(' href="#')[1:]} <= set(own)
+
+
+def test_the_page_shows_the_first_blow_of_every_kind(tmp_path):
+    """A wheel of eight feet that fall one after another has one kind; a foot and a stop at one time are two."""
+    page = tmp_path / "page.html"
+    write_gallery([("19.3.30", Path("systems/19.3.30/model.yaml")), ("GEN-STEP", Path("systems/GEN-STEP/floor.yaml"))], page)
+    text = page.read_text(encoding="utf-8")
+    assert re.findall(r"<h3>Blow (\d+) of the run, of ([^,]*),", text) == [("1", "foot[2]"), ("1", "other"), ("2", "foot")]
+    assert text.count("<title>impulse diagrams of ") == 1 + 2 * 2
+    own = re.findall(r' id="([^"]*)"', text)
+    assert len(own) == len(set(own))
 
 
 def test_labels_of_one_place_make_room_for_each_other():

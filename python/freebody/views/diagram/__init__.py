@@ -19,8 +19,8 @@ from freebody.views.diagram.describe import described
 from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.names import Labels, spoken
 from freebody.views.diagram.panel import Panel
-from freebody.views.diagram.rows import COLUMN, MARGIN, Row, fits
 from freebody.views.diagram.picture import Picture
+from freebody.views.diagram.rows import COLUMN, MARGIN, Row, fits
 from freebody.views.diagram.scenery import CROWD, Scenery, scenery
 
 _NARROWEST = 60.0  # mm

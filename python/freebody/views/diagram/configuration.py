@@ -11,8 +11,8 @@ import numpy as np
 from freebody.instant import State
 from freebody.run import Source
 from freebody.views.diagram.panel import Panel
-from freebody.views.diagram.rows import Row
 from freebody.views.diagram.picture import Picture
+from freebody.views.diagram.rows import Row
 from freebody.views.diagram.scenery import Scenery, whole
 from freebody.views.scene import sketch_of_state
 

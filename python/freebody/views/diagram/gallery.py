@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from freebody.blow import Blow, blows
+from freebody.views.diagram.impulses import impulse_diagram
 
 if TYPE_CHECKING:
     from freebody.model import Mechanism
@@ -16,7 +19,7 @@ _PAGE = """<!doctype html>
 <style>
 body {{ font: 15px/1.4 system-ui, sans-serif; color: #23272e; margin: 2em auto; max-width: 90em; padding: 0 1em }}
 section {{ display: flex; flex-wrap: wrap; gap: 1em 3em; align-items: flex-start; border-top: 1px solid #d5d9de; padding: 1em 0 }}
-h2 {{ flex: 100%; font-size: 1.1em; margin: 0 }} svg {{ max-width: 100%; height: auto }} p {{ color: #b3261e }}
+h2, h3 {{ flex: 100%; font-size: 1.1em; margin: 0 }} h3 {{ font-size: 1em; font-weight: normal }} svg {{ max-width: 100%; height: auto }} p {{ color: #b3261e }}
 h2 a {{ color: inherit; text-decoration: none }} h2 a:hover {{ text-decoration: underline }}
 nav {{ columns: 24em; margin-bottom: 2em }} nav a {{ display: block; color: #0b5fa5 }}
 </style>
@@ -30,15 +33,16 @@ nav {{ columns: 24em; margin-bottom: 2em }} nav a {{ display: block; color: #0b5
 
 
 def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
-    """One page with the diagrams of models, each with a heading and a link to it: every body, and the group of all where there are several.
-    A model whose start has no answer is named with the reason."""
+    """One page with the diagrams of models, each with a heading and a link to it: every body, and the group of all where there are
+    several; and the impulses of the first blow of each kind in its run. A model whose start has no answer is named with the reason."""
     from freebody.model import Mechanism
 
     links, sections = [], []
     for heading, model in models:
         place = re.sub(r"\W+", "-", heading).strip("-")
         links.append(f'<a href="#{place}">{escape(heading)}</a>')
-        pictures = _pictures(Mechanism.load(model), f"d{len(sections)}-")
+        mechanism, prefix = Mechanism.load(model), f"d{len(sections)}-"
+        pictures = "\n".join([_pictures(mechanism, prefix), *_blows(mechanism, f"{prefix}b")])
         sections.append(f'<section id="{place}"><h2><a href="#{place}">{escape(heading)}</a></h2>\n{pictures}</section>')
     path.write_text(_PAGE.format(links="\n".join(links), sections="\n".join(sections)), encoding="utf-8")
     return path
@@ -54,3 +58,30 @@ def _pictures(mechanism: Mechanism, prefix: str) -> str:
     except MotionError as error:
         return f"<p>{escape(error.args[2])}</p>"
     return "\n".join(each.inline(f"{prefix}{i}") for i, each in enumerate(drawn))
+
+
+def _blows(mechanism: Mechanism, prefix: str) -> Iterator[str]:
+    """The impulse diagrams of the run, one blow of each kind: its bodies, and all together where there are several."""
+    for k, (number, blow) in enumerate(_kinds(mechanism)):
+        what = " and ".join(blow.change.of) or "what is engaged"
+        yield f"<h3>Blow {number} of the run, of {escape(what)}, at t = {blow.change.t:.4g} s: impulses</h3>"
+        several = len(blow.impulses.bodies) > 1
+        for i, group in enumerate([None, [tuple(blow.impulses.bodies)]] if several else [None]):
+            yield impulse_diagram(blow, group).inline(f"{prefix}{k}-{i}")
+
+
+def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Blow]]:
+    """The first blow of every kind, and its number; parts that repeat are of one kind. Of a model that does not run there is none."""
+    from freebody._core import MotionError
+    from freebody.model.errors import ModelFileError
+
+    try:
+        run = mechanism.simulate()
+    except (MotionError, ModelFileError):
+        return
+    seen = set()
+    for number, blow in enumerate(blows(run), 1):
+        kind = tuple(re.sub(r"\[\d+\]", "", name) for name in blow.change.of)
+        if kind not in seen:
+            seen.add(kind)
+            yield number, blow

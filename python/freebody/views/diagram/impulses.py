@@ -12,8 +12,8 @@ from freebody.free_body import Body, FreeBodies
 from freebody.naming import ImpulseNaming
 from freebody.views.diagram import Cut, Desk, Diagram
 from freebody.views.diagram.names import Labels
-from freebody.views.diagram.rows import COLUMN, Row
 from freebody.views.diagram.picture import Picture
+from freebody.views.diagram.rows import COLUMN, Row
 
 
 @dataclass(frozen=True)

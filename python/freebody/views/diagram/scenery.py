@@ -134,9 +134,7 @@ def _contains(outline: Array, places: Array) -> bool:
     return bool(Path(outline).contains_points(places).any())
 
 
-def scenery(
-    source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0
-) -> Scenery:
+def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0) -> Scenery:
     """The bodies of a group as large as the paper allows, or ``size`` of that."""
     width, height = _ROOM if len(group) == 1 else _WIDER if len(group) <= CROWD else _WIDEST
     room = size * width, size * height
