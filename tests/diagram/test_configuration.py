@@ -1,5 +1,6 @@
 """The sketch of a derivation: every coordinate of every joint is drawn as what it measures."""
 
+import json
 import re
 from dataclasses import replace
 from functools import cache
@@ -12,7 +13,7 @@ from freebody import catalogue
 from freebody.equations.topics import topic
 from freebody.model import Mechanism
 from freebody.model.cards import joints
-from freebody.views.diagram.configuration import Configuration
+from freebody.views.diagram.configuration import Configuration, Places
 from freebody.views.diagram.names import letter
 from freebody.views.measures import measures
 from freebody.views.scene import sketch_of_state
@@ -44,10 +45,10 @@ VALUES = np.array([0.8, 0.5, -1.1])
 
 
 @cache
-def drawn(model):
+def drawn(model, picture=Configuration):
     mechanism = Mechanism.load(MODELS[model])
     state, notes = mechanism.start()
-    return Configuration(mechanism.source(notes), state)
+    return picture(mechanism.source(notes), state)
 
 
 every_model = pytest.mark.parametrize("model", sorted(MODELS))
@@ -62,14 +63,49 @@ def test_every_coordinate_has_its_mark_and_it_can_be_seen(model):
 
 
 @every_model
-def test_no_two_labels_overlap_and_all_are_on_the_paper(model):
-    [row] = drawn(model).rows
+@pytest.mark.parametrize("picture", [Configuration, Places])
+def test_no_two_labels_overlap_and_all_are_on_the_paper(model, picture):
+    [row] = drawn(model, picture).rows
     [panel] = row.panels
     low, high = panel.box()
     for label in panel.labels:
         assert (low <= label.centre - label.half + 1e-9).all() and (label.centre + label.half <= high + 1e-9).all()
     for a, b in combinations(panel.labels, 2):
         assert (np.abs(a.centre - b.centre) >= a.half + b.half - 1e-9).any(), (a.label.text, b.label.text)
+
+
+@every_model
+def test_every_body_is_placed_by_itself(model):
+    """x and y of its mass centre from the origin, and its angle from the x axis, as the state is drawn."""
+    found = drawn(model, Places)
+    bodies = json.loads(found.source.spec)["bodies"]
+    marks = {each.text: each for each in found.scenery.dimensions}
+    assert list(marks) == [
+        letter(f"{word}_{body['name']}") for body in bodies for word in ("x", "y", "phi")[: 2 if body["particle"] else 3]
+    ]
+    scale, sketch = found.scenery.scale, found.scenery.sketch
+    for body in bodies:
+        name = body["name"]
+        place = sketch.place(f"{name}.G") - sketch.place("ground.O")
+        for word, along, unit in zip("xy", place, np.eye(2), strict=True):
+            way = marks[letter(f"{word}_{name}")].arrow @ unit
+            if abs(along) > sketch.size:
+                assert way[1] - way[0] == pytest.approx(scale * along, rel=1e-9)
+            assert way[1] > way[0] or along < 0
+        if not body["particle"]:
+            vertex, end = marks[letter(f"phi_{name}")].guides[1]
+            turn = sketch.poses[0, sketch.names.index(name), 2]
+            assert (end - vertex) / np.hypot(*(end - vertex)) == pytest.approx([np.cos(turn), np.sin(turn)], abs=1e-9)
+
+
+@pytest.mark.parametrize("model", ["GEN-FOURBAR/model", "19.3.20/model", "S19.19/model"])
+def test_the_sketch_with_constraints_has_their_coordinates(model):
+    mechanism = Mechanism.load(MODELS[model])
+    made = mechanism.equations("constraints")
+    told = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
+    assert sorted(letter(name) for name in told) == sorted(each.text for each in drawn(model, Places).scenery.dimensions)
+    html = made.document.html()
+    assert html.count("<svg") == 1 and "[Figure" not in html
 
 
 def test_every_joint_with_coordinates_is_looked_at():

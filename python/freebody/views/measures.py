@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -12,7 +12,7 @@ import numpy as np
 from freebody.model.cards import joints as cards
 from freebody.results import Array
 from freebody.views import shapes
-from freebody.views.scene import Sketch, named_points
+from freebody.views.scene import GROUND, Sketch, named_points
 from freebody.views.symbols import points_of_curve
 
 _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
@@ -22,6 +22,7 @@ _APART = 1.6  # sizes of symbols between two arrows
 _Marks: TypeAlias = tuple[Array, list[Array]]
 """Arrow and guides."""
 _TWO_POINTS = "direction"
+_OWN_ANGLE = "phi"  # of a body by itself
 _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 
 
@@ -59,8 +60,17 @@ class _Asked:
 
 def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
     """Every coordinate that can be drawn at the sketched state, off each other; ``radius`` of the arcs in sizes of symbols."""
+    return _apart(sketch, _asked(sketch), radius)
+
+
+def places(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
+    """x and y of every mass centre from ``ground.O`` and the angle of every body that has one, as if each were free."""
+    return _apart(sketch, _as_if_free(sketch), radius)
+
+
+def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[Measure]:
     taken: list[Array] = []
-    for asked in _asked(sketch):
+    for asked in wanted:
         place = place_of(sketch, asked.joint)
         if place is None:
             continue
@@ -70,9 +80,8 @@ def measures(sketch: Sketch, radius: float = 3.4) -> Iterator[Measure]:
         taken.append(arrow)
         angle = asked.dimension == "rad"
         told = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
-        yield Measure(
-            asked.name, asked.first, asked.second, arrow, guides, place, angle, angle and asked.word != _TWO_POINTS, told
-        )
+        of_axis = angle and asked.word not in (_TWO_POINTS, _OWN_ANGLE)
+        yield Measure(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, told)
 
 
 def _asked(sketch: Sketch) -> Iterator[_Asked]:
@@ -87,6 +96,18 @@ def _asked(sketch: Sketch) -> Iterator[_Asked]:
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
         count[coordinate["joint"]] += 1
         yield _Asked(name, joint, first, second, word, coordinate["dimension"], given.get("sense", 1), float(value))
+
+
+def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
+    for body in sketch.spec["bodies"]:
+        name = body["name"]
+        joint = {"type": "free", "with": {"of": [f"{GROUND}.O", f"{name}.G"]}}
+        x, y = sketch.place(f"{name}.G") - sketch.place(f"{GROUND}.O")
+        yield _Asked(f"x_{name}", joint, GROUND, name, "x", "m", 1, float(x))
+        yield _Asked(f"y_{name}", joint, GROUND, name, "y", "m", 1, float(y))
+        if not body["particle"]:
+            angle = float(sketch.poses[0, sketch.names.index(name), 2])
+            yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", 1, angle)
 
 
 def _clear(arrow: Array, taken: list[Array], gap: float) -> bool:

@@ -9,7 +9,7 @@ from freebody.equations.derivation import closing
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row, Subject
-from freebody.equations.document import Block, Equation, Heading, Matrices, Matrix, Paragraph, Written, listed
+from freebody.equations.document import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import Linear
 from freebody.equations.tree import Tree, is_zero, negative, read
@@ -24,6 +24,8 @@ _LEGEND = (
     "accelerations a; λ are the unknown forces, f the known ones, c what of the constraints depends on velocities and time. "
 )
 
+_CAPTION = "Every body by itself: its mass centre from the origin, its angle from the x axis. What is 0 now is drawn a little further on."
+
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
 
 
@@ -33,7 +35,7 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
     names = told["coordinates"]
     rows = [Row.read(each) for each in told["rows"]]
     equations = [_balance(each) for each in told["balances"]]
-    made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names))]
+    made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names)), _sketch(subject)]
     if rows:
         made += closing.section(rows, names, everywhere=True)
     made.append(Heading("Balance equations"))
@@ -42,6 +44,13 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
     form = Form.of(letters, equations + closing.printed(rows), [])
     made += _in_blocks(form.system, len(equations))
     return replace(form, blocks=tuple(made)), letters
+
+
+def _sketch(subject: Subject) -> Figure:
+    """The mechanism with the place of every body."""
+    from freebody.views.diagram.configuration import Places
+
+    return Figure(Places(subject.source, subject.state), _CAPTION, "sketch")
 
 
 def _in_blocks(system: System, balances: int) -> list[Block]:

@@ -13,7 +13,8 @@ from freebody.run import Source
 from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import Row
-from freebody.views.diagram.scenery import Scenery, whole
+from freebody.views.diagram.scenery import Scenery, Tag, whole
+from freebody.views.measures import places
 from freebody.views.scene import sketch_of_state
 
 _TURNED = 0.2  # rad, below which an angle can hardly be seen
@@ -49,6 +50,22 @@ class Configuration(Picture):
         """In words, what the drawing shows."""
         told = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.about["coordinates"]]
         return f"{self.source.name}, drawn with its coordinates: {'; '.join(told)}."
+
+
+@dataclass(frozen=True)
+class Places(Configuration):
+    """The same with the coordinates of bodies that are placed each by itself: x and y of the mass centre, and the angle."""
+
+    @cached_property
+    def scenery(self) -> Scenery:
+        """What is seen, with a dimension for every coordinate."""
+        drawn = whole(self.source, _opened(self.source, self.state), places)
+        return replace(drawn, points=drawn.points + [Tag("", centre) for centre in drawn.centres.values()])
+
+    @property
+    def description(self) -> str:
+        """In words, what the drawing shows."""
+        return f"{self.source.name}, drawn with x and y of each mass centre from the origin O, and the angle of each body."
 
 
 def _opened(source: Source, state: State) -> State:

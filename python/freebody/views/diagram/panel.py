@@ -79,7 +79,7 @@ def _others(scenery: Scenery, names: Sequence[str]) -> Iterator[Label]:
         yield Label(f"${dimension.text}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
         if dimension.axis is not None:
             yield Label(f"${dimension.axis.text}$", dimension.axis.at[None], 8.0, MEASURE)
-    for tag in scenery.points:
+    for tag in filter(lambda tag: tag.text, scenery.points):
         yield Label(f"${tag.text}$", tag.at[None], 9.0, INK)
     for name in names:
         yield Label(name.replace("$", r"\$"), scenery.centres[name][None], 9.0, GREY, bold=True)

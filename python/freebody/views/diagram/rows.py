@@ -81,7 +81,7 @@ def laid(row: Row) -> Laid:
     if row.apart is not None:
         made = _with(made, row.apart)
     written = [*(extent(line, TITLE, True)[0] for line in row.heading), *(extent(line, NOTE)[0] for line in row.lines)]
-    return Laid(made.panels, made.signs, np.array([max(made.size[0], *written), made.size[1] + row.foot]))
+    return Laid(made.panels, made.signs, np.array([max([made.size[0], *written]), made.size[1] + row.foot]))
 
 
 def _beside(row: Row) -> Laid:

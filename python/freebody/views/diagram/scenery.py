@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
-from freebody.views.measures import measures
+from freebody.views.measures import Measure, measures
 from freebody.views.scene import GROUND, Scene, Sketch, drawn, sketch_of_state
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import colour
@@ -38,6 +39,8 @@ _LOOSE = ("rail", "slot", "hatch")
 _SOLID = ("body", "block", "band", "mass")
 _CUT = ("pin", "weld")
 _PINNED = ("hinge", "link", "slot", "curved_slot", "polar")
+Measured: TypeAlias = Callable[[Sketch, float], Iterable[Measure]]
+"""What finds coordinates to draw in a sketch; the number is the radius of arcs in sizes of symbols."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Tag:
-    """A name for a place."""
+    """A name for a place; without a text it is only a dot."""
 
     text: str
     at: Array
@@ -146,25 +149,27 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     pins = scale * _pins(sketch, free, group)
     points = _points(sketch, group, centres, scale)
     across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
-    dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR))
+    dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR), measures(sketch, _RADIUS))
     return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
-def whole(source: Source, state: State) -> Scenery:
-    """The mechanism on its ground with joints, springs and strings, and all its coordinates, as large as the paper allows."""
+def whole(source: Source, state: State, measured: Measured = measures) -> Scenery:
+    """The mechanism on its ground with joints, springs and strings, and all its coordinates, or others, as large as the paper
+    allows."""
     names = [body["name"] for body in source.about["bodies"]]
 
     def seen(scene: Scene, sketch: Sketch) -> list[Array]:
         lines = [stroke.points for stroke in _strokes(scene, [GROUND, *names], 1.0)] + _joining(scene)
         across = float(np.hypot(*np.ptp(np.vstack(lines), axis=0)))
         far = _FURTHER * across if across > _POINT * sketch.size else np.inf
-        return lines + [m.arrow for m in measures(sketch, _RADIUS) if np.hypot(*np.ptp(m.arrow, axis=0)) < far]
+        return lines + [m.arrow for m in measured(sketch, _RADIUS) if np.hypot(*np.ptp(m.arrow, axis=0)) < far]
 
     sketch, scene, scale = _fitted(source, state, _WIDEST, seen)
     strokes = _strokes(scene, [GROUND, *names], scale, hidden=())
     inner = [scale * line for line in _joining(scene)]
     centres = {name: scale * sketch.place(f"{name}.G") for name in names}
-    dimensions = _dimensions(sketch, [GROUND, *names], strokes, scale, False, float(np.hypot(*_WIDEST)))
+    far, wanted = float(np.hypot(*_WIDEST)), measured(sketch, _RADIUS)
+    dimensions = _dimensions(sketch, [GROUND, *names], strokes, scale, False, far, wanted)
     made = Scenery(strokes, inner, np.zeros((0, 2)), centres, [], dimensions, scale, sketch)
     low, high = made.ink.min(axis=0) - _NEARBY, made.ink.max(axis=0) + _NEARBY
     points = _points(sketch, [GROUND, *names], centres, scale)
@@ -249,11 +254,17 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
 
 
 def _dimensions(
-    sketch: Sketch, group: Collection[str], strokes: Sequence[Drawn], scale: float, scaled: bool, far: float
+    sketch: Sketch,
+    group: Collection[str],
+    strokes: Sequence[Drawn],
+    scale: float,
+    scaled: bool,
+    far: float,
+    measured: Iterable[Measure],
 ) -> list[Dimension]:
     """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
     found = []
-    for measure in measures(sketch, _RADIUS):
+    for measure in measured:
         if measure.second not in group:
             continue
         value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
