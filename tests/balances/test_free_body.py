@@ -9,6 +9,7 @@ import planar
 import pytest
 
 import freebody as fb
+from freebody import catalogue
 from freebody.free_body import FreeBodies, Indeterminate
 
 SYSTEMS = Path(__file__).parents[2] / "systems"
@@ -41,6 +42,52 @@ def test_the_loads_on_every_group_add_up_to_its_effective_side(free):
         assert free.balance_gap(*group) < 1e-12
         for about in ((0.0, 0.0), (1.3, -0.7)):
             np.testing.assert_allclose(free.acting(*group, about=about), free.effective(*group, about=about), atol=1e-10)
+
+
+CATALOGUE = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
+WITHOUT_ANSWER = {"19.3.23/idle"}  # a body without inertia moves freely: no instant, so no loads
+INDETERMINATE = {"GEN-CAR/model", "GEN-CAR/driveshaft", "GEN-SLIDER/dead_point"}  # what guides and loops share among themselves
+every_model = pytest.mark.parametrize("model", sorted(set(CATALOGUE) - WITHOUT_ANSWER))
+
+
+@every_model
+def test_of_every_model_the_loads_on_every_group_add_up(model):
+    """To m a and its moment plus I α about any place; round-off is that of the largest force over the size of the mechanism."""
+    free = fb.load(CATALOGUE[model]).free_bodies()
+    places = np.array([body.G for body in free.bodies.values()] + [part.point for load in free.loads for part in load.on])
+    parts = [(load.value, part) for load in free.loads if load.determinate for part in load.on]
+    force = max((np.abs(value * np.array(part.force)).max() for value, part in parts), default=0.0)
+    couple = max((abs(value * part.couple) for value, part in parts), default=0.0)
+    size = np.hypot(*np.ptp(places, axis=0)) + couple / (force or 1.0)
+    known = [group for group in groups(free) if all(load.determinate for load in free.on(*group))]
+    assert (len(known) < 2 ** len(free.bodies) - 1) == (model in INDETERMINATE)
+    for group in known:
+        for about in (free.centre(*group), (1.3, -0.7)):
+            gap = np.abs(free.acting(*group, about=about) - free.effective(*group, about=about))
+            reach = size + np.hypot(*np.subtract(about, places).T).max()
+            particle = len(group) == 1 and free.bodies[group[0]].particle  # which has no balance of moments
+            assert (gap[:2] <= 1e-12 * force).all() and (particle or gap[2] <= 1e-12 * force * reach + 1e-15)
+
+
+@every_model
+def test_of_every_model_the_loads_give_the_motion(model):
+    """m times the rate of the velocities that the run has, by differences over a thousandth of a while in which nothing switches.
+    Those of the liveliest motions are good to 1e-3, of most to 1e-8."""
+    mechanism = fb.load(CATALOGUE[model])
+    run = mechanism.simulate()
+    changes = [run.t[0], *(change.t for change in run.changes), run.t[-1]]
+    start, end = max(zip(changes, changes[1:], strict=False), key=lambda pair: pair[1] - pair[0])
+    t, h = 0.6 * start + 0.4 * end, 1e-3 * (end - start)
+    free = run.instant(t).free_bodies()
+    for name, body in free.bodies.items():
+        loads = free.on(name)
+        if not all(load.determinate for load in loads):
+            continue
+        acting = free.acting(name, about=body.G)[:2]
+        ends = [[run.evaluate(f"rate({x}({name}.G))", t + k * h) for x in "xy"] for k in (-2, -1, 1, 2)]
+        rate = np.array([1, -8, 8, -1]) @ np.array(ends) / (12 * h)
+        force = max((np.abs(load.value * np.array(part.force)).max() for load in loads for part in load.on), default=0.0)
+        np.testing.assert_allclose(acting, body.mass * rate, rtol=0, atol=3e-3 * force + 1e-9)
 
 
 def test_a_load_forgotten_or_turned_round_leaves_a_gap(free):
