@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -162,6 +162,14 @@ class FreeBodies:
         Raises ``Indeterminate`` where a load is not determined."""
         return sum((load.acting(group, about) for load in self.on(*group)), np.zeros(3))
 
+    def data(self, *group: str) -> dict[str, Any]:
+        """The diagram of a group as plain data, SI: every load with what it does to each body of the group, and the effective side
+        with its moment about the mass centre. A value that is not determined is None."""
+        about = self.centre(*group)
+        x, y, moment = self.effective(*group, about=about)
+        told = {"force": [float(x), float(y)], "moment": float(moment), "about": list(about)}
+        return {"bodies": list(group), "loads": [_told(load, group) for load in self.on(*group)], "effective": told}
+
     def balance_gap(self, *group: str) -> float:
         """How far the loads on a group are from its effective side, relative to the largest force, and the largest moment that
         such a force could have about its mass centre."""
@@ -184,6 +192,12 @@ class FreeBodies:
         for name in group:
             if name not in self.bodies:
                 raise KeyError(f"no body is called {name!r}; there are {', '.join(self.bodies)}")
+
+
+def _told(load: Load, group: Collection[str]) -> dict[str, Any]:
+    plain = {word: getattr(load, word) for word in ("name", "symbol", "kind", "component", "unknown", "determinate")}
+    on = [asdict(part) for part in load.on if part.body in group]
+    return plain | {"value": load.value if load.determinate else None, "of": list(load.of), "on": on}
 
 
 def _pair(values: Any) -> Pair:

@@ -1,7 +1,7 @@
 """Free bodies as data: complete, opposite in pairs, and in balance with the motion, alone and in any group."""
 
 from itertools import chain as flat
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -76,7 +76,7 @@ def test_of_every_model_the_loads_give_the_motion(model):
     mechanism = fb.load(CATALOGUE[model])
     run = mechanism.simulate()
     changes = [run.t[0], *(change.t for change in run.changes), run.t[-1]]
-    start, end = max(zip(changes, changes[1:], strict=False), key=lambda pair: pair[1] - pair[0])
+    start, end = max(pairwise(changes), key=lambda pair: pair[1] - pair[0])
     t, h = 0.6 * start + 0.4 * end, 1e-3 * (end - start)
     free = run.instant(t).free_bodies()
     for name, body in free.bodies.items():

@@ -1,5 +1,6 @@
 """What a diagram is called, says and becomes on paper."""
 
+import json
 import re
 from pathlib import Path
 from xml.etree import ElementTree
@@ -14,6 +15,7 @@ from freebody.views.diagram.gallery import write_gallery
 from freebody.views.diagram.layout import Ink, Label, placed
 from freebody.views.diagram.names import letter
 from freebody.views.diagram.paper import round_below
+from freebody.views.diagram.rows import MARGIN
 
 GUN = "systems/S19.17/model.yaml"
 TRACK = r"N_{\text{track}}"
@@ -94,6 +96,11 @@ def test_a_body_that_is_none(gun):
         gun.diagram("rod+barrel")
 
 
+def test_a_column_without_room(gun):
+    with pytest.raises(ValueError, match="a column of 60 mm or more, not 20"):
+        gun.diagram(column=20)
+
+
 def test_a_time_that_is_never_reached(gun):
     with pytest.raises(ValueError, match="the motion ends at"):
         gun.diagram(at="100 s")
@@ -119,6 +126,29 @@ def test_mistakes_are_said_in_a_line(arguments, said):
     done = CliRunner().invoke(app, ["diagram", GUN, *arguments])
     assert done.exit_code == 2
     assert said in done.output
+
+
+def test_the_list_of_forces_is_printed_and_adds_up():
+    """Forces at their points and couples, times the values, give m a at G and the moment about it."""
+    done = CliRunner().invoke(app, ["diagram", "systems/GEN-FOURBAR/model.yaml", "--json", "--of", "bc", "--of", "ab+bc"])
+    assert done.exit_code == 0, done.output
+    for told in json.loads(done.output):
+        effective, sums = told["effective"], np.zeros(3)
+        for load in told["loads"]:
+            for part in load["on"]:
+                (x, y), (fx, fy) = np.subtract(part["point"], effective["about"]), part["force"]
+                sums += load["value"] * np.array([fx, fy, part["couple"] + x * fy - y * fx])
+        assert sums == pytest.approx([*effective["force"], effective["moment"]], rel=1e-9, abs=1e-9)
+        assert {load["letter"] for load in told["loads"]} >= {"C_x", "C_y"}
+
+
+def test_a_pdf_has_pages(tmp_path):
+    """Three bodies of a four-bar stand on one page, all seven of a walker on three, each no higher than the text of a page."""
+    for model, pages in (("GEN-FOURBAR/model", 1), ("GEN-STEP/model", 3)):
+        file = Mechanism.load(f"systems/{model}.yaml").diagram().save(tmp_path / "fbd.pdf")
+        boxes = re.findall(rb"/MediaBox \[ ?0 0 ([0-9.]+) ([0-9.]+) ?\]", file.read_bytes())
+        assert len(boxes) == pages
+        assert all(float(height) <= 700 + 2 * MARGIN for _, height in boxes)
 
 
 def test_the_page_of_all_diagrams(tmp_path):

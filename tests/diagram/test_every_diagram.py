@@ -21,6 +21,7 @@ from freebody.views.shapes import dense
 
 MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
 WITHOUT_ANSWER = {"19.3.23/idle"}  # a body without inertia moves freely: no instant, so no loads
+LONG_LETTERS = {"GEN-CAR/driveshaft": 95}  # mm; "pinion bearing" and "axle" at the two ends of the car, and three more between
 every_model = pytest.mark.parametrize("model", sorted(set(MODELS) - WITHOUT_ANSWER))
 
 
@@ -272,6 +273,16 @@ def test_no_two_labels_overlap(model, of):
     page = Bbox.from_extents(*np.ravel(list(zip(axes.get_xlim(), axes.get_ylim(), strict=True))))
     for box in boxes:
         assert page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+
+
+@every_model
+def test_a_sheet_is_no_wider_than_its_column(model):
+    """160 mm, and for every body by itself also 85 mm, if the letters on one line leave room for the body; they are as large on both."""
+    sheets = [drawn(model), drawn(model, "all"), mechanism(model).diagram(to_scale=True)]
+    narrow = LONG_LETTERS.get(model, 85)
+    for sheet, column in [*((each, 160) for each in sheets), (mechanism(model).diagram(column=85), narrow)]:
+        assert sheet.figure.get_size_inches()[0] * 25.4 <= column + 1e-6
+        assert min(text.get_fontsize() for text in sheet.figure.axes[0].texts) >= 8.0
 
 
 @every_model

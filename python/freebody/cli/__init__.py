@@ -117,7 +117,9 @@ def validate(
 @app.command()
 def diagram(
     model: Model,
-    output: Annotated[Path, typer.Option("-o", "--output", help="The picture: .svg, .png or .pdf.")] = Path("fbd.svg"),
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The picture: .svg, .png or .pdf; fbd.svg by default.")
+    ] = None,
     of: Annotated[
         list[str] | None, typer.Option(metavar="BODIES", help="A body, a group like crank+rod, or all; repeatable.")
     ] = None,
@@ -132,6 +134,7 @@ def diagram(
         int | None,
         typer.Option(metavar="NUMBER", help="Impulses during this blow of the run, from 1; --at TIME counts from then."),
     ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of a blow."""
     from freebody.cli import show
@@ -143,7 +146,12 @@ def diagram(
         raise Mistake("--blow is of the run, so --at takes a time", "change the start in the model")
     else:
         drawn = mechanism.impulse_diagram(of, blow, at=time, to_scale=to_scale, effective=effective, column=column)
-    show.written([drawn.save(output)])
+    if as_json:
+        typer.echo(json.dumps(drawn.data, ensure_ascii=False, indent=1))
+    if output or not as_json:
+        saved = drawn.save(output or Path("fbd.svg"))
+        if not as_json:
+            show.written([saved])
 
 
 @app.command()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -53,6 +54,17 @@ class Diagram(Picture):
 
     name: str
     cuts: tuple[Cut, ...]
+    free: FreeBodies
+
+    @property
+    def data(self) -> list[dict[str, Any]]:
+        """The same as data, one entry for each diagram: see ``FreeBodies.data``; ``letter`` is that of the diagram, in LaTeX."""
+        return [self._told(cut) for cut in self.cuts]
+
+    def _told(self, cut: Cut) -> dict[str, Any]:
+        letters = {load.symbol: mark.action.label for mark in cut.forces for load in mark.action.loads}
+        told = self.free.data(*cut.group)
+        return told | {"loads": [{"letter": letters.get(load["symbol"])} | load for load in told["loads"]]}
 
     @property
     def rows(self) -> list[Row]:
@@ -80,7 +92,7 @@ def diagram(
     laws = None if scaled else Laws(source, state, free)
     desk = Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective, column, laws)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen))
+    return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen), free)
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,7 @@ def impulse_diagram(
     touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
     desk = Desk(source, blow.state, touched, touched, _Jumps(ImpulseNaming.of(blow)), scaled, effective, column)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(f"impulse diagrams of {source.name}", tuple(_told(desk.cut(group), blow) for group in chosen))
+    return Diagram(f"impulse diagrams of {source.name}", tuple(_told(desk.cut(group), blow) for group in chosen), free)
 
 
 def _still(body: Body) -> Body:

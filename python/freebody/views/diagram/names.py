@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from freebody.equations.latex import latex
-from freebody.equations.names import Name
+from freebody.equations.names import Name, unicode_name
 from freebody.equations.text import columns, text
 from freebody.equations.tree import Add, Sym, is_zero, symbols
 from freebody.free_body import Load
@@ -77,9 +77,10 @@ class Labels:
 
 
 def spoken(label: str) -> str:
-    """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``."""
+    """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``, ``\\mu`` → μ."""
     plain = re.sub(r"\\(?:mathrm|mathbf|text)\{([^{}]*)\}", r"\1", label)
     plain = re.sub(r"\\[, ]", " ", plain)
+    plain = re.sub(r"\\([a-zA-Z]+) ?", lambda found: unicode_name(found[1]), plain)
     return re.sub(r"[{}]|\\", "", plain)
 
 

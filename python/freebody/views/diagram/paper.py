@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_PAGE = 700.0  # pt, 247 mm: the height of the text of a page
 _ROWS = 22.0  # pt between rows
 _PIN = 2.6  # pt
 
@@ -42,6 +43,20 @@ def sheet(rows: Sequence[Row]) -> Figure:
             _row(ax, row, each, np.array([MARGIN, top]))
             top -= each.size[1] + _ROWS
     return figure
+
+
+def parted(rows: Sequence[Row]) -> Iterator[list[Row]]:
+    """Rows page by page, as many on each as it takes; a higher one has a page of its own."""
+    page: list[Row] = []
+    left = _PAGE
+    for row in rows:
+        high = float(laid(row).size[1]) + _ROWS
+        if page and high > left:
+            yield page
+            page, left = [], _PAGE
+        page.append(row)
+        left -= high
+    yield page
 
 
 def _row(ax: Axes, row: Row, placed: Laid, corner: Array) -> None:
