@@ -30,9 +30,13 @@ def mechanism(model):
     return Mechanism.load(MODELS[model])
 
 
+def drawn(model, of=None, to_scale=False):
+    return picture(model, of, to_scale)
+
+
 @cache
-def drawn(model, of=None):
-    return mechanism(model).diagram(of)
+def picture(model, of, to_scale):
+    return mechanism(model).diagram(of, to_scale=to_scale)
 
 
 @cache
@@ -278,7 +282,7 @@ def test_no_two_labels_overlap(model, of):
 @every_model
 def test_a_sheet_is_no_wider_than_its_column(model):
     """160 mm, and for every body by itself also 85 mm, if the letters on one line leave room for the body; they are as large on both."""
-    sheets = [drawn(model), drawn(model, "all"), mechanism(model).diagram(to_scale=True)]
+    sheets = [drawn(model), drawn(model, "all"), drawn(model, None, True)]
     narrow = LONG_LETTERS.get(model, 85)
     for sheet, column in [*((each, 160) for each in sheets), (mechanism(model).diagram(column=85), narrow)]:
         assert sheet.figure.get_size_inches()[0] * 25.4 <= column + 1e-6
@@ -324,7 +328,7 @@ def onto(mark, scale):
 @pytest.mark.parametrize("to_scale", [False, True])
 def test_no_arrow_lies_on_another(model, of, to_scale):
     """More than where they meet; half an arrow's head."""
-    for cut in (mechanism(model).diagram(of, to_scale=True) if to_scale else drawn(model, of)).cuts:
+    for cut in drawn(model, of, to_scale).cuts:
         for marks in (cut.forces, cut.effective):
             for one, other in combinations((mark for mark in marks if isinstance(mark, Arrow)), 2):
                 assert shared(one, other) < 4.5, (cut.group, one.action.label, other.action.label)
@@ -339,7 +343,7 @@ def test_arrows_can_be_seen(model):
 
 @every_model
 def test_to_scale_the_arrows_on_a_body_add_up_to_the_effective_side(model):
-    for cut in mechanism(model).diagram(to_scale=True).cuts:
+    for cut in drawn(model, None, True).cuts:
         if cut.row.per_newton is None or any("not determined" in note or "longer" in note for note in cut.row.notes):
             continue
         scale = cut.row.panels[0].scenery.scale

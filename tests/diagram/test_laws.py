@@ -91,4 +91,4 @@ def test_a_spring_aslant_is_told_by_its_length():
 def test_nothing_is_told_below_a_diagram_to_scale():
     mechanism = Mechanism.load(MODELS["19.3.20/model"])
     assert mechanism.diagram("block").cuts[0].row.laws == [r"where $F_{\text{spring}} = k\,y$"]
-    assert mechanism.diagram("block", to_scale=True).cuts[0].row.laws == []
+    assert not mechanism.diagram("block", to_scale=True).cuts[0].row.laws
