@@ -5,7 +5,7 @@
 //! long as friction does not jam the joint each turn brings them closer.
 
 use super::rows::rub_row;
-use super::{Balance, Route, Scale, Source, Trouble};
+use super::{Balance, Route, Scale, Source, Trouble, INCONSISTENT};
 use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 
@@ -96,14 +96,43 @@ impl Balance<'_> {
     }
 
     /// Lets all that rubs go on as it is: what moves slides, the rest sticks, and what is not pressed does neither.
-    pub fn start_rubs(&mut self, still: f64) {
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn start_rubs(&mut self, still: f64) -> Result<(), Trouble> {
         for rub in 0..self.m.rubs.len() {
             self.mode.rubs[rub] = match self.m.rubs[rub].of {
                 Rubbing::Limit(limit) if self.mode.limits[limit].hold != Hold::Pressed => Hold::Open,
+                Rubbing::Joint { joint, .. } if !self.has(self.m.part_of(joint)) => Hold::Open,
                 _ if self.rests(rub, still) => Hold::Stuck,
                 _ => Hold::Sliding(self.rub_rate(rub).signum()),
             };
         }
+        if self.mode.rubs.contains(&Hold::Stuck) && self.contradicts_itself() {
+            self.let_slide_what_cannot_stick()?;
+        }
+        Ok(())
+    }
+
+    /// Whether the constraints of the present mode ask for motions that exclude each other.
+    fn contradicts_itself(&mut self) -> bool {
+        matches!(self.solve_by(Route::Minimal), Err(trouble) if trouble.name == INCONSISTENT)
+    }
+
+    /// Lets slide what no friction can hold, because the other constraints alone tell its acceleration: a slider that turns
+    /// back at the dead point of its crank.
+    fn let_slide_what_cannot_stick(&mut self) -> Result<(), Trouble> {
+        let stuck: Vec<usize> = (0..self.m.rubs.len()).filter(|&rub| self.mode.rubs[rub] == Hold::Stuck).collect();
+        stuck.iter().for_each(|&rub| self.mode.rubs[rub] = Hold::Open);
+        self.solve_by(Route::Minimal)?;
+        let ahead: Vec<f64> = stuck.iter().map(|&rub| self.rub_acceleration(rub)).collect();
+        for (&rub, ahead) in stuck.iter().zip(ahead) {
+            self.mode.rubs[rub] = Hold::Stuck;
+            if self.contradicts_itself() {
+                self.mode.rubs[rub] = Hold::Sliding(ahead.signum());
+            }
+        }
+        Ok(())
     }
 
     /// Turns after which it should be settled what sticks.

@@ -145,7 +145,7 @@ impl Machine<'_> {
 
     /// Decides which limits hold and which joints stick.
     fn stick(&mut self, t: f64, y: &[f64], limits: &[usize], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
-        self.balance.start_rubs(STILL * self.speed);
+        self.balance.start_rubs(STILL * self.speed)?;
         if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }
