@@ -16,10 +16,9 @@ parameters: {mu: 0.2, v: 4 m/s, R: 0.5 m}
 gravity: GRAVITY
 bodies: {bead: {shape: particle, mass: 0.5 kg}}
 ground: {curves: {hoop: {arc: {centre: O, radius: R}}}}
-joints: {wire: {type: curved_slot, along: ground.hoop, point: bead.centre, coordinate: {name: phi, zero: down}, friction: mu}}
+joints: {wire: {type: curved_slot, along: ground.hoop, point: bead.centre, coordinate: {name: phi, zero: -pi/2, sense: SENSE}, friction: mu}}
 initial: {phi: 0, rates: {phi: v/R}}
 """
-HOOP = HOOP.replace("{name: phi, zero: down}", "{name: phi, zero: -pi/2, sense: SENSE}")
 
 
 @pytest.mark.parametrize("sense", ["forward", "backward"])
@@ -49,13 +48,11 @@ def test_a_bead_swings_in_a_rough_hoop_until_it_sticks(v):
     """Each swing goes from rest to rest by the closed form, to one side and to the other; it stays where tan φ ≤ μ."""
     text = HOOP.replace("GRAVITY", "9.81").replace("SENSE", "forward")
     run = motion(text, 6, {"rtol": 1e-11}, v=v)
-    top = brentq(lambda phi: squared_speed(phi, 0.0, v * v, 0.2, 0.5), 1e-6, math.pi / 2)
-    stops = [top]
+    stops = [brentq(lambda phi: squared_speed(phi, 0.0, v * v, 0.2, 0.5), 1e-6, math.pi / 2)]
     while math.tan(abs(stops[-1])) > 0.2:
-        # Seen in a mirror, every swing goes up from where the last one ended.
-        start = -abs(stops[-1])
-        stop = brentq(lambda phi, start=start: squared_speed(phi, start, 0.0, 0.2, 0.5), start + 1e-3, math.pi / 2)
-        stops.append(math.copysign(stop, -stops[-1]) if stop > 0 else -math.copysign(stop, -stops[-1]) * -1)
+        # As a swing to the right: from where the last one ended, on the left.
+        start, side = -abs(stops[-1]), -math.copysign(1, stops[-1])
+        stops.append(side * brentq(lambda phi, at=start: squared_speed(phi, at, 0.0, 0.2, 0.5), start + 1e-3, math.pi / 2))
     told = changes(run)
     assert [c.kind for c in told] == ["reversal"] * (len(stops) - 1) + ["stick"]
     assert [run.evaluate("phi", c.t) for c in told] == pytest.approx(stops, abs=1e-8)
@@ -67,8 +64,8 @@ def test_the_verdict_on_the_edge_of_the_cone(past):
     """A bead that is let go where tan φ = μ stays there; by a little more, it slides."""
     text = HOOP.replace("GRAVITY", "9.81").replace("SENSE", "forward")
     text = text.replace("{phi: 0, rates: {phi: v/R}}", f"{{phi: {math.atan(0.2 * (1 + past))!r}, at_rest: true}}")
-    run = motion(text, 100)
-    assert (run.evaluate("phi", 100) == run.evaluate("phi", 0)) == (past < 0)
+    run = model(text).simulate(until=100)
+    assert run.outcome.ok and (run.evaluate("phi", 100) == run.evaluate("phi", 0)) == (past < 0)
 
 
 ARM = """
@@ -95,7 +92,7 @@ def test_a_straight_curve_of_a_turning_body_rubs_as_a_slot_does():
 CRANK = """
 bodies:
   crank: {shape: rod, length: 0.1 m, mass: 1 kg}
-  rod: {shape: rod, length: 0.4 m, mass: 2 kg, points: {P: end}}
+  rod: {shape: rod, length: 0.4 m, mass: 2 kg, points: {P: end}, point_masses: [{at: end, mass: 2 kg}]}
 ground: {points: {A: [0.1, 0], B: [0.9, 0]}, lines: {way: [A, B]}, curves: {curve: [{line: [A, B]}]}}
 joints:
   axle: {type: hinge, of: [ground.O, crank.start], coordinate: theta}
@@ -108,8 +105,8 @@ initial: {theta: 1, RATES, branch: {x(rod.P): positive}, guess: {guide.s: 0.3}}
 @pytest.mark.parametrize("guide", ["slot, along: ground.way", "curved_slot, along: ground.curve"])
 def test_a_crank_turns_its_rubbing_slider_back_at_the_dead_points(guide):
     """There the slide stops and nothing can hold it: the crank goes through, at θ = π, 2π …"""
-    text = CRANK.replace("GUIDE", guide).replace("RATES", "rates: {theta: 12}")
-    run = motion(text, 0.9)
+    text = CRANK.replace("GUIDE", guide).replace("RATES", "rates: {theta: 30}")
+    run = motion(text, 0.9, {"rtol": 1e-11})
     told = changes(run)
     assert len(told) >= 2 and {c.kind for c in told} == {"reversal"}
     assert [run.evaluate("theta", c.t) for c in told] == pytest.approx([math.pi * (k + 1) for k in range(len(told))], abs=1e-9)
@@ -159,6 +156,6 @@ initial: {{p: 0, q: 0, rates: {{p: 9, q: {0 if absolute == "true" else -9}}}}}
     assert [run.evaluate(f"omega({x})", 3) for x in "ab"] == pytest.approx([9 * ia / (ia + ib)] * 2, rel=1e-10)
 
 
-def test_a_hoop_leaves_out_what_only_contacts_have():
+def test_a_hoop_has_no_bearing():
     with pytest.raises(Exception, match="takes no `bearing_radius`"):
         model(HOOP.replace("friction: mu", "friction: mu, bearing_radius: 0.1 m"))

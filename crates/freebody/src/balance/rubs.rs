@@ -15,7 +15,7 @@ const TURNS: usize = 200;
 const FLIPS: usize = 8;
 /// Part of the mechanism's own accelerations below which one brings nothing back.
 const NOTHING: f64 = 1e-9;
-/// Change of a friction force, over itself, that is round-off.
+/// Change of a friction force that is round-off, over the most that the largest load of all joints would rub.
 const SETTLED: f64 = 1e-14;
 
 impl Balance<'_> {
@@ -23,12 +23,18 @@ impl Balance<'_> {
     fn most_friction(&self, rub: usize, rests: bool) -> f64 {
         let of = &self.m.rubs[rub];
         let pressing = match of.of {
-            Rubbing::Joint { joint, radius, .. } => {
-                self.joint_load(joint).force.norm() * radius.map_or(1.0, |slot| self.n.slots[slot])
-            }
+            Rubbing::Joint { joint, .. } => self.joint_load(joint).force.norm() * self.arm_of(rub),
             Rubbing::Limit(limit) => self.press(limit).max(0.0),
         };
         pressing * self.n.slots[if rests { of.fixed } else { of.kinetic }]
+    }
+
+    /// Radius of the bearing of a hinge, m; else 1.
+    fn arm_of(&self, rub: usize) -> f64 {
+        match self.m.rubs[rub].of {
+            Rubbing::Joint { radius: Some(radius), .. } => self.n.slots[radius],
+            _ => 1.0,
+        }
     }
 
     /// Adds the loads of all that slides.
@@ -47,8 +53,10 @@ impl Balance<'_> {
     pub(super) fn fit_rubs(&mut self, route: Route) -> Result<(), Trouble> {
         for _ in 0..TURNS {
             let wanted: Vec<f64> = (0..self.m.rubs.len()).map(|rub| self.sliding_friction(rub)).collect();
-            let fits = |(&a, &b): (&f64, &f64)| (a - b).abs() <= SETTLED * a.abs().max(b.abs());
-            if wanted.iter().zip(&self.rub_forces).all(fits) {
+            let largest = self.solved.passed.iter().map(|load| load.f.norm()).fold(0.0, f64::max);
+            let noise = |rub: usize| SETTLED * self.n.slots[self.m.rubs[rub].kinetic] * self.arm_of(rub) * largest;
+            let fits = |rub: usize| (wanted[rub] - self.rub_forces[rub]).abs() <= noise(rub);
+            if (0..wanted.len()).all(fits) {
                 return Ok(());
             }
             self.rub_forces = wanted;
