@@ -2,7 +2,7 @@
 
 use super::outline::Outline;
 use super::{twice, CompileError, Compiler, Reach, Result};
-use crate::contact::{Arc, Disk, Friction, Gap, Group, Limit, Profile, Touch};
+use crate::contact::{Arc, Disk, Friction, Gap, Group, Limit, Profile, Touch, Track};
 use crate::mechanism::{Marker, Rub, Rubbing, Slot};
 use crate::plane::Vec2;
 use crate::spec::{Contact, Number, Surface};
@@ -16,6 +16,7 @@ enum Shape {
     Line(Marker),
     Polyline(Outline),
     Polygon(Outline),
+    Track(Track),
 }
 
 impl Shape {
@@ -25,6 +26,7 @@ impl Shape {
             Shape::Circle { centre, .. } | Shape::Arc(Arc { centre, .. }) => *centre,
             Shape::Line(marker) => marker.site,
             Shape::Polyline(outline) | Shape::Polygon(outline) => outline.chains[0].corners[0],
+            Shape::Track(track) => track.stretches[0].ends[0],
         }
     }
 
@@ -47,6 +49,7 @@ impl Shape {
                 vec![Profile::Circle { centre: *centre, radius: *radius, hollow: *hollow }]
             }
             Shape::Arc(arc) => vec![Profile::Arc(arc.clone())],
+            Shape::Track(track) => vec![Profile::Track(track.clone())],
             Shape::Line(marker) => vec![Profile::Line(*marker)],
             Shape::Polyline(outline) | Shape::Polygon(outline) => {
                 outline.chains.iter().cloned().map(Profile::Chain).collect()
@@ -79,15 +82,18 @@ fn each(disks: &[Disk], surface: &Shape) -> Vec<Touch> {
 
 /// The touches of two surfaces; or why they have none, and what to write.
 fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static str, &'static str)> {
-    use Shape::{Arc, Circle, Line, Point, Polygon, Polyline};
+    use Shape::{Arc, Circle, Line, Point, Polygon, Polyline, Track};
     match (a, b) {
         (Point(_), Point(_)) => Err(("two points never touch", "give one of them a circle with a radius")),
         (Line(_), Line(_)) => Err(("two lines without ends cannot touch", "make one of them a polygon or a polyline")),
         (Polyline(_), Polyline(_) | Line(_)) | (Line(_), Polyline(_)) => {
             Err(("a polyline meets points, circles and polygons only", "make the moving surface a polygon"))
         }
-        (Arc(_), other) | (other, Arc(_)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
-            Err(("an arc meets points and circles only", "make the moving surface a circle, or the arc a `polyline`"))
+        (Arc(_) | Track(_), other) | (other, Arc(_) | Track(_))
+            if !matches!(other, Point(_) | Circle { hollow: false, .. }) =>
+        {
+            let what = "an arc, and a track with arcs, meet points and circles only";
+            Err((what, "make the moving surface a circle, or the other a `polyline`"))
         }
         (Circle { hollow: true, .. }, Circle { hollow: true, .. } | Line(_) | Polyline(_))
         | (Line(_) | Polyline(_), Circle { hollow: true, .. }) => Err((
@@ -125,6 +131,7 @@ impl Compiler<'_> {
             }
             let refused = |(what, hint)| CompileError::new(format!("{path}.of"), what, hint);
             let touches = touches(&a, &b).map_err(refused)?;
+            touches.iter().try_for_each(|touch| self.fits(&format!("{path}.of"), touch))?;
             let friction = self.friction(&path, contact)?;
             let restitution = self.restitution(&path, &contact.restitution)?;
             let soft = self.soft(&path, &contact.stiffness, &contact.damping)?;
@@ -238,6 +245,7 @@ impl Compiler<'_> {
             }
             Surface::Line(place) => Shape::Line(self.place(path, place)?.0),
             Surface::Polyline(names) => Shape::Polyline(Outline::polyline(path, &self.corners(path, names, arms)?)?),
+            Surface::Track { start, stretches } => Shape::Track(self.track(path, start, stretches, arms)?),
             Surface::Polygon(names) => Shape::Polygon(Outline::polygon(path, self.corners(path, names, arms)?)?),
         })
     }
