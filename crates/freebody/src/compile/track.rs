@@ -62,7 +62,7 @@ fn fault(stretch: &Stretch, before: Option<&Stretch>, arms: &[Vec2]) -> Option<(
     }
     if let Some(centre) = stretch.centre.map(|site| arms[site]) {
         let [first, last] = [(from - centre).norm(), (to - centre).norm()];
-        if !((first - last).abs() <= SMOOTH * first) {
+        if (first - last).abs() > SMOOTH * first {
             let what = format!("starts {first} m from its centre and ends {last} m from it");
             return Some((what, "let both ends be as far from the centre"));
         }
