@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from freebody.instant import State
 from freebody.results import Array, quote
 from freebody.switched import Limit, limits_of, there
 from freebody.views import shapes
+from freebody.views.flashes import LASTING, Flash, flashes
 
 if TYPE_CHECKING:
     from freebody.run import Run, Source
@@ -84,7 +85,8 @@ class Cord:
 
 @dataclass(frozen=True)
 class Scene:
-    """Figures (ground first), pairs, strings, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols."""
+    """Figures (ground first), pairs, strings, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols;
+    impacts flash up."""
 
     name: str
     size: float
@@ -94,6 +96,7 @@ class Scene:
     t: Array
     poses: Array
     traces: list[str]
+    flashes: list[Flash] = field(default_factory=list)
 
     def index(self, body: str) -> int:
         """Place of a body's figure."""
@@ -156,6 +159,8 @@ class Scene:
                 for c in self.cords
             ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
+            "flashes": [{"t": flash.t, "rays": flash.rays(self.size).round(digits).tolist()} for flash in self.flashes],
+            "lasting": LASTING,
         }
 
 
@@ -286,7 +291,8 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     """The scene of a run at times within it (default: its output times)."""
     shown = run if times is None else run.at(times)
     start = State(run.start.p, float(shown.t[0]), shown.q[0], shown.u[0])
-    return drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
+    scene = drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
+    return replace(scene, flashes=flashes(run))
 
 
 def of_state(source: Source, state: State, traces: Sequence[str] | None = None) -> Scene:
