@@ -150,7 +150,11 @@ def test_what_slides_off_the_end_of_a_road_lifts_off_there():
     """The end of a level stretch: a bead flies on at its height and speed, and is told to have lifted off."""
     for shape in ("particle", "disk"):
         r = BODIES[shape][0]
-        text = HILL.replace("SHAPE", SHAPES[shape]).replace("RADIUS", f"{r} m").replace("{line: [A, B]}, {arc: {centre: C, to: D}}", "{line: [A, B]}")
+        text = (
+            HILL.replace("SHAPE", SHAPES[shape])
+            .replace("RADIUS", f"{r} m")
+            .replace("{line: [A, B]}, {arc: {centre: C, to: D}}", "{line: [A, B]}")
+        )
         run = motion(text, 0.6, {"rtol": 1e-11}, v=4.0)
         (off,) = changes(run, "lift-off")
         assert off.t == pytest.approx(0.25, abs=1e-9)
@@ -159,7 +163,9 @@ def test_what_slides_off_the_end_of_a_road_lifts_off_there():
 
 def test_a_ball_bounces_over_a_valley():
     """Dropped on the slope, with restitution 1 and no friction: energy stays, over many bounces on all stretches."""
-    text = valley("disk", "restitution: 1").replace('ball.y: "R*(1 - cos(a)) + 1*sin(a) + r*cos(a)"', 'ball.y: "R*(1 - cos(a)) + 1*sin(a) + r*cos(a) + 0.2 m"')
+    text = valley("disk", "restitution: 1").replace(
+        'ball.y: "R*(1 - cos(a)) + 1*sin(a) + r*cos(a)"', 'ball.y: "R*(1 - cos(a)) + 1*sin(a) + r*cos(a) + 0.2 m"'
+    )
     run = motion(text, 4, {"rtol": 1e-11})
     assert len(changes(run, "impact")) > 4
     energy = run.evaluate("energy()", np.linspace(0, 4, 50))
@@ -183,3 +189,47 @@ def test_a_track_with_a_fault_is_refused(road, why):
 def test_a_circle_that_does_not_fit_is_refused():
     with pytest.raises(Exception, match="does not fit"):
         model(valley("disk", "friction: 0").replace("radius: 0.1 m", "radius: 1 m")).simulate(until=0.1)
+
+
+BOWL = """
+parameters: {R: 1 m, w: 0.6 m, h: 0.2 m, c: "sqrt(R^2 - w^2/4) - h/2", a: 30 deg}
+bodies: {box: {shape: rectangle, width: w, height: h, mass: 2 kg}}
+ground:
+  points: {A: [-2, 0], L: ["-R*sin(60 deg)", "-R*cos(60 deg)"], O2: [0, 0], B: ["R*sin(60 deg)", "-R*cos(60 deg)"], T: ["-R*(sin(60 deg) + cos(60 deg))", "R*(sin(60 deg) - cos(60 deg))"]}
+  curves: {bowl: [{line: [T, L]}, {arc: {centre: O2, to: B}}]}
+contacts: {bowl: {of: [box, ground.bowl]}}
+initial: {box.x: "c*sin(a)", box.y: "-c*cos(a)", box.angle: a, at_rest: true}
+events: {bottom: {when: box.x, direction: any}}
+"""
+
+
+def test_a_box_in_a_smooth_bowl_swings_as_a_pendulum():
+    """Both lower corners on the arc: it turns about the centre, I_C ω²/2 = m g c (cos φ − cos a)."""
+    run = motion(BOWL, 1.5, {"rtol": 1e-11})
+    assert kinds(run) == [("contact", ("bowl",))]
+    c = math.sqrt(1 - 0.09) - 0.1
+    inertia = 2 * (0.36 + 0.04) / 12 + 2 * c * c
+    bottom = run.events[0].t
+    # The quarter swing by quadrature, with sin φ/2 = sin a/2 · sin ψ.
+    k = math.sin(math.radians(15))
+    quarter = quad(lambda psi: 1 / math.sqrt(1 - (k * math.sin(psi)) ** 2), 0, math.pi / 2, epsabs=1e-13)[0]
+    assert bottom == pytest.approx(quarter * math.sqrt(inertia / (2 * G * c)), abs=1e-9)
+    omega2 = 2 * 2 * G * c * (1 - math.cos(math.radians(30))) / inertia
+    assert run.evaluate("omega(box)", bottom) ** 2 == pytest.approx(omega2, rel=1e-9)
+    assert run.evaluate("bowl.N", bottom) > 2 * (G + c * omega2)
+
+
+def test_a_box_does_not_fall_through_the_end_of_a_track():
+    """Put half over the end of a level road, it tips about the end, which then slides along its side."""
+    text = """
+bodies: {box: {shape: rectangle, width: 1 m, height: 0.2 m, mass: 1 kg}}
+ground: {points: {A: [-2, 0], B: [0, 0]}, curves: {road: [{line: [A, B]}]}}
+contacts: {road: {of: [box, ground.road]}}
+initial: {box.x: 0.1, box.y: 0.1, at_rest: true}
+"""
+    run = motion(text, 0.3, {"rtol": 1e-11})
+    times = np.linspace(0.05, 0.3, 6)
+    along = run.evaluate("box.angle", times)
+    height = -(run.evaluate("box.x", times) * -np.sin(along) + run.evaluate("box.y", times) * np.cos(along))
+    # The end lies on the lower side of the box.
+    assert height == pytest.approx(-0.1, abs=1e-9) and along[-1] < -0.1

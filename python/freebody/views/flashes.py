@@ -33,10 +33,10 @@ class Flash:
         return 1 - (t - self.t) / lasting if self.t <= t < self.t + lasting else 0.0
 
     def rays(self, size: float) -> Array:
-        """Its rays (k, 2, 2) in the fixed axes, for symbols of a ``size``."""
+        """Its rays (k, 2, 2) in the fixed axes, for sparks of a ``size``."""
         angles = 2 * np.pi * (np.arange(_RAYS) + 0.5) / _RAYS
         out = np.column_stack([np.cos(angles), np.sin(angles)])
-        return np.array(self.at) + size * np.stack([0.8 * out, (0.8 + 2.2 * self.strength) * out], axis=1)
+        return np.array(self.at) + size * np.stack([0.4 * out, (0.4 + self.strength) * out], axis=1)
 
 
 def flashes(run: Run) -> list[Flash]:

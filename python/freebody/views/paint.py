@@ -38,7 +38,7 @@ def paint_flashes(scene: Scene, ax: Axes, t: float, lasting: float) -> list[Arti
     artists: list[Artist] = []
     for flash in scene.flashes:
         if glow := flash.glow(t, lasting):
-            for ray in flash.rays(scene.size):
+            for ray in flash.rays(scene.spark):
                 artists += ax.plot(*ray.T, color=IMPACT, lw=1.6, alpha=glow, zorder=3, solid_capstyle="round")
     return artists
 

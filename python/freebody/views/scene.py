@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -130,6 +131,12 @@ class Scene:
         (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
         return float(x0), float(x1), float(y0), float(y1)
 
+    @cached_property
+    def spark(self) -> float:
+        """The size of what flashes up, in m: seen well, however small the symbols are beside the whole."""
+        x0, x1, y0, y1 = self.bounds()
+        return max(2.5 * self.size, 0.02 * float(np.hypot(x1 - x0, y1 - y0)))
+
     def to_json(self) -> dict[str, Any]:
         """The scene for the browser, figures rounded to what a screen can show."""
         digits = 3 - int(np.floor(np.log10(self.size)))
@@ -159,7 +166,7 @@ class Scene:
                 for c in self.cords
             ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
-            "flashes": [{"t": flash.t, "rays": flash.rays(self.size).round(digits).tolist()} for flash in self.flashes],
+            "flashes": [{"t": flash.t, "rays": flash.rays(self.spark).round(digits).tolist()} for flash in self.flashes],
             "lasting": LASTING,
         }
 

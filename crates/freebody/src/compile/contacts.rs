@@ -11,12 +11,17 @@ use std::f64::consts::TAU;
 /// A surface of a model, lowered.
 enum Shape {
     Point(usize),
-    Circle { centre: usize, radius: Slot, hollow: bool },
+    Circle {
+        centre: usize,
+        radius: Slot,
+        hollow: bool,
+    },
     Arc(Arc),
     Line(Marker),
     Polyline(Outline),
     Polygon(Outline),
-    Track(Track),
+    /// A track, and whether one of its arcs bulges to its free side.
+    Track(Track, bool),
 }
 
 impl Shape {
@@ -26,7 +31,7 @@ impl Shape {
             Shape::Circle { centre, .. } | Shape::Arc(Arc { centre, .. }) => *centre,
             Shape::Line(marker) => marker.site,
             Shape::Polyline(outline) | Shape::Polygon(outline) => outline.chains[0].corners[0],
-            Shape::Track(track) => track.stretches[0].ends[0],
+            Shape::Track(track, _) => track.ends()[0],
         }
     }
 
@@ -49,7 +54,7 @@ impl Shape {
                 vec![Profile::Circle { centre: *centre, radius: *radius, hollow: *hollow }]
             }
             Shape::Arc(arc) => vec![Profile::Arc(arc.clone())],
-            Shape::Track(track) => vec![Profile::Track(track.clone())],
+            Shape::Track(track, _) => vec![Profile::Track(track.clone())],
             Shape::Line(marker) => vec![Profile::Line(*marker)],
             Shape::Polyline(outline) | Shape::Polygon(outline) => {
                 outline.chains.iter().cloned().map(Profile::Chain).collect()
@@ -59,10 +64,10 @@ impl Shape {
 
     /// The corners that can touch others.
     fn corners(&self) -> Vec<Disk> {
+        let point = |&centre: &usize| Disk { centre, radius: None, beside: None };
         match self {
-            Shape::Polyline(outline) => {
-                outline.points.iter().map(|&centre| Disk { centre, radius: None, beside: None }).collect()
-            }
+            Shape::Polyline(outline) => outline.points.iter().map(point).collect(),
+            Shape::Track(track, _) => track.ends().iter().map(point).collect(),
             Shape::Polygon(outline) => {
                 let (points, n) = (&outline.points, outline.points.len());
                 let beside = |i: usize| Some([points[(i + n - 1) % n], points[(i + 1) % n]]);
@@ -89,11 +94,15 @@ fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static st
         (Polyline(_), Polyline(_) | Line(_)) | (Line(_), Polyline(_)) => {
             Err(("a polyline meets points, circles and polygons only", "make the moving surface a polygon"))
         }
-        (Arc(_) | Track(_), other) | (other, Arc(_) | Track(_))
-            if !matches!(other, Point(_) | Circle { hollow: false, .. }) =>
-        {
-            let what = "an arc, and a track with arcs, meet points and circles only";
-            Err((what, "make the moving surface a circle, or the other a `polyline`"))
+        (Polygon(_), Track(_, false)) | (Track(_, false), Polygon(_)) => {
+            Ok([each(&a.corners(), b), each(&b.corners(), a)].concat())
+        }
+        (Track(..), other) | (other, Track(..)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
+            let what = "a track meets points and circles only, and polygons where no arc bulges towards them";
+            Err((what, "make the moving surface a circle"))
+        }
+        (Arc(_), other) | (other, Arc(_)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
+            Err(("an arc meets points and circles only", "make the moving surface a circle, or the arc a track"))
         }
         (Circle { hollow: true, .. }, Circle { hollow: true, .. } | Line(_) | Polyline(_))
         | (Line(_) | Polyline(_), Circle { hollow: true, .. }) => Err((
@@ -245,7 +254,11 @@ impl Compiler<'_> {
             }
             Surface::Line(place) => Shape::Line(self.place(path, place)?.0),
             Surface::Polyline(names) => Shape::Polyline(Outline::polyline(path, &self.corners(path, names, arms)?)?),
-            Surface::Track { start, stretches } => Shape::Track(self.track(path, start, stretches, arms)?),
+            Surface::Track { start, stretches } => {
+                let track = self.track(path, start, stretches, arms)?;
+                let bulges = track.stretches.iter().any(|stretch| stretch.bulges(&|site| arms[site]));
+                Shape::Track(track, bulges)
+            }
             Surface::Polygon(names) => Shape::Polygon(Outline::polygon(path, self.corners(path, names, arms)?)?),
         })
     }

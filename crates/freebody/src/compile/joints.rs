@@ -96,7 +96,11 @@ impl Compiler<'_> {
         let turns = card.coordinates.first().is_some_and(|c| c.turn);
         if !card.rubs || self.m.joints[joint].coordinates.is_empty() {
             let what = format!("a {} has no friction of its own", card.word);
-            return Err(CompileError::new(path, what, "give it to a hinge, a slot, a curved slot or a slider, or write a contact"));
+            return Err(CompileError::new(
+                path,
+                what,
+                "give it to a hinge, a slot, a curved slot or a slider, or write a contact",
+            ));
         }
         if turns != friction.radius.is_some() {
             let what = if turns {

@@ -11,13 +11,7 @@ const SMOOTH: f64 = 1e-9;
 
 impl Compiler<'_> {
     /// A track on one body, which goes on smoothly from stretch to stretch at the parameters' own values.
-    pub(super) fn track(
-        &self,
-        path: &str,
-        start: &str,
-        stretches: &[spec::Stretch],
-        arms: &[Vec2],
-    ) -> Result<Track> {
+    pub(super) fn track(&self, path: &str, start: &str, stretches: &[spec::Stretch], arms: &[Vec2]) -> Result<Track> {
         let site = |name: &str| self.names.site(name).map_err(|m| CompileError::from(path, m));
         let (mut from, mut made): (usize, Vec<Stretch>) = (site(start)?, vec![]);
         for (i, stretch) in stretches.iter().enumerate() {
@@ -44,11 +38,8 @@ impl Compiler<'_> {
         let (Profile::Track(track), Some(radius)) = (&touch.against, touch.disk.radius) else { return Ok(()) };
         let n = self.m.bind(&self.m.parameters_with(&[]));
         let arm = |site: usize| n.arms[site];
-        let hollow = |stretch: &&Stretch| {
-            let around = stretch.centre.filter(|&centre| stretch.sense(&arm, centre) > 0.0);
-            around.is_some_and(|centre| (arm(stretch.ends[0]) - arm(centre)).norm() <= n.slots[radius])
-        };
-        let Some(narrow) = track.stretches.iter().position(|stretch| hollow(&stretch)) else { return Ok(()) };
+        let too_narrow = |stretch: &Stretch| stretch.hollow(&arm).is_some_and(|wide| wide <= n.slots[radius]);
+        let Some(narrow) = track.stretches.iter().position(too_narrow) else { return Ok(()) };
         let what = format!("the circle does not fit into the arc that is stretch {} of the track", narrow + 1);
         Err(CompileError::new(path, what, "make the circle smaller than the arc"))
     }

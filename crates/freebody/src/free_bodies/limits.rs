@@ -100,7 +100,9 @@ fn rubbing<S: Scalar>(at: Placed<'_, S>, rub: usize) -> Option<(Origin, Size<S>)
 /// Friction of every joint that rubs.
 pub fn rubs<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, rub) in at.m.rubs.iter().enumerate() {
-        let (Rubbing::Joint { joint: carrier, .. }, Some((origin, size))) = (rub.of, rubbing(at, index)) else { continue };
+        let (Rubbing::Joint { joint: carrier, .. }, Some((origin, size))) = (rub.of, rubbing(at, index)) else {
+            continue;
+        };
         let joint = &at.m.joints[carrier];
         let parts = loaded(at, &rub_row(at, index, None), joint_place(at, carrier));
         out.push(Load {

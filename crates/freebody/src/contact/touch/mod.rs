@@ -168,7 +168,7 @@ impl Touch {
             Profile::Line(marker) => marker.site,
             Profile::Circle { centre, .. } | Profile::Arc(Arc { centre, .. }) => *centre,
             Profile::Chain(chain) => chain.corners[0],
-            Profile::Track(track) => track.stretches[0].ends[0],
+            Profile::Track(track) => track.ends()[0],
         }
     }
 

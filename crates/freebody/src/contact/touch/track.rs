@@ -32,9 +32,20 @@ pub struct Stretch {
 
 impl Stretch {
     /// +1 for an arc that goes round counter-clockwise, so that its centre is on the free side; −1 for the other.
-    pub fn sense<T: Scalar>(&self, arm: &impl Fn(usize) -> Vec2<T>, centre: usize) -> f64 {
+    fn sense<T: Scalar>(&self, arm: &impl Fn(usize) -> Vec2<T>, centre: usize) -> f64 {
         let [from, to] = self.ends.map(|end| arm(end) - arm(centre));
         from.cross(to).value().signum()
+    }
+
+    /// Radius of an arc whose centre is on the free side, so that it is hollow.
+    pub fn hollow(&self, arm: &impl Fn(usize) -> Vec2) -> Option<f64> {
+        let centre = self.centre.filter(|&centre| self.sense(arm, centre) > 0.0)?;
+        Some((arm(self.ends[0]) - arm(centre)).norm())
+    }
+
+    /// Whether it is an arc that bulges to the free side.
+    pub fn bulges(&self, arm: &impl Fn(usize) -> Vec2) -> bool {
+        self.centre.is_some() && self.hollow(arm).is_none()
     }
 
     /// Direction in which it goes at its start, 0, or its end, 1, by the places of sites in the body's axes.
@@ -48,6 +59,11 @@ impl Stretch {
 }
 
 impl Track {
+    /// Sites of its start and its end.
+    pub fn ends(&self) -> [usize; 2] {
+        [self.site(0), self.site(self.stretches.len())]
+    }
+
     fn start(&self) -> usize {
         self.stretches.len()
     }
