@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from seen import changes, kinds, model, motion
 
@@ -57,6 +58,28 @@ def test_a_bead_swings_in_a_rough_hoop_until_it_sticks(v):
     assert [c.kind for c in told] == ["reversal"] * (len(stops) - 1) + ["stick"]
     assert [run.evaluate("phi", c.t) for c in told] == pytest.approx(stops, abs=1e-8)
     assert run.evaluate("rate(phi)", 6) == 0
+
+
+def test_a_bead_goes_slowly_over_the_top_of_a_rough_hoop():
+    """On the way it leans first on the outer, then on the inner, again on the outer side of the wire: N passes 0 twice.
+
+    d(v²)/dφ = −2 g R sin φ − 2 μ |v² + g R cos φ|, integrated piece by piece between the zeros of the pressure.
+    """
+    mu, radius, v = 0.1, 0.5, 5.6
+    rate = lambda side: lambda phi, y: [-2 * G * radius * math.sin(phi) - 2 * mu * side * (y[0] + G * radius * math.cos(phi))]
+    lifted = lambda phi, y: y[0] + G * radius * math.cos(phi)
+    lifted.terminal = True
+    phi, y, side, zeros = 0.0, [v * v], 1.0, []
+    while phi < 2 * math.pi:
+        lifted.direction = -side
+        leg = solve_ivp(rate(side), (phi, 2 * math.pi), y, method="DOP853", rtol=1e-12, atol=1e-12, events=lifted)
+        phi, y, side = leg.t[-1], leg.y[:, -1], -side
+        zeros += list(leg.t_events[0])
+    assert len(zeros) == 2
+    text = HOOP.replace("GRAVITY", "9.81").replace("SENSE", "forward") + "events: {round: {when: phi - 2*pi, then: stop}}\n"
+    run = motion(text, 5, {"rtol": 1e-11}, v=v, mu=mu)
+    end = run.outcome.t
+    assert (radius * run.evaluate("rate(phi)", end)) ** 2 == pytest.approx(y[0], rel=1e-8)
 
 
 @pytest.mark.parametrize("past", [-1e-12, 1e-12])

@@ -15,7 +15,7 @@ const TURNS: usize = 200;
 const FLIPS: usize = 8;
 /// Part of the mechanism's own accelerations below which one brings nothing back.
 const NOTHING: f64 = 1e-9;
-/// Change of a friction force that is round-off, over the most that the largest load of all joints would rub.
+/// Change of a friction force that is round-off, over the most that the largest load of all would rub.
 const SETTLED: f64 = 1e-14;
 
 impl Balance<'_> {
@@ -53,7 +53,7 @@ impl Balance<'_> {
     pub(super) fn fit_rubs(&mut self, route: Route) -> Result<(), Trouble> {
         for _ in 0..TURNS {
             let wanted: Vec<f64> = (0..self.m.rubs.len()).map(|rub| self.sliding_friction(rub)).collect();
-            let largest = self.solved.passed.iter().map(|load| load.f.norm()).fold(0.0, f64::max);
+            let largest = self.largest_force();
             let noise = |rub: usize| SETTLED * self.n.slots[self.m.rubs[rub].kinetic] * self.arm_of(rub) * largest;
             let fits = |rub: usize| (wanted[rub] - self.rub_forces[rub]).abs() <= noise(rub);
             if (0..wanted.len()).all(fits) {
@@ -67,6 +67,13 @@ impl Balance<'_> {
             "friction_jams",
             format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
         ))
+    }
+
+    /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, effective, N.
+    fn largest_force(&self) -> f64 {
+        let effective = |i: usize| super::effective(self.at(), i, self.arms[i], self.solved.bodies[i]);
+        let forces = |i: usize| [self.loads[i], self.solved.passed[i], effective(i)].map(|load| load.f.norm());
+        (0..self.m.bodies.len()).flat_map(forces).fold(0.0, f64::max)
     }
 
     fn sliding_friction(&self, rub: usize) -> f64 {
