@@ -10,9 +10,12 @@ from freebody.compare import compare
 from freebody.model import Mechanism
 from freebody.run import Run
 from freebody.views import plots
+from freebody.views.animate import animate
+from freebody.views.flashes import LASTING
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html
 from freebody.views.scene import of_run
+from freebody.views.style import IMPACT
 from freebody.views.touching import way
 
 matplotlib.use("Agg")
@@ -194,3 +197,26 @@ def test_an_instant_tells_its_contacts():
     told = m.simulate(until=0.01).report
     assert told["pull just before"].value == pytest.approx(3 * G) and told["pull just after"].value == 0
     assert [(change.kind, change.of) for change in opening.changes][-1] == ("released", ("cable",))
+
+
+def test_impacts_flash_up_in_films_where_they_strike(run, cut):
+    """The ball strikes at its own place, the second time with the part of the impulse that the first left."""
+    first, second = of_run(run).flashes
+    assert (first.t, second.t) == pytest.approx((FIRST, FIRST * (1 + 2 * PART)), abs=1e-9)
+    assert first.at == pytest.approx((0, 0), abs=1e-9) and first.strength == 1
+    assert second.strength == pytest.approx(np.sqrt(PART), rel=1e-9)
+    assert [first.glow(first.t + dt, 0.2) for dt in (-1e-6, 0.0, 0.1, 0.2)] == pytest.approx([0, 1, 0.5, 0])
+    assert of_run(cut).flashes == []
+
+
+def test_frames_show_an_impact_for_a_moment_of_the_film(run, tmp_path):
+    """Half as fast as life, so the flash is gone after half of its time in the film."""
+    fps, speed = 20, 0.5
+    first = animate(run, tmp_path / "ball.svg", fps=fps, speed=speed)
+    frames = sorted(tmp_path.glob("ball_*.svg"))
+    assert frames[0] == first
+    times = np.linspace(0, run.edges[-1], len(frames))
+    lit = [IMPACT in frame.read_text() for frame in frames]
+    strikes = np.array([change.t for change in run.impacts])
+    wanted = [bool(((strikes <= t) & (t < strikes + LASTING * speed)).any()) for t in times]
+    assert lit == wanted and any(lit) and not all(lit)

@@ -270,15 +270,13 @@ pub struct Rub {
 }
 
 /// What rubs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Rubbing {
     /// A joint, by the force that it carries (times the radius of its bearing).
     Joint {
         /// The joint.
         joint: usize,
-        /// The coordinate along which it rubs.
-        along: Law,
-        /// Radius of the bearing of a hinge.
+        /// Radius of the bearing of a hinge, which rubs as it turns; all else rubs along its line or curve.
         radius: Option<Slot>,
     },
     /// A limit for which a spring stands, by the force of the spring and its damper.
@@ -405,6 +403,11 @@ impl Mechanism {
     pub fn held_without(&self, part: Part) -> Option<Part> {
         let runner = self.runners.iter().find(|runner| part == Part::Joint(runner.pin))?;
         Some(Part::Drive(runner.hold))
+    }
+    /// What is released where a joint is.
+    pub fn part_of(&self, joint: usize) -> Part {
+        let runner = self.runners.iter().find(|runner| runner.joint == joint);
+        Part::Joint(runner.map_or(joint, |runner| runner.pin))
     }
     /// The friction of a limit for which a spring stands.
     pub fn rub_of(&self, limit: usize) -> Option<usize> {

@@ -347,6 +347,24 @@ pub enum Surface {
     Polyline(Vec<String>),
     /// A convex polygon by the full names of its corners, in order, either way round.
     Polygon(Vec<String>),
+    /// Lines and arcs one after another, without a kink; the free side is on the left.
+    Track {
+        /// Full name of the point where it starts.
+        start: String,
+        /// Its stretches in order.
+        stretches: Vec<Stretch>,
+    },
+}
+
+/// A line, or an arc the shorter way round a centre, from where a track is to a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stretch {
+    /// Full name of the point to which it goes.
+    pub to: String,
+    /// Full name of the centre of an arc.
+    #[serde(default)]
+    pub centre: Option<String>,
 }
 
 /// A string.

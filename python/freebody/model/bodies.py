@@ -7,7 +7,7 @@ from typing import Any
 from .arithmetic import Number, half
 from .errors import Complaint, Path
 from .meanings import EVERY_BODY, SHAPE_POINTS
-from .schema import Body, CurveShape, Marked, Piece, Shaped
+from .schema import Body, CurveShape, Marked, Piece, Shaped, Stretch
 from .tracks import circle, track
 from .writer import Writer
 
@@ -23,6 +23,7 @@ class BodyWriter:
         self.write = write
         self.spec = spec
         self.places: dict[str, list[Number]] = {"ground.O": [0.0, 0.0]}
+        self.tracks: dict[str, Spec] = {}
 
     def all_points(self) -> None:
         """Bodies and their points; lines and curves come when all points of the model are known."""
@@ -46,8 +47,11 @@ class BodyWriter:
                     self.write.lines[owner + name] = place
                     self.spec["lines"].append({"name": owner + name, "line": place})
             for name, curve in marked.curves.items():
-                x, y = self._curve((*path, "curves", name), full, curve)
+                here = (*path, "curves", name)
+                x, y = self._curve(here, full, curve)
                 self.spec["curves"].append({"name": owner + name, "body": full, "x": x, "y": y})
+                if isinstance(curve, list) and curve:
+                    self.tracks[owner + name] = self._track(here, full, curve)
             self._renamed_lines(full, marked, path)
 
     def _renamed_lines(self, full: str, marked: Marked, path: Path) -> None:
@@ -177,6 +181,16 @@ class BodyWriter:
         except Complaint as complaint:
             self.write.scope.complain(path, complaint.what, complaint.hint)
             return "s", "0"
+
+    def _track(self, path: Path, full: str, stretches: list[Stretch]) -> Spec:
+        """A curve of lines and arcs as a surface."""
+        point = lambda i, name: self.write.point((*path, i), name, full)
+        told = []
+        for i, stretch in enumerate(stretches):
+            to, centre = (stretch.line[1], None) if stretch.line is not None else (stretch.arc.to, point(i, stretch.arc.centre))
+            told.append({"to": point(i, to), "centre": centre})
+        first = stretches[0].line
+        return {"start": point(0, first[0]) if first else "ground.O", "stretches": told}
 
     def _at(self, path: Path, full: str, name: str) -> list[Number]:
         return self._place(path, full, name)

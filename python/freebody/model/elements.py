@@ -107,7 +107,7 @@ _ONLY_OF = {
 }
 _ONLY_OF["end_restitution"] = _ONLY_OF["ends"]
 _ONLY_OF |= dict.fromkeys(
-    ("friction", "static_friction"), "friction is for hinges, slots and sliders; for surfaces write a contact"
+    ("friction", "static_friction"), "friction is for hinges, slots, curved slots and sliders; for surfaces write a contact"
 )
 _ONLY_OF["bearing_radius"] = "only a hinge has a bearing"
 

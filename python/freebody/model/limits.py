@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from .arithmetic import text
@@ -18,10 +19,11 @@ _SENSES = {"ccw": 1, "clockwise": -1}
 class LimitWriter:
     """Writes the contacts, strings and stops of one scope into the spec of the core."""
 
-    def __init__(self, write: Writer, spec: Spec, outlines: Outlines) -> None:
+    def __init__(self, write: Writer, spec: Spec, outlines: Outlines, tracks: Mapping[str, Spec]) -> None:
         self.write = write
         self.spec = spec
         self.outlines = outlines
+        self.tracks = tracks
         self.prefix = write.scope.prefix
 
     def all(self) -> None:
@@ -97,8 +99,11 @@ class LimitWriter:
                 scope.complain(path, complaint.what, complaint.hint)
         elif line:
             return {"line": self.write.line(path, name)}
+        elif full in self.tracks:
+            return {"track": self.tracks[full]}
         elif full in meanings.curves:
-            scope.complain(path, f"`{name}` is a curve, and a contact is of straight lines and circles", "write a `polyline`")
+            what = f"`{name}` is a curve by its formulas, and a contact is of straight lines and arcs"
+            scope.complain(path, what, "write it as a list of lines and arcs, or as a `polyline`")
         elif "." not in name:
             known = meanings.seen_from(scope, meanings.bodies)
             scope.complain(path, f"there is no body `{name}`", suggestion(name, known))

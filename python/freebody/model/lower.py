@@ -110,7 +110,7 @@ class _Lowering:
         places = {name: at for writer in bodies for name, at in writer.places.items()}
         for section in sections:
             section.items(GuideWriter(section.write, self.spec, places, self.made))
-        self._switches()
+        self._switches({name: track for writer in bodies for name, track in writer.tracks.items()})
         self.spec["gravity"] = self._gravity()
         start = Start()
         for write in reversed(self.writers):  # what the whole says of a part's coordinates overrules what the part says
@@ -118,11 +118,11 @@ class _Lowering:
         answers = AnswerWriter(self.writers[0])
         return Lowered(self.spec, start, answers.run(), answers.report(), self.root, self.hand_over, self._items())
 
-    def _switches(self) -> None:
+    def _switches(self, tracks: dict[str, Spec]) -> None:
         """Contacts, strings and stops; then events, which may name anything."""
         outlines = Outlines(self.writers, self.spec)
         for write in self.writers:
-            LimitWriter(write, self.spec, outlines).all()
+            LimitWriter(write, self.spec, outlines, tracks).all()
         events = [
             EventWriter(
                 write, self.spec, self.made, self.hand_over, self.folder if write is self.writers[0] else None, self.others

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.results import Array
-from freebody.views.paint import frame_axes, paint
+from freebody.views.flashes import LASTING
+from freebody.views.paint import frame_axes, paint, paint_flashes
 from freebody.views.scene import Scene, of_run
 from freebody.views.style import axes, colour, quiet
 
@@ -31,9 +32,10 @@ def animate(run: Run, path: str | Path, fps: int = 30, speed: float = 1.0, trace
     if path.suffix not in (".gif", ".mp4", ".svg"):
         raise ValueError(f"an animation is .gif, .mp4 or .svg, not {path.suffix or 'without a suffix'!r}")
     scene = of_run(run, frame_times(run, fps, speed), traces)
+    lasting = LASTING * speed
     if path.suffix == ".svg":
-        return _write_frames(scene, path)
-    return _write_movie(scene, path, fps)
+        return _write_frames(scene, path, lasting)
+    return _write_movie(scene, path, fps, lasting)
 
 
 def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
@@ -45,7 +47,7 @@ def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
     return np.unique(run.t[np.abs(run.t[:, None] - times).argmin(axis=0)])
 
 
-def _write_movie(scene: Scene, path: Path, fps: int) -> Path:
+def _write_movie(scene: Scene, path: Path, fps: int, lasting: float) -> Path:
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
     if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
@@ -54,17 +56,17 @@ def _write_movie(scene: Scene, path: Path, fps: int) -> Path:
         ax = _canvas(scene)
         writer = FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"]) if path.suffix == ".mp4" else PillowWriter(fps=fps)
         with writer.saving(ax.figure, str(path), dpi=110):
-            for _ in _frames(scene, ax):
+            for _ in _frames(scene, ax, lasting):
                 writer.grab_frame()
     return path
 
 
-def _write_frames(scene: Scene, path: Path) -> Path:
+def _write_frames(scene: Scene, path: Path, lasting: float) -> Path:
     digits = len(str(len(scene.t) - 1))
     names = [path.with_name(f"{path.stem}_{k:0{digits}d}.svg") for k in range(len(scene.t))]
     with quiet():
         ax = _canvas(scene)
-        for k, _ in enumerate(_frames(scene, ax)):
+        for k, _ in enumerate(_frames(scene, ax, lasting)):
             ax.figure.savefig(names[k])
     return names[0]
 
@@ -81,8 +83,8 @@ def _canvas(scene: Scene) -> Axes:
     return ax
 
 
-def _frames(scene: Scene, ax: Axes) -> Iterator[None]:
-    """Draw frame by frame on the same axes."""
+def _frames(scene: Scene, ax: Axes, lasting: float) -> Iterator[None]:
+    """Draw frame by frame on the same axes; an impact is seen for ``lasting`` s."""
     at = scene.points()
     paths = [np.array([scene.place(at[n][0], np.array([at[n][1]]), k)[0] for k in range(len(scene.t))]) for n in scene.traces]
     lines = [ax.plot([], [], color=colour(at[n][0] - 1), lw=1.2, alpha=0.7, zorder=1.5)[0] for n in scene.traces]
@@ -91,7 +93,7 @@ def _frames(scene: Scene, ax: Axes) -> Iterator[None]:
     for k, t in enumerate(scene.t):
         for artist in shown:
             artist.remove()
-        shown = paint(scene, ax, k)
+        shown = paint(scene, ax, k) + paint_flashes(scene, ax, t, lasting)
         for line, path in zip(lines, paths, strict=True):
             line.set_data(*path[: k + 1].T)
         clock.set_text(f"t = {t:.2f} s")

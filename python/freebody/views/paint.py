@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from freebody.views.scene import Scene
-from freebody.views.style import GROUND, INK, PAPER, colour
+from freebody.views.style import GROUND, IMPACT, INK, PAPER, colour
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -30,6 +30,16 @@ def paint(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
         if cord.shown[frame]:
             look = {"color": INK, "lw": 1.2} if cord.taut[frame] else {"color": GROUND, "lw": 1.0}
             artists += ax.plot(*cord.path[frame].T, **look, zorder=2.38, solid_joinstyle="round")
+    return artists
+
+
+def paint_flashes(scene: Scene, ax: Axes, t: float, lasting: float) -> list[Artist]:
+    """The impacts of the last ``lasting`` s before a time; returns what was added."""
+    artists: list[Artist] = []
+    for flash in scene.flashes:
+        if glow := flash.glow(t, lasting):
+            for ray in flash.rays(scene.spark):
+                artists += ax.plot(*ray.T, color=IMPACT, lw=1.6, alpha=glow, zorder=3, solid_capstyle="round")
     return artists
 
 

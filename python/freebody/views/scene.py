@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from freebody.instant import State
 from freebody.results import Array, quote
 from freebody.switched import Limit, limits_of, there
 from freebody.views import shapes
+from freebody.views.flashes import LASTING, Flash, flashes
 
 if TYPE_CHECKING:
     from freebody.run import Run, Source
@@ -84,7 +86,8 @@ class Cord:
 
 @dataclass(frozen=True)
 class Scene:
-    """Figures (ground first), pairs, strings, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols."""
+    """Figures (ground first), pairs, strings, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols;
+    impacts flash up."""
 
     name: str
     size: float
@@ -94,6 +97,7 @@ class Scene:
     t: Array
     poses: Array
     traces: list[str]
+    flashes: list[Flash] = field(default_factory=list)
 
     def index(self, body: str) -> int:
         """Place of a body's figure."""
@@ -127,6 +131,12 @@ class Scene:
         (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
         return float(x0), float(x1), float(y0), float(y1)
 
+    @cached_property
+    def spark(self) -> float:
+        """The size of what flashes up, in m: seen well, however small the symbols are beside the whole."""
+        x0, x1, y0, y1 = self.bounds()
+        return max(2.5 * self.size, 0.02 * float(np.hypot(x1 - x0, y1 - y0)))
+
     def to_json(self) -> dict[str, Any]:
         """The scene for the browser, figures rounded to what a screen can show."""
         digits = 3 - int(np.floor(np.log10(self.size)))
@@ -156,6 +166,8 @@ class Scene:
                 for c in self.cords
             ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
+            "flashes": [{"t": flash.t, "rays": flash.rays(self.spark).round(digits).tolist()} for flash in self.flashes],
+            "lasting": LASTING,
         }
 
 
@@ -286,7 +298,8 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     """The scene of a run at times within it (default: its output times)."""
     shown = run if times is None else run.at(times)
     start = State(run.start.p, float(shown.t[0]), shown.q[0], shown.u[0])
-    return drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
+    scene = drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
+    return replace(scene, flashes=flashes(run))
 
 
 def of_state(source: Source, state: State, traces: Sequence[str] | None = None) -> Scene:

@@ -33,6 +33,8 @@ def draw_contacts(sketch: Sketch) -> None:
             _draw_line(sketch, shape, others)
         elif kind == "circle":
             _draw_circle(sketch, shape)
+        elif kind == "track":
+            hatched_path(sketch, sketch.at[shape["start"]][0], _track(sketch, shape))
         elif kind in ("polyline", "polygon") and all(name in sketch.at for name in shape):
             body, corners = sketch.at[shape[0]][0], np.array([sketch.at[name][1] for name in shape])
             if kind == "polyline":
@@ -59,12 +61,26 @@ def _draw_line(sketch: Sketch, line: Surface, others: Sequence[Surface]) -> None
     sketch.figures[body].add(origin + np.outer([start, end], along), "rail", closed=False)
 
 
+def _track(sketch: Sketch, track: Surface) -> Array:
+    """The way (k, 2) along lines and arcs, in the frame of their body."""
+    path = [sketch.at[track["start"]][1]]
+    for stretch in track["stretches"]:
+        start, end = path[-1], sketch.at[stretch["to"]][1]
+        if stretch["centre"] is not None:
+            centre = sketch.at[stretch["centre"]][1]
+            a, b = (complex(*(place - centre)) for place in (start, end))
+            turns = a * np.exp(1j * np.angle(b / a) * _ARC[1:-1])
+            path += list(centre + np.column_stack([turns.real, turns.imag]))
+        path.append(end)
+    return np.array(path)
+
+
 def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, float]:
     """The path (nt, 2) of a surface in the frame of a body, and how far it extends about it, m."""
     if "point" in surface:
         return sketch.seen_from(seen_from, surface["point"]), 0.0
     [(kind, shape)] = surface.items()
-    name = shape[0] if isinstance(shape, list) else shape["centre" if kind == "circle" else "point"]
+    name = shape[0] if isinstance(shape, list) else shape[{"circle": "centre", "track": "start"}.get(kind, "point")]
     if kind == "circle":
         return sketch.seen_from(seen_from, name), sketch.number(shape["radius"])
     owner = sketch.owners[name]

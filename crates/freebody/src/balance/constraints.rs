@@ -186,7 +186,7 @@ impl Balance<'_> {
             false => (groups[node - bodies].name(self.m), groups[node - bodies].path(self.m)),
         };
         Trouble::new(
-            "inconsistent_constraints",
+            super::INCONSISTENT,
             format!("the equations leave a residual of {residual:.1e} at `{name}`: its constraints exclude each other, or a motion there has no inertia"),
         )
         .about(path)

@@ -198,7 +198,7 @@ impl Balance<'_> {
         }
         self.start_limits()?;
         let still = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
-        self.start_rubs(still);
+        self.start_rubs(still)?;
         let scale = Scale { still, pace: self.n.gravity.norm().max(self.length), stay: false, rough: false };
         for _ in 0..=self.most_turns() {
             self.lean_on_reached(scale)?;

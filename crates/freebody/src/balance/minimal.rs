@@ -1,7 +1,7 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
 use super::rows::closing_rows;
-use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Trouble, CANCELLED};
+use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Trouble, CANCELLED, INCONSISTENT};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Islands, Matrix, SaddleError};
@@ -151,7 +151,7 @@ impl Balance<'_> {
         let mut unique = names.clone();
         unique.dedup();
         Err(Trouble::new(
-            "inconsistent_constraints",
+            INCONSISTENT,
             format!("{} ask for motions that exclude each other; remove one, or make them agree", unique.join(", ")),
         )
         .about(self.rows.last().map(|row| row.source.path(self.m))))

@@ -34,7 +34,7 @@ pub use load::{add_force, effective, force_power, force_value, pull_value, unacc
 pub(crate) use project::{CLOSED, OPEN};
 pub use rank::{Freedom, Labels, SelfStress};
 pub use reactions::JointLoad;
-pub use rows::{closing_rows, drive_row, gap_row, joint_rows, slide_row, spread, Row, Source, Spread};
+pub use rows::{closing_rows, drive_row, gap_row, joint_rows, rub_row, slide_row, Row, Source, Spread};
 pub use sizes::Sizes;
 
 pub use crate::error::Trouble;
@@ -67,6 +67,8 @@ impl Route {
     }
 }
 
+/// The trouble of constraints that contradict each other.
+const INCONSISTENT: &str = "inconsistent_constraints";
 /// Part of its terms below which a sum is round-off.
 const CANCELLED: f64 = 1e-13;
 

@@ -6,12 +6,12 @@
 
 use crate::contact::Friction;
 use crate::expr::Env;
-use crate::gauges::{gradient, jet, Law, Moving, Placed, Seeded, State};
+use crate::gauges::{gradient, jet, Law, Moving, Placed, Poses, Seeded, State};
 use crate::kinematics::{relative, JointView};
 use crate::mechanism::{Drive, Joint, Level, Part, Rubbing};
 use crate::mode::Hold;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::{Dual, Jet, Scalar};
 
 /// Loads on bodies, at their pins.
 pub type Spread<S> = Vec<(usize, Wrench<S>)>;
@@ -87,14 +87,33 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
 /// The row that keeps what rubs from sliding.
 pub fn rub_row<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>) -> Row<S> {
     let source = Source::Rub(index);
-    match &at.m.rubs[index].of {
-        Rubbing::Joint { along, .. } => {
-            let jet = jet(&Moving { at, bodies: base, accelerations: None }, along);
-            let motion = spread(at, along);
-            Row { source, value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None }
-        }
-        Rubbing::Limit(limit) => Row { source, ..slide_row(at, *limit, base).expect("only contacts rub") },
+    match at.m.rubs[index].of {
+        Rubbing::Joint { joint, radius } => Row { source, ..joint_slide_row(at, joint, radius.is_some(), base) },
+        Rubbing::Limit(limit) => Row { source, ..slide_row(at, limit, base).expect("only contacts rub") },
     }
+}
+
+/// The row of the first freedom of a joint in the sense of its coordinate: what the second body turns, or moves along the
+/// joint's line or curve, against the first.
+fn joint_slide_row<S: Scalar>(at: Placed<'_, S>, index: usize, turns: bool, base: Base<S>) -> Row<S> {
+    let joint = &at.m.joints[index];
+    let (axes, place) = relative(joint, at.m, &at);
+    let (_, going) = relative(joint, at.m, &Moving { at, bodies: base, accelerations: None });
+    let first = &joint.coordinates[0];
+    let (slide, load) = if turns {
+        (going.angle.scale(first.sense), Wrench { f: Vec2::zero(), m: S::of(first.sense) })
+    } else {
+        let s = match joint.curve {
+            Some(_) => at.n.slots[first.zero] + at.coordinate(index, 0).scale(first.sense),
+            None => S::zero(),
+        };
+        let along = JointView::new(at.m, at.n, joint, |x| x).tangent(s) * S::of(first.sense);
+        // The direction is that of this instant: it turns across the motion.
+        let slide = going.x * Jet::constant(along.x) + going.y * Jet::constant(along.y);
+        (slide, Wrench { f: axes.turn.apply(along), m: S::zero() })
+    };
+    let motion = pair(at, joint, axes.place(place.at()), load);
+    Row { source: Source::Joint(index, 0), value: None, rate: Some(slide.d1), bias: slide.d2, motion, force: None }
 }
 
 /// The row that keeps the gap of a limit closed; one that slides rubs as it presses.
@@ -139,7 +158,7 @@ pub fn joint_rows<S: Scalar>(at: Placed<'_, S>, index: usize, base: Base<S>, out
     let joint = &at.m.joints[index];
     let going = Moving { at, bodies: base, accelerations: None };
     let (_, place) = relative(joint, at.m, &going);
-    let jets = JointView::new(at.m, at.n, joint, crate::scalar::Jet::constant).residual(&place);
+    let jets = JointView::new(at.m, at.n, joint, Jet::constant).residual(&place);
     let loads = joint_loads(at, joint);
     for &row in &joint.rows {
         out.push(Row {

@@ -5,7 +5,7 @@
 //! long as friction does not jam the joint each turn brings them closer.
 
 use super::rows::rub_row;
-use super::{Balance, Route, Scale, Source, Trouble};
+use super::{Balance, Route, Scale, Source, Trouble, INCONSISTENT};
 use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 
@@ -15,7 +15,7 @@ const TURNS: usize = 200;
 const FLIPS: usize = 8;
 /// Part of the mechanism's own accelerations below which one brings nothing back.
 const NOTHING: f64 = 1e-9;
-/// Change of a friction force, over itself, that is round-off.
+/// Change of a friction force that is round-off, over the most that the largest load of all would rub.
 const SETTLED: f64 = 1e-14;
 
 impl Balance<'_> {
@@ -23,12 +23,18 @@ impl Balance<'_> {
     fn most_friction(&self, rub: usize, rests: bool) -> f64 {
         let of = &self.m.rubs[rub];
         let pressing = match of.of {
-            Rubbing::Joint { joint, radius, .. } => {
-                self.joint_load(joint).force.norm() * radius.map_or(1.0, |slot| self.n.slots[slot])
-            }
+            Rubbing::Joint { joint, .. } => self.joint_load(joint).force.norm() * self.arm_of(rub),
             Rubbing::Limit(limit) => self.press(limit).max(0.0),
         };
         pressing * self.n.slots[if rests { of.fixed } else { of.kinetic }]
+    }
+
+    /// Radius of the bearing of a hinge, m; else 1.
+    fn arm_of(&self, rub: usize) -> f64 {
+        match self.m.rubs[rub].of {
+            Rubbing::Joint { radius: Some(radius), .. } => self.n.slots[radius],
+            _ => 1.0,
+        }
     }
 
     /// Adds the loads of all that slides.
@@ -47,8 +53,10 @@ impl Balance<'_> {
     pub(super) fn fit_rubs(&mut self, route: Route) -> Result<(), Trouble> {
         for _ in 0..TURNS {
             let wanted: Vec<f64> = (0..self.m.rubs.len()).map(|rub| self.sliding_friction(rub)).collect();
-            let fits = |(&a, &b): (&f64, &f64)| (a - b).abs() <= SETTLED * a.abs().max(b.abs());
-            if wanted.iter().zip(&self.rub_forces).all(fits) {
+            let largest = self.largest_force();
+            let noise = |rub: usize| SETTLED * self.n.slots[self.m.rubs[rub].kinetic] * self.arm_of(rub) * largest;
+            let fits = |rub: usize| (wanted[rub] - self.rub_forces[rub]).abs() <= noise(rub);
+            if (0..wanted.len()).all(fits) {
                 return Ok(());
             }
             self.rub_forces = wanted;
@@ -59,6 +67,13 @@ impl Balance<'_> {
             "friction_jams",
             format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
         ))
+    }
+
+    /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, effective, N.
+    fn largest_force(&self) -> f64 {
+        let effective = |i: usize| super::effective(self.at(), i, self.arms[i], self.solved.bodies[i]);
+        let forces = |i: usize| [self.loads[i], self.solved.passed[i], effective(i)].map(|load| load.f.norm());
+        (0..self.m.bodies.len()).flat_map(forces).fold(0.0, f64::max)
     }
 
     fn sliding_friction(&self, rub: usize) -> f64 {
@@ -96,14 +111,43 @@ impl Balance<'_> {
     }
 
     /// Lets all that rubs go on as it is: what moves slides, the rest sticks, and what is not pressed does neither.
-    pub fn start_rubs(&mut self, still: f64) {
+    ///
+    /// # Errors
+    /// As [`Balance::solve`].
+    pub fn start_rubs(&mut self, still: f64) -> Result<(), Trouble> {
         for rub in 0..self.m.rubs.len() {
             self.mode.rubs[rub] = match self.m.rubs[rub].of {
                 Rubbing::Limit(limit) if self.mode.limits[limit].hold != Hold::Pressed => Hold::Open,
+                Rubbing::Joint { joint, .. } if !self.has(self.m.part_of(joint)) => Hold::Open,
                 _ if self.rests(rub, still) => Hold::Stuck,
                 _ => Hold::Sliding(self.rub_rate(rub).signum()),
             };
         }
+        if self.mode.rubs.contains(&Hold::Stuck) && self.contradicts_itself() {
+            self.let_slide_what_cannot_stick()?;
+        }
+        Ok(())
+    }
+
+    /// Whether the constraints of the present mode ask for motions that exclude each other.
+    fn contradicts_itself(&mut self) -> bool {
+        matches!(self.solve_by(Route::Minimal), Err(trouble) if trouble.name == INCONSISTENT)
+    }
+
+    /// Lets slide what no friction can hold, because the other constraints alone tell its acceleration: a slider that turns
+    /// back at the dead point of its crank.
+    fn let_slide_what_cannot_stick(&mut self) -> Result<(), Trouble> {
+        let stuck: Vec<usize> = (0..self.m.rubs.len()).filter(|&rub| self.mode.rubs[rub] == Hold::Stuck).collect();
+        stuck.iter().for_each(|&rub| self.mode.rubs[rub] = Hold::Open);
+        self.solve_by(Route::Minimal)?;
+        let ahead: Vec<f64> = stuck.iter().map(|&rub| self.rub_acceleration(rub)).collect();
+        for (&rub, ahead) in stuck.iter().zip(ahead) {
+            self.mode.rubs[rub] = Hold::Stuck;
+            if self.contradicts_itself() {
+                self.mode.rubs[rub] = Hold::Sliding(ahead.signum());
+            }
+        }
+        Ok(())
     }
 
     /// Turns after which it should be settled what sticks.

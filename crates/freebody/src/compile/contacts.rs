@@ -2,7 +2,7 @@
 
 use super::outline::Outline;
 use super::{twice, CompileError, Compiler, Reach, Result};
-use crate::contact::{Arc, Disk, Friction, Gap, Group, Limit, Profile, Touch};
+use crate::contact::{Arc, Disk, Friction, Gap, Group, Limit, Profile, Touch, Track};
 use crate::mechanism::{Marker, Rub, Rubbing, Slot};
 use crate::plane::Vec2;
 use crate::spec::{Contact, Number, Surface};
@@ -11,11 +11,17 @@ use std::f64::consts::TAU;
 /// A surface of a model, lowered.
 enum Shape {
     Point(usize),
-    Circle { centre: usize, radius: Slot, hollow: bool },
+    Circle {
+        centre: usize,
+        radius: Slot,
+        hollow: bool,
+    },
     Arc(Arc),
     Line(Marker),
     Polyline(Outline),
     Polygon(Outline),
+    /// A track, and whether one of its arcs bulges to its free side.
+    Track(Track, bool),
 }
 
 impl Shape {
@@ -25,6 +31,7 @@ impl Shape {
             Shape::Circle { centre, .. } | Shape::Arc(Arc { centre, .. }) => *centre,
             Shape::Line(marker) => marker.site,
             Shape::Polyline(outline) | Shape::Polygon(outline) => outline.chains[0].corners[0],
+            Shape::Track(track, _) => track.ends()[0],
         }
     }
 
@@ -47,6 +54,7 @@ impl Shape {
                 vec![Profile::Circle { centre: *centre, radius: *radius, hollow: *hollow }]
             }
             Shape::Arc(arc) => vec![Profile::Arc(arc.clone())],
+            Shape::Track(track, _) => vec![Profile::Track(track.clone())],
             Shape::Line(marker) => vec![Profile::Line(*marker)],
             Shape::Polyline(outline) | Shape::Polygon(outline) => {
                 outline.chains.iter().cloned().map(Profile::Chain).collect()
@@ -56,10 +64,10 @@ impl Shape {
 
     /// The corners that can touch others.
     fn corners(&self) -> Vec<Disk> {
+        let point = |&centre: &usize| Disk { centre, radius: None, beside: None };
         match self {
-            Shape::Polyline(outline) => {
-                outline.points.iter().map(|&centre| Disk { centre, radius: None, beside: None }).collect()
-            }
+            Shape::Polyline(outline) => outline.points.iter().map(point).collect(),
+            Shape::Track(track, _) => track.ends().iter().map(point).collect(),
             Shape::Polygon(outline) => {
                 let (points, n) = (&outline.points, outline.points.len());
                 let beside = |i: usize| Some([points[(i + n - 1) % n], points[(i + 1) % n]]);
@@ -79,15 +87,22 @@ fn each(disks: &[Disk], surface: &Shape) -> Vec<Touch> {
 
 /// The touches of two surfaces; or why they have none, and what to write.
 fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static str, &'static str)> {
-    use Shape::{Arc, Circle, Line, Point, Polygon, Polyline};
+    use Shape::{Arc, Circle, Line, Point, Polygon, Polyline, Track};
     match (a, b) {
         (Point(_), Point(_)) => Err(("two points never touch", "give one of them a circle with a radius")),
         (Line(_), Line(_)) => Err(("two lines without ends cannot touch", "make one of them a polygon or a polyline")),
         (Polyline(_), Polyline(_) | Line(_)) | (Line(_), Polyline(_)) => {
             Err(("a polyline meets points, circles and polygons only", "make the moving surface a polygon"))
         }
+        (Polygon(_), Track(_, false)) | (Track(_, false), Polygon(_)) => {
+            Ok([each(&a.corners(), b), each(&b.corners(), a)].concat())
+        }
+        (Track(..), other) | (other, Track(..)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
+            let what = "a track meets points and circles only, and polygons where no arc bulges towards them";
+            Err((what, "make the moving surface a circle"))
+        }
         (Arc(_), other) | (other, Arc(_)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
-            Err(("an arc meets points and circles only", "make the moving surface a circle, or the arc a `polyline`"))
+            Err(("an arc meets points and circles only", "make the moving surface a circle, or the arc a track"))
         }
         (Circle { hollow: true, .. }, Circle { hollow: true, .. } | Line(_) | Polyline(_))
         | (Line(_) | Polyline(_), Circle { hollow: true, .. }) => Err((
@@ -125,6 +140,7 @@ impl Compiler<'_> {
             }
             let refused = |(what, hint)| CompileError::new(format!("{path}.of"), what, hint);
             let touches = touches(&a, &b).map_err(refused)?;
+            touches.iter().try_for_each(|touch| self.fits(&format!("{path}.of"), touch))?;
             let friction = self.friction(&path, contact)?;
             let restitution = self.restitution(&path, &contact.restitution)?;
             let soft = self.soft(&path, &contact.stiffness, &contact.damping)?;
@@ -238,6 +254,11 @@ impl Compiler<'_> {
             }
             Surface::Line(place) => Shape::Line(self.place(path, place)?.0),
             Surface::Polyline(names) => Shape::Polyline(Outline::polyline(path, &self.corners(path, names, arms)?)?),
+            Surface::Track { start, stretches } => {
+                let track = self.track(path, start, stretches, arms)?;
+                let bulges = track.stretches.iter().any(|stretch| stretch.bulges(&|site| arms[site]));
+                Shape::Track(track, bulges)
+            }
             Surface::Polygon(names) => Shape::Polygon(Outline::polygon(path, self.corners(path, names, arms)?)?),
         })
     }

@@ -110,8 +110,7 @@ impl Compiler<'_> {
     pub(crate) fn part(&self, path: &str, name: &String) -> Result<Part> {
         let n = &self.names;
         if let Some(&(joint, _)) = n.joints.get(name) {
-            let runner = self.m.runners.iter().find(|runner| runner.joint == joint);
-            return Ok(Part::Joint(runner.map_or(joint, |runner| runner.pin)));
+            return Ok(self.m.part_of(joint));
         }
         let others = [
             n.drives.get(name).map(|&i| Part::Drive(i)),

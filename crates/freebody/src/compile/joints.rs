@@ -2,7 +2,7 @@
 
 use super::tree::Pair;
 use super::{twice, CompileError, Compiler, Fields, Result};
-use crate::gauges::{Law, Leaf};
+use crate::gauges::Law;
 use crate::graph::Branch as TreeBranch;
 use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
 use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker, Rub, Rubbing};
@@ -88,7 +88,7 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// Friction along the first coordinate of a joint.
+    /// Friction of a joint along its first coordinate.
     fn rub(&mut self, joint: usize, pair: &Pair) -> Result<()> {
         let Some(friction) = &pair.element.friction else { return Ok(()) };
         let path = format!("{}.friction", pair.path);
@@ -96,7 +96,11 @@ impl Compiler<'_> {
         let turns = card.coordinates.first().is_some_and(|c| c.turn);
         if !card.rubs || self.m.joints[joint].coordinates.is_empty() {
             let what = format!("a {} has no friction of its own", card.word);
-            return Err(CompileError::new(path, what, "give it to a hinge, a slot or a slider, or write a contact"));
+            return Err(CompileError::new(
+                path,
+                what,
+                "give it to a hinge, a slot, a curved slot or a slider, or write a contact",
+            ));
         }
         if turns != friction.radius.is_some() {
             let what = if turns {
@@ -112,8 +116,7 @@ impl Compiler<'_> {
             None => kinetic,
         };
         let radius = friction.radius.as_ref().map(|r| self.number_slot(&path, r)).transpose()?;
-        let of = Rubbing::Joint { joint, along: Law::leaf(Leaf::Coordinate(joint, 0)), radius };
-        self.m.rubs.push(Rub { of, fixed, kinetic });
+        self.m.rubs.push(Rub { of: Rubbing::Joint { joint, radius }, fixed, kinetic });
         Ok(())
     }
 

@@ -9,6 +9,7 @@ mod joints;
 mod names;
 mod outline;
 mod places;
+mod track;
 mod tree;
 
 pub use elements::coupling_card;

@@ -12,4 +12,4 @@ mod limit;
 mod touch;
 
 pub use limit::{Border, Contact, Friction, Gap, Group, Limit, Piece};
-pub use touch::{Arc, Chain, Disk, Profile, Touch};
+pub use touch::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};

@@ -1,8 +1,8 @@
 //! Loads of contacts, stops and strings, and of friction in joints.
 
 use super::reactions::loaded;
-use super::{along_gauge, ground_takes, mass_centre, part, Load, Origin, Part, Size};
-use crate::balance::{gap_row, slide_row, spread, Row, Source};
+use super::{along_gauge, ground_takes, joint_place, mass_centre, part, Load, Origin, Part, Size};
+use crate::balance::{gap_row, rub_row, slide_row, Row, Source};
 use crate::contact::{Friction, Gap};
 use crate::expr::spell;
 use crate::gauges::{Placed, Poses};
@@ -100,9 +100,11 @@ fn rubbing<S: Scalar>(at: Placed<'_, S>, rub: usize) -> Option<(Origin, Size<S>)
 /// Friction of every joint that rubs.
 pub fn rubs<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, rub) in at.m.rubs.iter().enumerate() {
-        let Rubbing::Joint { joint, along, .. } = &rub.of else { continue };
-        let (joint, Some((origin, size))) = (&at.m.joints[*joint], rubbing(at, index)) else { continue };
-        let parts = along_gauge(at, along, &spread(at, along));
+        let (Rubbing::Joint { joint: carrier, .. }, Some((origin, size))) = (rub.of, rubbing(at, index)) else {
+            continue;
+        };
+        let joint = &at.m.joints[carrier];
+        let parts = loaded(at, &rub_row(at, index, None), joint_place(at, carrier));
         out.push(Load {
             origin,
             symbol: format!("{}.friction", spell(&joint.name)),

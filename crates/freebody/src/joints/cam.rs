@@ -17,6 +17,7 @@ impl Joint for CurvedSlot {
             .coordinate("s", "")
             .turn()
             .force("normal force")
+            .rubbing()
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (at, _) = n.curve?.at(q[0]);

@@ -62,6 +62,16 @@ impl<'a, T: Scalar> JointView<'a, T> {
     pub fn contact(&self, r: &Relative<T>) -> Vec2<T> {
         self.joint.kind.contact(&self.numbers(), r)
     }
+    /// Direction of the joint's line, or of its curve at the own measure `s` of its first coordinate, in the first marker's axes.
+    pub fn tangent(&self, s: T) -> Vec2<T> {
+        match &self.curve {
+            Some(curve) => {
+                let (_, slope) = curve.at(s);
+                slope * (T::one() / slope.norm())
+            }
+            None => vec2(T::one(), T::zero()),
+        }
+    }
     /// The coordinates in the order of the card, where they can be read off.
     pub fn measure(&self, r: &Relative<T>) -> Option<Few<T>> {
         self.joint.kind.measure(&self.numbers(), r)

@@ -56,11 +56,16 @@ impl Machine<'_> {
     /// Notes what changed of the mode, and begins another stretch.
     pub(super) fn take_mode(&mut self, t: f64, before: &crate::mode::Mode) -> Result<(), Trouble> {
         let m = self.balance.m;
-        let mut told: Vec<(&'static str, String)> = vec![];
+        let (mut told, after): (Vec<(&'static str, String, Option<String>)>, _) = (vec![], &self.balance.mode);
+        let touches = |mode: &Mode, group: usize| m.groups[group].limits.clone().any(|l| mode.limits[l].hold.touches());
         for (l, limit) in m.limits.iter().enumerate() {
             let group = &m.groups[limit.group];
             let string = group.word == "string";
-            let (was, is) = (before.limits[l].hold, self.balance.mode.limits[l].hold);
+            let (was, is) = (before.limits[l].hold, after.limits[l].hold);
+            let elsewhere = || {
+                let stays = touches(before, limit.group) && touches(after, limit.group);
+                stays.then(|| "at one place; at another it touches".to_string())
+            };
             let kind = match (was.touches(), is.touches()) {
                 (true, false) if string => "slack",
                 (true, false) => "lift-off",
@@ -74,8 +79,9 @@ impl Machine<'_> {
                     _ => continue,
                 },
             };
-            if !told.iter().any(|(k, name)| *k == kind && *name == group.name) {
-                told.push((kind, group.name.clone()));
+            if !told.iter().any(|(k, name, _)| *k == kind && *name == group.name) {
+                let partial = matches!(kind, "lift-off" | "contact");
+                told.push((kind, group.name.clone(), elsewhere().filter(|_| partial)));
             }
         }
         for rub in 0..m.rubs.len() {
@@ -85,10 +91,10 @@ impl Machine<'_> {
                 (Hold::Sliding(a), Hold::Sliding(b)) if a != b => "reversal",
                 _ => continue,
             };
-            told.push((kind, Source::Rub(rub).name(m).to_string()));
+            told.push((kind, Source::Rub(rub).name(m).to_string(), None));
         }
-        for (kind, name) in told {
-            self.note(Change { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note: None });
+        for (kind, name, note) in told {
+            self.note(Change { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note });
         }
         self.begin_stretch(t, 0.0, 0.0);
         Ok(())

@@ -12,12 +12,16 @@ impl Machine<'_> {
     /// # Errors
     /// As [`Machine::settle`].
     pub(super) fn switch_parts(&mut self, t: f64, y: &mut [f64], deeds: &[Deed]) -> Result<bool, Trouble> {
-        let mut switched = false;
+        let (mut switched, mut engaged) = (false, vec![]);
         let before: f64 = self.energy(t, y).iter().sum();
         for deed in deeds {
             switched |= match deed {
                 Deed::Release(part) => self.put(t, *part, false),
-                Deed::Engage(part) => self.put(t, *part, true),
+                Deed::Engage(part) => {
+                    let put = self.put(t, *part, true);
+                    engaged.extend(put.then(|| self.balance.m.name_of(*part).to_string()));
+                    put
+                }
                 _ => false,
             };
         }
@@ -27,7 +31,7 @@ impl Machine<'_> {
         }
         switched |= self.reset(t, y, deeds)?;
         if switched {
-            self.close_up(t, y)?;
+            self.close_up(t, y, engaged)?;
             self.settle(t, y)?;
         }
         Ok(switched)
@@ -69,7 +73,7 @@ impl Machine<'_> {
     }
 
     /// Lets what was engaged take hold: a plastic impact of the joints.
-    fn close_up(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
+    fn close_up(&mut self, t: f64, y: &mut [f64], engaged: Vec<String>) -> Result<(), Trouble> {
         let n = self.balance.m.freedom();
         self.place(t, y);
         let energy = self.balance.kinetic_energy();
@@ -91,7 +95,7 @@ impl Machine<'_> {
         let joints = blow.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
         let impulses = Some(Impulses { limits: vec![], joints, struck: vec![], spared: vec![], mode });
         let states = Some([before, y.to_vec()]);
-        self.note_jump(Change { t, kind: "impact", of: vec![], lost, states, impulses, note: None });
+        self.note_jump(Change { t, kind: "impact", of: engaged, lost, states, impulses, note: None });
         Ok(())
     }
 }

@@ -54,10 +54,11 @@ impl Machine<'_> {
         let limit = &self.balance.m.limits[l];
         if guard == 3 {
             let (_, beyond) = self.balance.border(l).expect("a guard of a border belongs to one");
-            let held = &mut self.balance.mode.limits[l];
-            held.piece.index = beyond;
+            self.balance.mode.limits[l].piece.index = beyond;
             if !limit.gap.can_close(beyond) {
-                held.hold = Hold::Open;
+                let before = self.balance.mode.clone();
+                self.balance.mode.limits[l].hold = Hold::Open;
+                self.take_mode(t, &before)?;
             }
         } else if limit.soft.is_some() {
             let before = self.balance.mode.clone();
@@ -145,7 +146,7 @@ impl Machine<'_> {
 
     /// Decides which limits hold and which joints stick.
     fn stick(&mut self, t: f64, y: &[f64], limits: &[usize], loose: Option<(usize, f64)>) -> Result<(), Trouble> {
-        self.balance.start_rubs(STILL * self.speed);
+        self.balance.start_rubs(STILL * self.speed)?;
         if let Some((rub, sense)) = loose.filter(|(rub, _)| self.balance.mode.rubs[*rub] == Hold::Stuck) {
             self.balance.mode.rubs[rub] = Hold::Sliding(sense);
         }

@@ -2,7 +2,7 @@
 
 use crate::model::*;
 use crate::rng::Rng;
-use freebody::contact::{Arc, Chain, Disk, Profile, Touch};
+use freebody::contact::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};
 use freebody::gauges::{Law, Moving, Placed};
 use freebody::kinematics::Kinematics;
 use freebody::mechanism::{Marker, Mechanism, Site, Spot};
@@ -10,7 +10,7 @@ use freebody::mode::Mode;
 use freebody::numbers::Numbers;
 use freebody::plane::{vec2, Pose, Turn, Twist, Vec2};
 
-const SURFACES: [&str; 8] = ["line", "circle", "hollow", "polygon", "chain", "bent", "arc", "hollow arc"];
+const SURFACES: [&str; 9] = ["line", "circle", "hollow", "polygon", "chain", "bent", "arc", "hollow arc", "track"];
 
 /// A touch of a disk and a surface, on bodies of every sort; the disk comes first.
 pub struct Scene {
@@ -64,6 +64,7 @@ impl Scene {
                     ends: [slot(&mut m, start), slot(&mut m, start + sweep)],
                 })
             }
+            "track" => Profile::Track(track(&mut m, second, from, rng)),
             _ => {
                 let sites = outline(word, rng).into_iter().map(|p| site(&mut m, second, from + p)).collect();
                 Profile::Chain(Chain { corners: sites, closed: word == "polygon", beyond: [None; 2] })
@@ -114,6 +115,10 @@ impl Scene {
                 all.into_iter().filter(|p| !point || p % 2 == 0 || end(p)).collect()
             }
             Profile::Arc(_) => vec![0, 1, 2],
+            Profile::Track(track) => {
+                let ends = if self.touch.disk.radius.is_some() { 2 } else { 0 };
+                (0..track.stretches.len() + ends).collect()
+            }
             Profile::Line(_) | Profile::Circle { .. } => vec![0],
         }
     }
@@ -173,6 +178,24 @@ fn site(m: &mut Mechanism, body: usize, at: Vec2) -> usize {
     let at = Spot::At([slot(m, at.x), slot(m, at.y)]);
     m.sites.push(Site { body, at });
     m.sites.len() - 1
+}
+
+/// A line, arcs to one side and to the other, and a line; the arcs are wider than any disk.
+fn track(m: &mut Mechanism, body: usize, from: Vec2, rng: &mut Rng) -> Track {
+    let (mut at, mut heading, mut last) = (from, rng.about(3.0), site(m, body, from));
+    let mut stretches = vec![];
+    for sweep in [0.0, rng.within(0.2, 1.5), -rng.within(0.2, 1.5), 0.0] {
+        let along = turned(vec2(1.0, 0.0), heading);
+        let centre = (sweep != 0.0).then(|| at + along.perp() * (rng.within(0.5, 1.0) * f64::signum(sweep)));
+        at = match centre {
+            Some(centre) => centre + turned(at - centre, sweep),
+            None => at + along * rng.within(0.5, 1.0),
+        };
+        let next = site(m, body, at);
+        stretches.push(Stretch { ends: [last, next], centre: centre.map(|centre| site(m, body, centre)) });
+        (heading, last) = (heading + sweep, next);
+    }
+    Track { stretches }
 }
 
 /// Corners, clockwise: of a polygon, of a chain that turns by less than a right angle, and of one that turns further.

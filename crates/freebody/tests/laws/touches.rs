@@ -3,7 +3,7 @@
 
 use crate::model::*;
 use crate::scenes::*;
-use freebody::contact::{Border, Profile};
+use freebody::contact::{Border, Profile, Track};
 use freebody::gauges::Seeded;
 use freebody::plane::{vec2, Vec2, Wrench};
 use freebody::scalar::{Dual, Jet};
@@ -76,6 +76,16 @@ fn off_surface(scene: &Scene, there: &There, piece: usize, p: Vec2) -> f64 {
                 None => along.cross(p - hub).abs(),
             }
         }
+        Profile::Track(track) => match track.stretches.get(piece) {
+            Some(stretch) => {
+                let [from, to] = stretch.ends.map(|site| scene.place(there, site));
+                match stretch.centre.map(|site| scene.place(there, site)) {
+                    Some(centre) => ((p - centre).norm() - (from - centre).norm()).abs(),
+                    None => ((to - from).cross(p - from) / (to - from).norm()).abs(),
+                }
+            }
+            None => (p - end_of(scene, there, track, piece)).norm(),
+        },
         Profile::Chain(chain) => {
             let corner = |i: usize| scene.place(there, chain.corners[i % chain.corners.len()]);
             let first = piece == 2 * chain.sides();
@@ -94,6 +104,12 @@ fn off_surface(scene: &Scene, there: &There, piece: usize, p: Vec2) -> f64 {
             }
         }
     }
+}
+
+/// The start or the end of a track, by its piece.
+fn end_of(scene: &Scene, there: &There, track: &Track, piece: usize) -> Vec2 {
+    let n = track.stretches.len();
+    scene.place(there, if piece == n { track.stretches[0].ends[0] } else { track.stretches[n - 1].ends[1] })
 }
 
 /// Rates and accelerations are differences along a motion, on every piece, wherever the disk is.
@@ -141,6 +157,11 @@ fn near_centre(scene: &Scene, there: &There, piece: usize) -> bool {
                 hub + turned(vec2(radius, 0.0), ends[piece - 1])
             }
         }
+        Profile::Track(track) => match track.stretches.get(piece).map(|stretch| stretch.centre) {
+            Some(Some(centre)) => scene.place(there, centre),
+            Some(None) => return false,
+            None => end_of(scene, there, track, piece),
+        },
         Profile::Chain(chain) if piece == 2 * chain.sides() => scene.place(there, chain.corners[0]),
         Profile::Chain(chain) if piece % 2 == 1 => {
             scene.place(there, chain.corners[(piece / 2 + 1) % chain.corners.len()])
@@ -246,6 +267,60 @@ fn an_arc_is_its_points_and_ends_at_its_ends() {
         }
     });
     assert!(changes > 200, "{changes}");
+}
+
+/// Just before a track, as far as any disk fits there, the gap is the distance from its nearest point, all along it and without a
+/// jump from stretch to stretch; past its ends it is that from the end.
+#[test]
+fn a_track_is_its_points() {
+    let mut visits = 0;
+    every_scene(|scene, there, rng| {
+        let Profile::Track(track) = &scene.touch.against else { return };
+        let (m, touch, r) = (&scene.m, &scene.touch, scene.radius(there));
+        let way = walked(scene, there, track);
+        for _ in 0..200 {
+            let i = rng.below(way.len() - 1);
+            let along = way[i + 1] - way[i];
+            let place = way[i] + along.perp() * (rng.within(0.0, 0.4) / along.norm());
+            let there = &scene.with_disk_at(there, place);
+            let (at, way) = (there.at(m), walked(scene, there, track));
+            let p = scene.place(there, touch.disk.centre);
+            let far = way.iter().map(|w| (p - *w).norm()).fold(f64::INFINITY, f64::min);
+            let (piece, gap) = (touch.piece(m, &at), touch.signed_gap(m, &at));
+            assert!((gap - (far - r)).abs() < 1e-5, "{}: {gap} {}", scene.told, far - r);
+            assert!(touch.can_close(piece) || i == 0 || i + 2 == way.len(), "{}", scene.told);
+            let borders = touch.borders(m, &at, piece);
+            assert!(borders.iter().all(|b| b.value >= -1e-9), "{}, {piece}: {borders:?}", scene.told);
+            for border in borders {
+                let back = touch.borders(m, &at, border.beyond).into_iter().find(|b| b.beyond == piece);
+                assert_eq!(back.map(|b| b.value), Some(-border.value), "{}: one border, two values", scene.told);
+            }
+            visits += 1;
+        }
+    });
+    assert!(visits > 1000, "{visits}");
+}
+
+/// Places all along a track, 1/400 of a stretch apart.
+fn walked(scene: &Scene, there: &There, track: &Track) -> Vec<Vec2> {
+    let stretch = |stretch: &freebody::contact::Stretch| {
+        let [from, to] = stretch.ends.map(|site| scene.place(there, site));
+        let centre = stretch.centre.map(|site| scene.place(there, site));
+        let part = move |k: i32| {
+            let x = f64::from(k) / 400.0;
+            match centre {
+                Some(centre) => {
+                    let (a, b) = (from - centre, to - centre);
+                    centre + turned(a, a.cross(b).atan2(a.dot(b)) * x)
+                }
+                None => from + (to - from) * x,
+            }
+        };
+        (0..=400).map(part).collect::<Vec<_>>()
+    };
+    let mut way: Vec<Vec2> = track.stretches.iter().flat_map(stretch).collect();
+    way.dedup_by(|a, b| (*a - *b).norm() < 1e-9);
+    way
 }
 
 /// Within its piece all borders are positive; where the piece changes, the border with the new one is crossed, and the gap

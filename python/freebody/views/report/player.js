@@ -44,7 +44,7 @@ let tones = {};
 function readTones() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(name).trim();
-  tones = { paper: read("--paper"), ink: read("--ink"), ground: read("--quiet"), bodies: [0, 1, 2, 3, 4, 5, 6, 7].map((i) => read(`--c${i}`)) };
+  tones = { paper: read("--paper"), ink: read("--ink"), ground: read("--quiet"), impact: read("--bad"), bodies: [0, 1, 2, 3, 4, 5, 6, 7].map((i) => read(`--c${i}`)) };
 }
 
 function mixed(tint, paper, part) {
@@ -177,6 +177,16 @@ function paintTraces(poses) {
   });
 }
 
+// An impact glows for a moment of the film.
+function paintFlashes() {
+  const lasting = scene.lasting * player.speed;
+  for (const flash of scene.flashes.filter(({ t }) => t <= player.t && player.t < t + lasting)) {
+    pen.globalAlpha = 1 - (player.t - flash.t) / lasting;
+    flash.rays.forEach((ray) => polyline(ray, false, { line: tones.impact, width: 1.8 }));
+  }
+  pen.globalAlpha = 1;
+}
+
 function paintMechanism() {
   pen.clearRect(0, 0, view.width, view.height);
   pen.lineJoin = pen.lineCap = "round";
@@ -187,6 +197,7 @@ function paintMechanism() {
   scene.pairs.filter((pair) => isThere(pair, frame)).forEach((pair) => paintPair(poses, pair));
   scene.cords.filter((cord) => isThere(cord, frame)).forEach((cord) => paintCord(frame, cord));
   paintFigures(poses, above, frame);
+  paintFlashes();
 }
 
 // Speeds about the one at which the run lasts some eight seconds, unless life's own does.

@@ -1,6 +1,6 @@
 //! A circle with ends.
 
-use super::{turn, Disk, Face};
+use super::{turn, Disk, Face, ON_BORDER};
 use crate::contact::Border;
 use crate::gauges::Poses;
 use crate::mechanism::{Mechanism, Slot};
@@ -26,9 +26,6 @@ pub struct Arc {
 }
 
 const ARC: usize = 0;
-
-/// How far before its end, m, a point that slides has left the arc: it does not come back to it.
-const ON_BORDER: f64 = 1e-10;
 
 impl Arc {
     /// Direction of an end, 1 or 2, from the centre, fixed axes.

@@ -6,9 +6,11 @@
 mod arc;
 mod chain;
 mod face;
+mod track;
 
 pub use arc::Arc;
 pub use chain::Chain;
+pub use track::{Stretch, Track};
 
 use super::{Border, Contact};
 use crate::gauges::Poses;
@@ -17,6 +19,9 @@ use crate::numbers::Numbers;
 use crate::plane::{vec2, Turn};
 use crate::scalar::Scalar;
 use face::Face;
+
+/// How far before the end of a surface, m, a point that slides has left it: it does not come back to it.
+const ON_BORDER: f64 = 1e-10;
 
 /// A disk against a surface. Every contact of the plane is made of these: polygons meet with the corners of one against
 /// the sides of the other.
@@ -57,6 +62,8 @@ pub enum Profile {
     Arc(Arc),
     /// Straight sides with convex corners.
     Chain(Chain),
+    /// Lines and arcs without a kink.
+    Track(Track),
 }
 
 impl Touch {
@@ -77,11 +84,12 @@ impl Touch {
         self.face(m, poses, piece).slide(self.radius(poses), turns)
     }
 
-    /// The piece that tells the gap. A line and a circle have only piece 0; others are told at [`Arc`] and [`Chain`].
+    /// The piece that tells the gap. A line and a circle have only piece 0; others are told at [`Arc`], [`Chain`] and [`Track`].
     pub fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>) -> usize {
         match &self.against {
             Profile::Arc(arc) => arc.piece(m, poses, &self.disk),
             Profile::Chain(chain) => chain.piece(m, poses, &self.disk),
+            Profile::Track(track) => track.piece(m, poses, &self.disk),
             Profile::Line(_) | Profile::Circle { .. } => 0,
         }
     }
@@ -91,6 +99,7 @@ impl Touch {
         match &self.against {
             Profile::Arc(arc) => arc.borders(m, poses, &self.disk, piece),
             Profile::Chain(chain) => chain.borders(m, poses, &self.disk, piece),
+            Profile::Track(track) => track.borders(m, poses, &self.disk, piece),
             Profile::Line(_) | Profile::Circle { .. } => vec![],
         }
     }
@@ -106,10 +115,11 @@ impl Touch {
 
     /// Whether the gap can close on a piece: a point does not stay on a corner.
     pub fn can_close(&self, piece: usize) -> bool {
-        match self.against {
+        match &self.against {
             _ if self.disk.radius.is_some() => true,
             Profile::Chain(_) => piece % 2 == 0,
             Profile::Arc(_) => piece == 0,
+            Profile::Track(track) => piece < track.stretches.len(),
             Profile::Line(_) | Profile::Circle { .. } => true,
         }
     }
@@ -130,7 +140,7 @@ impl Touch {
     pub fn reach(&self, m: &Mechanism, poses: &impl Poses<f64>) -> f64 {
         match &self.against {
             Profile::Line(_) | Profile::Circle { .. } => self.gap(m, poses, 0),
-            Profile::Arc(_) => self.signed_gap(m, poses),
+            Profile::Arc(_) | Profile::Track(_) => self.signed_gap(m, poses),
             Profile::Chain(chain) => {
                 let first = chain.corners[0];
                 let far = |&corner: &usize| (poses.arm(corner) - poses.arm(first)).norm();
@@ -158,6 +168,7 @@ impl Touch {
             Profile::Line(marker) => marker.site,
             Profile::Circle { centre, .. } | Profile::Arc(Arc { centre, .. }) => *centre,
             Profile::Chain(chain) => chain.corners[0],
+            Profile::Track(track) => track.ends()[0],
         }
     }
 
@@ -180,6 +191,7 @@ impl Touch {
             },
             Profile::Arc(arc) => arc.face(m, poses, &self.disk, piece),
             Profile::Chain(chain) => chain.face(m, poses, &self.disk, piece),
+            Profile::Track(track) => track.face(m, poses, &self.disk, piece),
         }
     }
 }
