@@ -154,34 +154,34 @@ impl Balance<'_> {
         self.m.groups.iter().zip(&self.reaches).map(apart).collect()
     }
 
-    /// Takes the present pieces of all open limits, those apart left as they were.
-    pub fn find_pieces(&mut self) {
+    /// Takes the present pieces of all open limits, those apart left as they were; `moment`, s, is short beside any of the
+    /// motion.
+    pub fn find_pieces(&mut self, moment: f64) {
         let apart = self.apart();
         for l in 0..self.m.limits.len() {
             if self.mode.limits[l].hold == Hold::Open && apart[self.m.limits[l].group].is_none() {
                 let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
                 self.mode.limits[l].piece = piece;
-                self.take_faster_piece(l);
+                self.take_coming_piece(l, moment);
             }
         }
     }
 
-    /// Where several pieces tell one gap, as where corners meet, takes the one on which it grows fastest: a moment later it is
-    /// the largest.
-    fn take_faster_piece(&mut self, l: usize) {
+    /// Where several pieces tell one gap, as where corners meet, takes the one that is the largest a moment later.
+    fn take_coming_piece(&mut self, l: usize, moment: f64) {
         let Gap::Touch(touch) = &self.m.limits[l].gap else { return };
-        let first = self.mode.limits[l].piece;
-        if self.limit_gap(l).abs() > SAME * self.length {
+        let (first, gap) = (self.mode.limits[l].piece, self.limit_gap(l));
+        if gap.abs() > SAME * self.length {
             return;
         }
         let mut borders = touch.borders(self.m, &self.at(), first.index);
         borders.retain(|border| touch.may_tell(self.m, &self.at(), border.beyond));
-        let mut best = (self.gap_rate(l), first);
+        let mut best = (gap + moment * self.gap_rate(l), first);
         for border in borders.iter().filter(|border| border.value.abs() <= SAME * self.length) {
             self.mode.limits[l].piece.index = border.beyond;
-            let rate = self.gap_rate(l);
-            if rate > best.0 {
-                best = (rate, self.mode.limits[l].piece);
+            let coming = gap - border.value + moment * self.gap_rate(l);
+            if coming > best.0 {
+                best = (coming, self.mode.limits[l].piece);
             }
         }
         self.mode.limits[l].piece = best.1;

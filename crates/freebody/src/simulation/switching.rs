@@ -106,7 +106,7 @@ impl Machine<'_> {
             // Joints pass impulses on without friction.
             self.balance.mode.rubs.fill(Hold::Open);
             self.place(t, y);
-            self.balance.find_pieces();
+            self.balance.find_pieces(self.glimpse());
             let touching = self.balance.touching(REACHED * self.balance.length);
             let reached = self.balance.reach(touching)?;
             let (k, still) = (reached.limits.len(), self.still);
