@@ -2,7 +2,7 @@
 
 use super::rows::{closing_rows, joint_rows};
 use super::{Balance, Source, Trouble};
-use crate::contact::{Gap, Group, Piece};
+use crate::contact::{Border, Gap, Group, Piece};
 use crate::mechanism::{Mechanism, Part};
 use crate::mode::{Held, Hold};
 use crate::numbers::Numbers;
@@ -122,11 +122,26 @@ impl Balance<'_> {
         gap.gap(self.m, &self.mode, &at, gap.piece(self.m, &at, self.mode.limits[l].piece))
     }
 
-    /// The gap of an open limit, where it can close as it now is.
+    /// The gap of an open limit, where it can close as it now is; None too where a limit that is closed keeps it off.
     pub fn closing_gap(&self, l: usize) -> Option<f64> {
         let (gap, at) = (&self.m.limits[l].gap, self.at());
         let piece = gap.piece(self.m, &at, self.mode.limits[l].piece);
-        gap.can_close(piece.index).then(|| gap.gap(self.m, &self.mode, &at, piece))
+        let told = gap.can_close(piece.index).then(|| gap.gap(self.m, &self.mode, &at, piece));
+        told.filter(|told| told.abs() > SAME * self.length || !self.is_doubled(l, piece))
+    }
+
+    /// Whether a corner is on a corner, so that its gap may as well be told by the other, and the other is closed.
+    fn is_doubled(&self, l: usize, piece: Piece) -> bool {
+        let (limit, at) = (&self.m.limits[l], self.at());
+        let place = |l: usize, piece: Piece| self.m.limits[l].gap.contact(self.m, &at, piece).map(|c| c.point);
+        let other = |border: &Border| !limit.gap.can_close(border.beyond) && border.value.abs() <= SAME * self.length;
+        let Some(here) = place(l, piece).filter(|_| limit.gap.borders(self.m, &at, piece).iter().any(other)) else {
+            return false;
+        };
+        let closed = |&by: &usize| by != l && self.mode.limits[by].hold.touches();
+        let by = self.m.groups[limit.group].limits.clone().filter(closed);
+        let mut places = by.filter_map(|by| place(by, self.mode.limits[by].piece));
+        places.any(|there| (there - here).norm() <= SAME * self.length)
     }
 
     /// Of every contact, stop and string a distance that its two bodies keep at least, m, where they are clearly apart: then
@@ -139,34 +154,34 @@ impl Balance<'_> {
         self.m.groups.iter().zip(&self.reaches).map(apart).collect()
     }
 
-    /// Takes the present pieces of all open limits, those apart left as they were.
-    pub fn find_pieces(&mut self) {
+    /// Takes the present pieces of all open limits, those apart left as they were; `moment`, s, is short beside any of the
+    /// motion.
+    pub fn find_pieces(&mut self, moment: f64) {
         let apart = self.apart();
         for l in 0..self.m.limits.len() {
             if self.mode.limits[l].hold == Hold::Open && apart[self.m.limits[l].group].is_none() {
                 let piece = self.m.limits[l].gap.piece(self.m, &self.at(), self.mode.limits[l].piece);
                 self.mode.limits[l].piece = piece;
-                self.take_faster_piece(l);
+                self.take_coming_piece(l, moment);
             }
         }
     }
 
-    /// Where several pieces tell one gap, as where corners meet, takes the one on which it grows fastest: a moment later it is
-    /// the largest.
-    fn take_faster_piece(&mut self, l: usize) {
+    /// Where several pieces tell one gap, as where corners meet, takes the one that is the largest a moment later.
+    fn take_coming_piece(&mut self, l: usize, moment: f64) {
         let Gap::Touch(touch) = &self.m.limits[l].gap else { return };
-        let first = self.mode.limits[l].piece;
-        if self.limit_gap(l).abs() > SAME * self.length {
+        let (first, gap) = (self.mode.limits[l].piece, self.limit_gap(l));
+        if gap.abs() > SAME * self.length {
             return;
         }
         let mut borders = touch.borders(self.m, &self.at(), first.index);
         borders.retain(|border| touch.may_tell(self.m, &self.at(), border.beyond));
-        let mut best = (self.gap_rate(l), first);
+        let mut best = (gap + moment * self.gap_rate(l), first);
         for border in borders.iter().filter(|border| border.value.abs() <= SAME * self.length) {
             self.mode.limits[l].piece.index = border.beyond;
-            let rate = self.gap_rate(l);
-            if rate > best.0 {
-                best = (rate, self.mode.limits[l].piece);
+            let coming = gap - border.value + moment * self.gap_rate(l);
+            if coming > best.0 {
+                best = (coming, self.mode.limits[l].piece);
             }
         }
         self.mode.limits[l].piece = best.1;

@@ -198,7 +198,7 @@ impl Watcher {
                 continue;
             }
             if side == -sign {
-                let t = probe.root(i, last, *node)?;
+                let t = probe.root(i, last, *node, f64::from(side) * NOISE * memory.size)?;
                 let direction = sign * probe.ahead() as i8;
                 marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
             } else if let Some(t) = touch.filter(|_| side == sign) {
@@ -304,12 +304,16 @@ impl<'a> Probe<'a> {
         }
     }
 
-    fn root(&mut self, i: usize, a: Node, b: Node) -> Result<f64, Trouble> {
-        // The sign changed in the noise at the end of the segment before.
-        if a.value == 0.0 || (a.value < 0.0) == (b.value < 0.0) {
-            return Ok(a.t);
+    /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within the
+    /// `noise` there, it leaves the noise.
+    fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, Trouble> {
+        let is_bracket = |shift: f64| a.value + shift != 0.0 && (a.value + shift < 0.0) != (b.value + shift < 0.0);
+        match [0.0, noise].into_iter().find(|&shift| is_bracket(shift)) {
+            Some(shift) => {
+                bracketed(|t| Ok(self.one(i, t)? + shift), (a.t, a.value + shift), (b.t, b.value + shift))
+            }
+            None => Ok(a.t),
         }
-        bracketed(|t| self.one(i, t), (a.t, a.value), (b.t, b.value))
     }
 
     /// Rate of switching function `i` at time `t`.

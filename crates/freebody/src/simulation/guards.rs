@@ -107,18 +107,19 @@ impl Machine<'_> {
         (-gap).min(self.balance.press(l) / self.strength)
     }
 
-    /// One guard, if it is of the configuration alone: then nothing needs to be solved.
+    /// One guard, if it is of places and speeds alone: then nothing needs to be solved.
     pub(super) fn guard_value(&mut self, guard: usize, t: f64, y: &[f64]) -> Option<f64> {
-        let l = guard / GUARDS;
-        if l >= self.balance.m.limits.len() {
-            return None;
-        }
-        if self.balance.mode.limits[l].hold.carries() {
+        let (l, which) = (guard / GUARDS, guard % GUARDS);
+        let is_force = match self.balance.mode.limits.get(l)?.hold {
+            Hold::Stuck => which < 3,
+            hold => hold.carries() && which == 0,
+        };
+        if is_force {
             return None;
         }
         self.place(t, y);
         let mut values = [0.0; GUARDS];
         self.guards_of(l, None, &mut values);
-        Some(values[guard % GUARDS])
+        Some(values[which])
     }
 }

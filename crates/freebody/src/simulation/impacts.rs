@@ -8,14 +8,14 @@ use crate::mode::Hold;
 use crate::plane::Vec2;
 
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more: its
-/// height comes near the round-off of the gap.
-const BRIEF: f64 = 1e-5;
+/// height is below what counts as reached.
+const BRIEF: f64 = 1e-4;
 /// Part of the kinetic energy by which it may rise in an impact, as round-off.
 const RISE: f64 = 1e-11;
 /// Shares of themselves by which limits yield, one after the other, where impulses of rigid ones are lost in round-off.
 const YIELDING: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
-/// Speed, over the mechanism's own, up to which what yielding leaves over counts as none.
-const LEFT_OVER: f64 = 1e-6;
+/// Speed, over the mechanism's own, up to which what yielding, or a long row of impacts, leaves over counts as none.
+pub(super) const LEFT_OVER: f64 = 1e-6;
 /// Part of the largest impulse below which one is round-off.
 const NOTHING: f64 = 1e-12;
 /// Part of what friction can do in a blow from which on all of it is used up.

@@ -11,7 +11,7 @@ use crate::motion::{After, Canonical, Happening, System, Watch};
 use crate::plane::Vec2;
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
-const DELICATE: f64 = 0.5;
+const DELICATE: f64 = 0.1;
 
 /// A stretch of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]

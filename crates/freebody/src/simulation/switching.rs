@@ -1,6 +1,6 @@
 //! From one mode to the next: what strikes, holds, slides and lets go.
 
-use super::impacts::Rule;
+use super::impacts::{Rule, LEFT_OVER};
 use super::{Machine, Start};
 use crate::balance::{Scale, Trouble};
 use crate::mode::Hold;
@@ -14,8 +14,9 @@ pub(super) const STILL: f64 = 1e-10;
 const GAIN: f64 = 1e-9;
 /// The troubles in which friction lets no motion go on, or none that was found.
 const JAMS: [&str; 2] = ["painleve_inconsistent", "contact_unsolved"];
-/// Impacts that one instant may hold.
+/// Impacts that one instant may hold, and those after which ever larger speeds count as none.
 const ROUNDS: usize = 100;
+const MANY: usize = 50;
 
 impl Machine<'_> {
     /// Finds what only the start tells of limits, lets the events of the start happen and begins the first stretch; where
@@ -103,11 +104,15 @@ impl Machine<'_> {
         let before = self.balance.mode.clone();
         self.balance.mode.resting = false;
         let mut struck = vec![];
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
+            if round > MANY {
+                // What comes to rest here sets off what rests there, ever more slowly.
+                self.still = (2.0 * self.still).min(LEFT_OVER * self.speed);
+            }
             // Joints pass impulses on without friction.
             self.balance.mode.rubs.fill(Hold::Open);
             self.place(t, y);
-            self.balance.find_pieces();
+            self.balance.find_pieces(self.glimpse());
             let touching = self.balance.touching(REACHED * self.balance.length);
             let reached = self.balance.reach(touching)?;
             let (k, still) = (reached.limits.len(), self.still);

@@ -202,14 +202,15 @@ fn solved(a: &Matrix, b: &[f64]) -> Result<Vec<f64>, Refusal> {
     if a.rows() < a.cols() {
         return Err(Refusal::Singular);
     }
-    let factors = Orthogonal::factor(a);
+    // Of the columns, which are fewer: their bases are the smaller.
+    let factors = Orthogonal::factor(&Matrix::from_fn(a.cols(), a.rows(), |i, j| a[(j, i)]));
     if factors.rank().rank < a.cols() {
         return Err(Refusal::Singular);
     }
     let mut x = vec![0.0; a.cols()];
-    factors.add_solution(b, &mut x);
+    factors.add_transposed_solution(b, &mut x);
     let residual: Vec<f64> = b.iter().zip(a.mul_vec(&x)).map(|(b, ax)| b - ax).collect();
-    factors.add_solution(&residual, &mut x);
+    factors.add_transposed_solution(&residual, &mut x);
     Ok(x)
 }
 

@@ -138,13 +138,15 @@ pub(super) fn enumerate(task: &Task, mut all: Vec<Found>, tolerance: f64) -> Vec
     all
 }
 
-/// The finding of these modes; where they do not determine the forces, the first of its vertices, with many touches one
-/// near the middle.
+/// The finding of these modes; where they do not determine the forces, one near the middle of all, else the first of the
+/// vertices.
 fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(task, modes, tolerance);
-    if matches!(result, Err(Refusal::Singular)) && task.len() > ENUMERABLE {
+    let is_singular = matches!(result, Err(Refusal::Singular));
+    if is_singular {
         result = basic(task, modes, tolerance);
-    } else if matches!(result, Err(Refusal::Singular)) {
+    }
+    if result.is_err() && is_singular && task.len() <= ENUMERABLE {
         let lists: Vec<Vec<Mode>> = modes.iter().zip(&task.holds).map(|(m, h)| vertices(*h, *m)).collect();
         let mut tries = 0;
         choices(&lists, |modes| {

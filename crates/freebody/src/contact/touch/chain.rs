@@ -17,7 +17,7 @@ const SUNK: f64 = 1e-7;
 const FLAT: f64 = 1e-6;
 /// Height, in parts of its length, that a side on which a corner rests may lack of one of the corner's own: corners that rest on
 /// each other stay as they are.
-const SLACK: f64 = 1e-12;
+const SLACK: f64 = 1e-10;
 /// The piece of a corner that a side of its own polygon keeps off. Nothing closes there.
 const KEPT_OFF: usize = 1;
 
