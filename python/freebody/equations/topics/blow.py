@@ -22,7 +22,7 @@ from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import linear_in
 from freebody.equations.names import Name
 from freebody.equations.topics.common import NotHere, moving_names
-from freebody.equations.tree import ZERO, Pow, Sym, Tree, add, evaluate, mul, negative, power, rebuilt, symbols, walk
+from freebody.equations.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, evaluate, mul, negative, power, rebuilt, symbols, walk
 from freebody.equations.tree import replace as put
 from freebody.free_body import GROUND, FreeBodies, Load
 from freebody.naming import ImpulseNaming
@@ -246,8 +246,11 @@ class Blow:
         return abs(one - other) <= self._rounding
 
     def sides(self, condition: Condition) -> tuple[Tree, Tree]:
-        """Of its equation: the rate after the blow, and what it is."""
-        return self.after(condition.rate), negative(mul(condition.back, condition.rate))
+        """Of its equation: the rate after the blow, and what it is; not one less than nothing."""
+        parts = condition.rate.terms if isinstance(condition.rate, Add) else (condition.rate,)
+        turned = all(isinstance(part, Mul) and isinstance(part.factors[0], Num) and part.factors[0].value < 0 for part in parts)
+        rate = negative(condition.rate) if turned else condition.rate
+        return self.after(rate), negative(mul(condition.back, rate))
 
     def agrees(self, solution: Mapping[Sym, Tree]) -> bool:
         """Whether rates after the blow are those that happened."""

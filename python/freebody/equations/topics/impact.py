@@ -12,7 +12,6 @@ from freebody.balances.reasons import agree
 from freebody.equations.collect import collected
 from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined, load_words
-from freebody.equations.derivation.told import Balance
 from freebody.equations.document import Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Words
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.topics.blow import Blow, after, blow, impulse
@@ -80,18 +79,20 @@ def _equations(found: Blow) -> list[Block]:
     made.append(Paragraph("With the impulses in them, one for each coordinate, impulse = momentum after − momentum before:"))
     of_coordinates = found.of_coordinates()
     made += [_with_impulses(found, each) for each in of_coordinates]
-    return made + _of_bodies(found, [each.balance for each in of_coordinates])
+    return made + _of_bodies(found, of_coordinates)
 
 
-def _of_bodies(found: Blow, balances: Sequence[Balance]) -> list[Block]:
-    """The balances of the bodies on which impulses act that other balances do not have."""
-    free, there = found.subject.free, {c.load for b in balances for c in b.contributions if not c.absent}
+def _of_bodies(found: Blow, stated: Sequence[Stated]) -> list[Block]:
+    """The balances of the bodies on which impulses act that those stated do not have."""
+    free, there = found.subject.free, {c.load for each in stated for c in each.balance.contributions if not c.absent}
+    said = {each.title for each in stated}
     kept_out = {load.symbol for i, load in enumerate(free.loads) if load in found.forces and i not in there}
     bodies = [body for body in free.bodies if any(load.symbol in kept_out for load in free.on(body))]
     if not bodies:
         return []
     words = Paragraph(f"Of {joined(bodies)} alone, on which impulses of joints act that are not in those:")
-    return [words, *(_with_impulses(found, each) for each in found.of_bodies() if each.balance.bodies[0] in bodies)]
+    more = [each for each in found.of_bodies() if each.balance.bodies[0] in bodies and each.title not in said]
+    return [words, *(_with_impulses(found, each) for each in more)]
 
 
 def _with_impulses(found: Blow, each: Stated) -> Equation:
@@ -142,8 +143,9 @@ def _friction(found: Blow) -> list[Block]:
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
             n, f = Sym(impulse(normal)), Sym(impulse(load))
-            words = f"{load.name} does not slide any more after the blow, for friction can give what that takes: "
-            made.append(Paragraph([words, f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]))
+            words = f"{load.name} does not slide any more after the blow, for friction can give what that takes"
+            share = [": ", f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]
+            made.append(Paragraph([words, *(["."] if np.isnan(sizes[f] + sizes[n]) else share)]))
     return made
 
 

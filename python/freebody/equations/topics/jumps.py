@@ -22,6 +22,7 @@ from freebody.equations.tree import (
     Add,
     Fn,
     Num,
+    Pow,
     Sym,
     Tree,
     add,
@@ -46,7 +47,7 @@ _HELPS = 12
 """Operations of a rate by others, above which it is no help."""
 MOST_OPERATIONS = 300
 """In a system, or in an answer before it is shortened, above which none is sought in letters."""
-_MOST_TOGETHER = 4
+_MOST_TOGETHER = 6
 """Unknowns that are solved together."""
 _PATIENCE = 1.0
 """Seconds for the shortest form of one answer."""
@@ -87,10 +88,7 @@ class Rows:
         if len(self.impulses) != len(self.conditions):
             raise TooLarge(f"{len(self.conditions)} equations for {len(self.impulses)} unknowns: more is held than it takes")
         rows = [*self.mass, *(row for row, _ in self.gives), *(row for _, (row, _) in self.conditions)]
-        size = sum(operations(entry) for row in rows for entry in row)
-        if size > MOST_OPERATIONS:
-            unknowns = len(self.mass) + len(self.impulses)
-            raise TooLarge(f"{unknowns} equations with {size} operations are too long for an answer in letters")
+        _require_brief([entry for row in rows for entry in row])
 
     def matrix(self, found: Blow) -> tuple[list[list[float]], list[float]]:
         """A and b of A (rates after, impulses) = b, in numbers."""
@@ -278,7 +276,7 @@ class _System:
         right = [negative(add(*(mul(rows[i][k], there[k]) for k in free), self._put(parts[i].rest))) for i in chosen]
         solution = solve([[rows[i][k] for k in bound] for i in chosen], right, self.found.letters, patience=_PATIENCE)
         told = {there[k]: self._finished(tree) for k, tree in zip(bound, solution, strict=True)}
-        return {x: tree for x, tree in told.items() if operations(tree) <= _HELPS}
+        return {x: tree for x, tree in told.items() if operations(tree) <= _HELPS and not _divides(tree)}
 
     def _of_before(self, rate: Sym) -> Tree:
         return self.found.zeros.get(rate, self.known.get(rate, rate))
@@ -335,17 +333,22 @@ class _System:
     def _together(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> Solution:
         _require_few(len(wanted))
         matrix, right = linear_system(equations, wanted)
+        _require_brief([*(entry for row in matrix for entry in row), *right])
         found = solve([list(map(spread, row)) for row in matrix], list(map(spread, right)), self.found.letters, patience=0.0)
+        _require_brief(found)
         return {x: self.names.plain_angles(_fourier(tree)) for x, tree in zip(wanted, found, strict=True)}
 
     def _told(self, staged: Tree, full: Tree) -> Tree:
         """``full`` in its shortest form where that can be read, else ``staged``, which says it by other letters."""
+        import sympy
+
         short, whole = self._finished(staged), self.names.spelt(full)
         if operations(whole) > MOST_OPERATIONS:
             return short
         letters = self.found.letters
         forms = [whole, self.names.plain_angles(_fourier(whole))] if any(isinstance(part, Fn) for part in walk(whole)) else [whole]
-        made = (self._finished(shortest(to_sympy(form), letters, _PATIENCE)) for form in forms)
+        given = (sympy.together(to_sympy(form)) if isinstance(form, Add) else to_sympy(form) for form in forms)
+        made = (self._finished(shortest(form, letters, _PATIENCE)) for form in given)
         best = min(made, key=lambda form: length(form, letters))
         return best if self._signs(best) <= max(_READABLE, self._signs(short)) else short
 
@@ -379,8 +382,20 @@ def _fourier(tree: Tree) -> Tree:
     return from_sympy(sympy.cancel(above / below))
 
 
+def _divides(tree: Tree) -> bool:
+    """Whether an expression is divided by something that is 0 in some places."""
+    below = (part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0)
+    return any(isinstance(part, Fn) for base in below for part in walk(base))
+
+
 def _divided(tree: Tree, by: Tree) -> Tree:
     return add(*(quotient(term, by) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
+
+
+def _require_brief(trees: Sequence[Tree]) -> None:
+    """Raises ``TooLarge``."""
+    if (size := sum(map(operations, trees))) > MOST_OPERATIONS:
+        raise TooLarge(f"what acts together has {size} operations, which is too long for an answer in letters")
 
 
 def _require_few(unknowns: int) -> None:
