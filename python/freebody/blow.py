@@ -51,9 +51,14 @@ class Impulsive(ABC):
     def rows_before(self) -> list[Any]:
         """What held just before, in letters, as the core tells its rows."""
 
+    @property
+    def given(self) -> Mapping[str, str]:
+        """The letters of impulses that are given from outside, by the names of their loads."""
+        return {}
+
     def grows(self, load: Load) -> bool:
         """Whether a load has an impulse."""
-        return load.unknown or load.follows is not None
+        return load.unknown or load.follows is not None or (load.kind == "force" and load.name in self.given)
 
     @property
     def acting(self) -> list[Load]:
@@ -69,7 +74,9 @@ class Impulsive(ABC):
         """In sentences, what has no impulse on a group of bodies (all by default), and why."""
         chosen = set(group or self.free.bodies)
         told = [f"{', '.join(words)}: finite, so no impulse in a time that goes to 0"] if (words := self._weak(chosen)) else []
-        sides = {each["name"]: {each["first"], each["second"]} for each in self.source.about["joints"] + self.source.about["limits"]}
+        sides = {
+            each["name"]: {each["first"], each["second"]} for each in self.source.about["joints"] + self.source.about["limits"]
+        }
         impulses, joints = self.change.impulses, json.loads(self.source.spec)["joints"]
         spared = impulses.spared if impulses else ()
         here = [name for name in spared if sides[name] & chosen]
@@ -122,7 +129,7 @@ class Impulsive(ABC):
                 gives[:, load.follows[0]] += load.follows[1] * gives[:, i]
         jumps = np.concatenate([body.effective(body.G) for body in bodies.values()] or [np.zeros(0)])
         sizes = np.zeros(len(loads))
-        sizes[known] = [loads[i].value for i in known]
+        sizes[known] = 1.0  # of what is given the parts are what acts
         sizes[unknown] = np.linalg.lstsq(gives[:, unknown], jumps - gives[:, known] @ sizes[known], rcond=None)[0]
         for i, load in enumerate(loads):
             if load.follows:

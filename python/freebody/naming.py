@@ -150,7 +150,9 @@ class ImpulseNaming(Naming):
     def loads(self) -> dict[str, Name]:
         """The letters of impulses, by the symbols of their forces."""
         forces = load_names(self.blow.free.loads, self.source)
-        return {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
+        given = {load.symbol: self.blow.given[load.name] for load in self.blow.acting if load.name in self.blow.given}
+        made = {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
+        return made | {symbol: Name.parse(letter) for symbol, letter in given.items()}
 
     def _told(self, question: str) -> list[dict[str, Any]]:
         """An answer of the core during the blow."""

@@ -14,7 +14,9 @@ from freebody.equations.tree import Add, Fn, Sym, Tree, add, children, mul, numb
 
 SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")
 EXAMPLES = SYSTEMS.parents[2] / "examples"
-STRUCK = [SYSTEMS / f"{name}.yaml" for name in ("19.3.22/latch", "19.3.30/model", "19.3.30/hinged")] + [EXAMPLES / "tossed_box.yaml"]
+STRUCK = [SYSTEMS / f"{name}.yaml" for name in ("19.3.22/latch", "19.3.30/model", "19.3.30/hinged")] + [
+    EXAMPLES / "tossed_box.yaml"
+]
 
 
 def trees(part):

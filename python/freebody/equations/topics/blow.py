@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import repeat
 from typing import TYPE_CHECKING, Any
 
 from freebody.balances.minimal import minimal_form
@@ -21,13 +22,31 @@ from freebody.equations.derivation.told import Balance, Row, Subject
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import linear_in
 from freebody.equations.names import Name
+from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, moving_names
-from freebody.equations.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, evaluate, mul, negative, power, rebuilt, symbols, walk
+from freebody.equations.tree import (
+    ZERO,
+    Add,
+    Mul,
+    Num,
+    Pow,
+    Sym,
+    Tree,
+    add,
+    evaluate,
+    mul,
+    negative,
+    power,
+    rebuilt,
+    symbols,
+    walk,
+)
 from freebody.equations.tree import replace as put
 from freebody.free_body import GROUND, FreeBodies, Load
 from freebody.naming import ImpulseNaming
 
 if TYPE_CHECKING:
+    from freebody.instant import State
     from freebody.model.builder import Builder
     from freebody.switched import Change
 
@@ -97,6 +116,10 @@ class Blow:
             name: Sym(named.get(name, re.sub(r"\W+", "_", f"e_{name}").strip("_"))) for name, e in self.restitution.items() if e
         }
 
+    def letter(self, load: Load) -> Sym:
+        """The letter of an impulse."""
+        return Sym(self.subject.blow.given.get(load.name) or impulse(load))
+
     @property
     def impulses(self) -> dict[Sym, Sym]:
         """The impulse for each unknown force."""
@@ -144,7 +167,9 @@ class Blow:
         return put(tree, {Sym(name, 1): Sym(after(name), 1) for name in moving_names(self.subject)})
 
     def jump(self, balance: Balance) -> Tree:
-        """Momentum after less momentum before."""
+        """Momentum after less momentum before; what is struck from outside stood still."""
+        if self.subject.blow.given:
+            return self.after(balance.momentum)
         return add(self.after(balance.momentum), negative(balance.momentum))
 
     def acting(self, balance: Balance) -> Tree:
@@ -178,16 +203,27 @@ class Blow:
         """Whether no impulse has a part in a balance where the blow is; in letters it may take what touches to see it."""
         subject = self.subject
         units = dict.fromkeys(self.impulses, 1.0)
-        parts = [c.tree for c in balance.contributions if not c.internal and subject.free.loads[c.load].unknown]
+        parts = [c.tree for c in balance.contributions if not c.internal and subject.blow.grows(subject.free.loads[c.load])]
         return all(abs(float(evaluate(part, subject.values | units, subject.tables))) < _NOTHING for part in parts)
 
-    @property
+    @cached_property
     def zeros(self) -> dict[Sym, Tree]:
-        """Coordinates, and rates before the blow, that are 0 there."""
+        """Coordinates, and rates before the blow, that are 0 there; and coordinates that are then as long as what holds."""
         state, names = self.subject.state, moving_names(self.subject)
         found = [Sym(name) for name, x in zip(names, state.q, strict=True) if abs(x) < _NOTHING]
         found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
-        return dict.fromkeys(found, add())
+        zeros: dict[Sym, Tree] = dict.fromkeys(found, ZERO)
+        return zeros | dict(pair for pair in map(self._along, self.roots.items(), repeat(zeros)) if pair is not None)
+
+    def _along(self, root: tuple[Tree, Tree], zeros: Mapping[Sym, Tree]) -> tuple[Sym, Tree] | None:
+        """A coordinate that is all of a distance where others are 0: y = −l of what hangs below."""
+        under = to_sympy(put(root[0], zeros))
+        factor, square = under.as_coeff_Mul()
+        letter = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
+        if not isinstance(letter, Sym) or letter.name not in moving_names(self.subject):
+            return None
+        size = mul(root[1], from_sympy(factor ** (-to_sympy(Num(_HALF)))))
+        return letter, size if self.subject.values[letter] > 0 else negative(size)
 
     def of_coordinates(self) -> list[Stated]:
         """The balances of the coordinates."""
@@ -209,7 +245,10 @@ class Blow:
         known = self.subject.letters
         own = [name for name, e in self.coefficients.items() if e.name not in known]
         made = [
-            *(Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow") for name in moving_names(self.subject)),
+            *(
+                Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow")
+                for name in moving_names(self.subject)
+            ),
             *(self._letter(load) for load in self.subject.blow.acting),
             *(Letter(self.coefficients[name].name, "parameter", "", f"restitution at {name}") for name in own),
         ]
@@ -217,6 +256,8 @@ class Blow:
 
     def _letter(self, load: Load) -> Letter:
         words = load_words(load).removeprefix("the ")
+        if load.name in self.subject.blow.given:
+            return Letter(self.letter(load).name, "parameter", "N*s", "the impulse that strikes")
         return Letter(impulse(load), "unknown", "N*s", f"impulse of the {words}", self.written[load.symbol])
 
     @cached_property
@@ -277,7 +318,8 @@ class Blow:
 
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""
-        return {Sym(impulse(load)): load.value for load in self.subject.blow.impulses.loads}
+        happened = self.subject.blow
+        return {self.letter(load): load.value for load in happened.impulses.loads if load.name not in happened.given}
 
     @cached_property
     def written(self) -> dict[str, Name]:
@@ -305,6 +347,17 @@ def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | f
     those from a time ``at`` on (s, or ``"200 ms"``). Raises ``NotHere``."""
     try:
         found = mechanism.blow(number, of=of, at=at)
+    except NoBlow as error:
+        raise NotHere(str(error)) from None
+    return Blow(Struck(found.source, found.state, happened=found))
+
+
+def hammered(mechanism: Builder, state: State, point: str, **how: Any) -> Blow:
+    """An impulse at a point of a mechanism at rest, see ``freebody.strike.strike``. Raises ``NotHere``, ``ModelFileError``."""
+    from freebody.strike import strike
+
+    try:
+        found = strike(mechanism, state, point, **how)
     except NoBlow as error:
         raise NotHere(str(error)) from None
     return Blow(Struck(found.source, found.state, happened=found))

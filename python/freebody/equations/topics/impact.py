@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,9 +12,20 @@ from freebody.balances.reasons import agree
 from freebody.equations.collect import collected
 from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined, load_words
-from freebody.equations.document import Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Words
+from freebody.equations.document import (
+    Block,
+    Bullets,
+    Document,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Side,
+    Words,
+)
 from freebody.equations.solve import Singular, TooLarge
-from freebody.equations.topics.blow import Blow, after, blow, impulse
+from freebody.equations.topics.blow import Blow, after, blow, hammered
 from freebody.equations.topics.common import document, moving_names
 from freebody.equations.topics.jumps import Rows, Solution, jumps
 from freebody.equations.tree import ZERO, Num, Sym, is_zero, symbols
@@ -29,25 +40,45 @@ _NOTHING = 1e-12
 
 
 def impact(
-    mechanism: Builder, state: State | None = None, *, number: int | str = 1, of: str | None = None, at: str | float | None = None
+    mechanism: Builder,
+    state: State | None = None,
+    *,
+    number: int | str = 1,
+    of: str | None = None,
+    at: str | float | None = None,
+    point: str | None = None,
+    direction: Any = None,
+    impulse: Any = None,
+    frame: str | None = None,
 ) -> Document:
     """The blow of a ``number`` (from 1) in the run of a model: a contact, a string that becomes taut, a stop, what catches; ``of``
-    counts only those of one of these by name, ``at`` only those from a time on. The run tells where it is, so ``state`` is not
-    asked for. Raises ``NotHere`` where there is none."""
-    found = blow(mechanism, int(number), of, at)
+    counts only those of one of these by name, ``at`` only those from a time on; the run tells where it is.
+
+    With a ``point`` the model stands still as at its start, and is struck there: along a ``direction`` (an angle from the x axis of
+    the ``frame``, ``fixed`` or ``body``), by an ``impulse`` (N·s, for the numbers). Raises ``NotHere`` where there is no blow."""
+    how = {"direction": direction, "impulse": impulse, "frame": frame}
+    strike = {name: value for name, value in how.items() if value is not None}
+    if point is None:
+        if strike:
+            raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
+        found = blow(mechanism, int(number), of, at)
+        title = f"blow at {joined(list(found.change.of))}" if found.change.of else "blow of what catches"
+    else:
+        found = hammered(mechanism, state or mechanism.start()[0], point, **strike)
+        title = f"struck at {point}"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
-    title = f"blow at {joined(list(found.change.of))}" if found.change.of else "blow of what catches"
     return document(found.subject, title, made, list(found.letters.values()))
 
 
 def _what(found: Blow) -> list[Block]:
-    made: list[Block] = [Heading("Impulses on each body")]
-    made.append(
-        Paragraph("In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it.")
-    )
+    said = "In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it."
+    if found.subject.blow.given:
+        said += " Before it all stands still."
+        said += "" if found.subject.source.about["limits"] else " Were there rates, they would stay, and the jumps add to them."
+    made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
-        items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(_on(load, body))}"] for load in loads]
+        items: list[Words] = [[found.letter(load), f", {_named(found, load, body)}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
     from freebody.views.diagram.impulses import Impulses
 
@@ -60,6 +91,10 @@ def _what(found: Blow) -> list[Block]:
         )
     )
     return [*made, Paragraph("Absent:"), Bullets(missing)] if missing else made
+
+
+def _named(found: Blow, load: Load, body: str) -> str:
+    return "which strikes" if load.name in found.subject.blow.given else f"of the {_plain(_on(load, body))}"
 
 
 def _plain(words: str) -> str:
@@ -76,7 +111,8 @@ def _equations(found: Blow) -> list[Block]:
             )
         )
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
-    made.append(Paragraph("With the impulses in them, one for each coordinate, impulse = momentum after − momentum before:"))
+    before = ", for all stood still before" if found.subject.blow.given else " − momentum before"
+    made.append(Paragraph(f"With the impulses in them, one for each coordinate, impulse = momentum after{before}:"))
     of_coordinates = found.of_coordinates()
     made += [_with_impulses(found, each) for each in of_coordinates]
     return made + _of_bodies(found, of_coordinates)
@@ -105,7 +141,7 @@ def _left_out(found: Blow, each: Stated) -> Words:
     """Which impulses on the bodies are not in an equation, and why."""
     said: list[str | Sym] = []
     for why, loads in dropped(found.subject, each).items():
-        letters = [Sym(impulse(load)) for load in loads]
+        letters = [found.letter(load) for load in loads]
         said += ["; " if said else "Not in it: ", letters[0], *(x for letter in letters[1:] for x in (", ", letter))]
         said.append(f" ({agree(why, len(loads))})")
     return [*said, "."] if said else ""
@@ -117,7 +153,7 @@ def _title(title: str) -> str:
 
 
 def _restitution(found: Blow) -> list[Block]:
-    made: list[Block] = [Heading("Restitution, and what holds")]
+    made: list[Block] = []
     for each in found.conditions():
         left, right = found.sides(each)
         if not symbols(left, right):
@@ -126,9 +162,16 @@ def _restitution(found: Blow) -> list[Block]:
             made.append(Paragraph(f"At {each.name}: {found.otherwise()}."))
             continue
         struck = found.change.impulses is not None and each.name in found.change.impulses.restitution
-        back = f"{each.name} throws back" if not is_zero(right) else f"At {each.name} nothing comes back" if struck else f"{each.name} holds"
+        back = (
+            f"{each.name} throws back"
+            if not is_zero(right)
+            else f"At {each.name} nothing comes back"
+            if struck
+            else f"{each.name} holds"
+        )
         made.append(Equation(left, right, back))
-    return made + _friction(found)
+    made += _friction(found)
+    return [Heading("What holds" if found.subject.blow.given else "Restitution, and what holds"), *made] if made else []
 
 
 def _friction(found: Blow) -> list[Block]:
@@ -138,11 +181,11 @@ def _friction(found: Blow) -> list[Block]:
     for load in found.slides:
         note = "Coulomb's law, integrated over the blow: friction has all the impulse that it can, against the sliding."
         law = found.law(load)
-        made.append(Equation(Sym(impulse(load)), law, f"{load.name} slides throughout the blow", note=note))
+        made.append(Equation(found.letter(load), law, f"{load.name} slides throughout the blow", note=note))
     stuck = all(found.holds(each) for each in found.conditions())
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
-            n, f = Sym(impulse(normal)), Sym(impulse(load))
+            n, f = found.letter(normal), found.letter(load)
             words = f"{load.name} does not slide any more after the blow, for friction can give what that takes"
             share = [": ", f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]
             made.append(Paragraph([words, *(["."] if np.isnan(sizes[f] + sizes[n]) else share)]))
@@ -171,8 +214,12 @@ def _told(solution: Solution, name: str) -> list[Block]:
 
 
 def _given(found: Blow) -> list[Block]:
-    said: list[str | Sym] = [piece for x in found.zeros for piece in (x, " = ")]
-    return [Paragraph(["At this blow ", *said, "0."])] if said else []
+    rest = bool(found.subject.blow.given)  # then no rate before it stands anywhere
+    there = [x for x, tree in found.zeros.items() if is_zero(tree) and not (rest and x.dots)]
+    said: list[str | Side] = [piece for x in there for piece in (x, " = ")] + ["0"] * bool(there)
+    for x, tree in found.zeros.items():
+        said += [", " if said else "", x, " = ", tree] if not is_zero(tree) else []
+    return [Paragraph(["At this blow ", *said, "."])] if said else []
 
 
 def _matrix(found: Blow) -> list[Block]:
@@ -190,6 +237,7 @@ def _figure(value: float) -> Num:
 
 def _numbers(found: Blow) -> list[Block]:
     change = found.change
+    given = [Sym(letter) for letter in found.subject.blow.given.values()]
     rows: list[Words] = [
         [Sym(name, 1), f": {change.before.u[name]:.6g} before, {change.after.u[name]:.6g} after"] for name in change.after.u
     ]
@@ -197,12 +245,14 @@ def _numbers(found: Blow) -> list[Block]:
         [x, " is not determined: more is held than it takes" if np.isnan(size) else f" = {size:.6g}"]
         for x, size in found.sizes().items()
     ]
-    lost = Paragraph(f"The blow takes {change.lost:.6g} J." + f" {change.note}" * bool(change.note))
-    return [
-        Heading("In the run"),
-        Paragraph(f"At t = {change.t:.6g} s, rates in m/s or rad/s:"), Bullets(rows),
-        Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses), lost,
-    ]  # fmt: skip
+    where: Words = f"At t = {change.t:.6g} s, rates in m/s or rad/s:"
+    if given:
+        where = ["With ", given[0], f" = {found.values[given[0]]:.6g} N·s, rates in m/s or rad/s:"]
+    took = f"gives {-change.lost:.6g}" if given else f"takes {change.lost:.6g}"
+    made: list[Block] = [Heading("In numbers" if given else "In the run"), Paragraph(where), Bullets(rows)]
+    if impulses:
+        made += [Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses)]
+    return [*made, Paragraph(f"The blow {took} J." + f" {change.note}" * bool(change.note))]
 
 
 def _on(load: Load, body: str) -> str:

@@ -197,7 +197,8 @@ class _System:
         if any(self._signs(tree) > _READABLE for tree in rates.values()):
             return None
         full = {**rates, **{x: replace(tree, rates) for x, tree in self.follow.items()}}
-        impulses = self._by_rates(self.acting)
+        still = {x: tree for x, tree in full.items() if is_zero(tree)}
+        impulses = {x: self._finished(replace(tree, still)) for x, tree in self._by_rates(self.acting).items()}
         return {**rates, **self._rest(full)}, impulses, {**full, **{x: replace(tree, full) for x, tree in impulses.items()}}
 
     def _rest(self, full: Solution) -> Solution:
@@ -315,7 +316,9 @@ class _System:
         values = self._numbers()
 
         def factor(x: Sym, tree: Tree) -> float:
-            return float(evaluate(minus(replace(tree, {x: Num(1)}), replace(tree, {x: Num(0)})), values, self.found.subject.tables))
+            return float(
+                evaluate(minus(replace(tree, {x: Num(1)}), replace(tree, {x: Num(0)})), values, self.found.subject.tables)
+            )
 
         table = np.array([[factor(x, left) for x in wanted] for left, _ in equations])
         return [equations[i] for i in independent(table)]
@@ -346,7 +349,9 @@ class _System:
         if operations(whole) > MOST_OPERATIONS:
             return short
         letters = self.found.letters
-        forms = [whole, self.names.plain_angles(_fourier(whole))] if any(isinstance(part, Fn) for part in walk(whole)) else [whole]
+        forms = (
+            [whole, self.names.plain_angles(_fourier(whole))] if any(isinstance(part, Fn) for part in walk(whole)) else [whole]
+        )
         given = (sympy.together(to_sympy(form)) if isinstance(form, Add) else to_sympy(form) for form in forms)
         made = (self._finished(shortest(form, letters, _PATIENCE)) for form in given)
         best = min(made, key=lambda form: length(form, letters))
