@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from freebody.instant import State
     from freebody.model.builder import Builder
 
+_ROUND_OFF = 1e-14
+"""Of the largest rate, below which one is what is left of 0."""
 _NOTHING = 1e-12
 """Of a number in SI, below which it is what is left of 0."""
 
@@ -238,8 +240,10 @@ def _figure(value: float) -> Num:
 def _numbers(found: Blow) -> list[Block]:
     change = found.change
     given = [Sym(letter) for letter in found.subject.blow.given.values()]
+    before, now = change.before.u, change.after.u
+    small = _ROUND_OFF * max(map(abs, (*before.values(), *now.values())), default=0.0)
     rows: list[Words] = [
-        [Sym(name, 1), f": {change.before.u[name]:.6g} before, {change.after.u[name]:.6g} after"] for name in change.after.u
+        [Sym(name, 1), f": {_clean(before[name], small):.6g} before, {_clean(u, small):.6g} after"] for name, u in now.items()
     ]
     impulses: list[Words] = [
         [x, " is not determined: more is held than it takes" if np.isnan(size) else f" = {size:.6g}"]
@@ -253,6 +257,10 @@ def _numbers(found: Blow) -> list[Block]:
     if impulses:
         made += [Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses)]
     return [*made, Paragraph(f"The blow {took} J." + f" {change.note}" * bool(change.note))]
+
+
+def _clean(rate: float, small: float) -> float:
+    return rate if abs(rate) > small else 0.0
 
 
 def _on(load: Load, body: str) -> str:
