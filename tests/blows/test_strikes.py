@@ -13,7 +13,8 @@ from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
 from freebody.equations.topics.blow import after, hammered
-from freebody.equations.topics.jumps import Rows, jumps
+from freebody.equations.topics.jumps import jumps
+from freebody.equations.topics.rows import Rows
 from freebody.instant import State
 from freebody.strike import strike
 

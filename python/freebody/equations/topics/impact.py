@@ -27,7 +27,8 @@ from freebody.equations.document import (
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.topics.blow import Blow, after, blow, hammered
 from freebody.equations.topics.common import document, moving_names
-from freebody.equations.topics.jumps import Rows, Solution, jumps
+from freebody.equations.topics.jumps import Solution, jumps
+from freebody.equations.topics.rows import Rows
 from freebody.equations.tree import ZERO, Num, Sym, is_zero, symbols
 from freebody.free_body import Load
 

@@ -13,8 +13,9 @@ from freebody.equations.linear import linear_in
 from freebody.equations.simplify import length, shortest
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.topics.blow import Blow, Condition, after
+from freebody.equations.topics.blow import Blow, after
 from freebody.equations.topics.common import moving_names, spread
+from freebody.equations.topics.rows import MOST_OPERATIONS, Row, Rows, require_brief
 from freebody.equations.topics.shorthand import Names
 from freebody.equations.tree import (
     ONE,
@@ -45,8 +46,6 @@ _BRIEF = 40
 """Signs of a rate after a blow above which it may be told by another."""
 _HELPS = 12
 """Operations of a rate by others, above which it is no help."""
-MOST_OPERATIONS = 300
-"""In a system, or in an answer before it is shortened, above which none is sought in letters."""
 _MOST_TOGETHER = 6
 """Unknowns that are solved together."""
 _PATIENCE = 1.0
@@ -54,62 +53,6 @@ _PATIENCE = 1.0
 
 Solution = Mapping[Sym, Tree]
 _Sides = tuple[Tree, Tree]
-_Row = tuple[list[Tree], Tree]
-
-
-@dataclass(frozen=True)
-class Rows:
-    """What a blow asks, linear in what is unknown: the ``mass`` matrix and, of impulses, what they give to the balance of each
-    coordinate (with what is given besides); then of each ``condition`` the factors of the rates, and the rest."""
-
-    mass: list[list[Tree]]
-    gives: list[_Row]
-    conditions: list[tuple[Condition, _Row]]
-    impulses: list[Sym]
-
-    @classmethod
-    def of(cls, found: Blow) -> Rows:
-        """Those of a blow, without impulses that no coordinate feels, and without conditions that hold by themselves."""
-        before = [Sym(name, 1) for name in moving_names(found.subject)]
-        now, impulses = [Sym(after(x.name), 1) for x in before], list(found.impulses.values())
-        balances = [each.balance for each in found.of_coordinates()]
-        gives = [_row(found.acting(each), impulses) for each in balances]
-        felt = [k for k in range(len(impulses)) if any(not is_zero(row[k]) for row, _ in gives)]
-        asked = [(each, _row(each.rate, before)) for each in found.conditions()]
-        return cls(
-            [_row(found.jump(each), now)[0] for each in balances],
-            [([row[k] for k in felt], rest) for row, rest in gives],
-            [(each, row) for each, row in asked if not all(map(is_zero, row[0]))],
-            [impulses[k] for k in felt],
-        )
-
-    def require_small(self) -> None:
-        """Raises ``TooLarge`` where no answer in letters is sought."""
-        if len(self.impulses) != len(self.conditions):
-            raise TooLarge(f"{len(self.conditions)} equations for {len(self.impulses)} unknowns: more is held than it takes")
-        rows = [*self.mass, *(row for row, _ in self.gives), *(row for _, (row, _) in self.conditions)]
-        _require_brief([entry for row in rows for entry in row])
-
-    def matrix(self, found: Blow) -> tuple[list[list[float]], list[float]]:
-        """A and b of A (rates after, impulses) = b, in numbers."""
-        n, m, values, tables = len(self.mass), len(self.impulses), found.values, found.subject.tables
-        before = np.array([values[Sym(name, 1)] for name in moving_names(found.subject)])
-
-        def number(tree: Tree) -> float:
-            return float(evaluate(tree, values, tables))
-
-        mass = np.array([[number(entry) for entry in row] for row in self.mass]).reshape(n, n)
-        gives = np.array([[number(entry) for entry in row] for row, _ in self.gives]).reshape(n, m)
-        held = np.array([[number(entry) for entry in row] for _, (row, _) in self.conditions]).reshape(-1, n)
-        rest = [number(rest) for _, rest in self.gives]
-        back = [-number(mul(each.back, each.rate)) - number(rest) for each, (_, rest) in self.conditions]
-        a = np.block([[mass, -gives], [held, np.zeros((len(held), m))]])
-        return a.tolist(), [*(mass @ before + rest), *back]
-
-
-def _row(tree: Tree, unknowns: Sequence[Sym]) -> _Row:
-    parts = linear_in(tree, unknowns)
-    return [parts.coefficients.get(x, ZERO) for x in unknowns], parts.rest
 
 
 @dataclass(frozen=True)
@@ -237,7 +180,7 @@ class _System:
     def _entry(self, tree: Tree) -> Tree:
         return self.names.entry(factored(self._put(tree)))
 
-    def _named(self, row: _Row) -> _Row:
+    def _named(self, row: Row) -> Row:
         return [self._entry(entry) for entry in row[0]], self._put(row[1])
 
     def _follows(self, rate: Sym, tree: Tree) -> bool:
@@ -336,9 +279,9 @@ class _System:
     def _together(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> Solution:
         _require_few(len(wanted))
         matrix, right = linear_system(equations, wanted)
-        _require_brief([*(entry for row in matrix for entry in row), *right])
+        require_brief([*(entry for row in matrix for entry in row), *right])
         found = solve([list(map(spread, row)) for row in matrix], list(map(spread, right)), self.found.letters, patience=0.0)
-        _require_brief(found)
+        require_brief(found)
         return {x: self.names.plain_angles(_fourier(tree)) for x, tree in zip(wanted, found, strict=True)}
 
     def _told(self, staged: Tree, full: Tree) -> Tree:
@@ -395,12 +338,6 @@ def _divides(tree: Tree) -> bool:
 
 def _divided(tree: Tree, by: Tree) -> Tree:
     return add(*(quotient(term, by) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
-
-
-def _require_brief(trees: Sequence[Tree]) -> None:
-    """Raises ``TooLarge``."""
-    if (size := sum(map(operations, trees))) > MOST_OPERATIONS:
-        raise TooLarge(f"what acts together has {size} operations, which is too long for an answer in letters")
 
 
 def _require_few(unknowns: int) -> None:
