@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
     from freebody.run import Progress, Run, Source, Times
+    from freebody.strike import Strike
     from freebody.views.diagram import Diagram
 
 _MOMENT = 1e-6  # s
@@ -252,6 +253,13 @@ class Moving:
         from freebody.model.start import evaluate
 
         return find(self.simulate(), number, of=of, after=None if at is None else evaluate(at, {}))
+
+    def strike(self: Builder, point: str, direction: Any = 0, impulse: Any = 1.0, *, frame: str = "fixed") -> Strike:
+        """What an ``impulse`` (N·s) at a named point does to the model, which stands still as at its start; see
+        ``freebody.strike.strike``."""
+        from freebody.strike import strike
+
+        return strike(self, self.start()[0], point, direction, impulse, frame)
 
     def impulse_diagram(
         self: Builder,

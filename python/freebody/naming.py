@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from freebody.blow import Blow
+from freebody.blow import Impulsive
 from freebody.equations.names import Name, ascii_name
 from freebody.equations.tree import Tree, read
 from freebody.free_body import FreeBodies, Load
@@ -139,21 +139,21 @@ class Naming:
 class ImpulseNaming(Naming):
     """The letters of a blow: an impulse is J with the letter of its force below, ``J_N_floor``."""
 
-    blow: Blow
+    blow: Impulsive
 
     @classmethod
-    def of(cls, blow: Blow) -> ImpulseNaming:
-        """Those of a blow of a run."""
-        return cls(blow.run.source, blow.state, blow.impulses, blow)
+    def of(cls, blow: Impulsive) -> ImpulseNaming:
+        """Those of a blow."""
+        return cls(blow.source, blow.state, blow.impulses, blow)
 
     @cached_property
     def loads(self) -> dict[str, Name]:
         """The letters of impulses, by the symbols of their forces."""
         forces = load_names(self.blow.free.loads, self.source)
-        return {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
+        given = {load.symbol: self.blow.given[load.name] for load in self.blow.acting if load.name in self.blow.given}
+        made = {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
+        return made | {symbol: Name.parse(letter) for symbol, letter in given.items()}
 
     def _told(self, question: str) -> list[dict[str, Any]]:
         """An answer of the core during the blow."""
-        return json.loads(self.blow.run.motion.letters_of_blow(self.blow.place, "{}", json.dumps([{"ask": question}])))[
-            "answers"
-        ][0]
+        return self.blow.letters([{"ask": question}])["answers"][0]

@@ -10,21 +10,17 @@ from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import topic
 from freebody.equations.topics.blow import after, blow
-from freebody.equations.topics.impact import _values, impulses_of_joints, rates_after
+from freebody.equations.topics.jumps import jumps
 from freebody.equations.tree import replace
 
 LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
 """Too long to be solved in letters."""
-SLOW = {"19.3.30/model", "19.3.30/hinged", "19.3.30/slippery"}
-"""Solved in letters in a minute; tests/equations/topics does one of them."""
 REDUNDANT = {"plate"}
 """Friction on two feet at once is more than it takes."""
 
 
 def solved(name):
-    found = blow(mechanism(name))
-    rates = rates_after(found)
-    return rates | impulses_of_joints(found, rates)
+    return jumps(blow(mechanism(name))).spelt()
 
 
 def letters(text):
@@ -91,17 +87,16 @@ def test_a_rod_caught_at_its_end():
     for name, expression in known.items():
         assert equal(made[Sym(name, 1)], from_sympy(expression)), made[Sym(name, 1)]
     [(cord, size)] = [(x, n) for x, n in found.sizes().items() if x.name.startswith("cord")]
-    assert equal(made[cord], from_sympy(-m * u / 4)) and size == pytest.approx(-2 * _values(found)[v] / 4, rel=1e-9)
+    assert equal(made[cord], from_sympy(-m * u / 4)) and size == pytest.approx(-2 * found.values[v] / 4, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", sorted(set(ALL) - LONG - SLOW - REDUNDANT))
+@pytest.mark.parametrize("name", sorted(set(ALL) - LONG - REDUNDANT))
 def test_in_letters_are_the_numbers_of_the_run(name):
     found = blow(mechanism(name))
-    made, values, sizes = rates_after(found), _values(found), found.sizes()
+    made, values, sizes = jumps(found).spelt(), found.values, found.sizes()
     for coordinate, u in found.change.after.u.items():
         assert float(evaluate(made[Sym(after(coordinate), 1)], values)) == pytest.approx(u, abs=1e-7)
-    if not any(map(np.isnan, sizes.values())):
-        made |= impulses_of_joints(found, made)
+    assert made.keys() >= set(found.impulses.values()) or any(map(np.isnan, sizes.values()))
     most = np.nanmax(np.abs(list(sizes.values())))
     for letter in made.keys() & sizes.keys():
         assert float(evaluate(made[letter], values)) == pytest.approx(sizes[letter], abs=1e-7 * most), letter
@@ -112,22 +107,23 @@ def test_every_equation_holds_in_the_run(name):
     """Balances of coordinates and of bodies, what comes back or holds, and the law of friction."""
     for number in range(1, len(struck(name, 2)) + 1):
         found = blow(mechanism(name), number)
-        values = _values(found) | {Sym(after(c), 1): u for c, u in found.change.after.u.items()} | found.sizes()
+        values = found.values | {Sym(after(c), 1): u for c, u in found.change.after.u.items()} | found.sizes()
         if any(np.isnan(x) for x in found.sizes().values()):
             continue
         rounding = 1e-8 * max(1.0, *map(abs, found.sizes().values()))
         for each in [*found.of_coordinates(), *found.of_bodies()]:
             gap = evaluate(found.acting(each.balance), values) - evaluate(found.jump(each.balance), values)
             assert abs(float(gap)) < rounding, each.title
-        for what, left, right in found.conditions():
-            assert float(evaluate(left, values)) == pytest.approx(float(evaluate(right, values)), abs=1e-8), what
+        for each in found.conditions():
+            left, right = (float(evaluate(side, values)) for side in found.sides(each))
+            assert left == pytest.approx(right, abs=1e-8), each.name
 
 
 @pytest.mark.parametrize("name", sorted(LONG))
 def test_what_is_too_long_is_refused(name):
     found = blow(mechanism(name))
     with pytest.raises(TooLarge):
-        impulses_of_joints(found, rates_after(found))
+        jumps(found)
 
 
 def test_friction_says_its_law():

@@ -156,8 +156,14 @@ def _parameters(about: Mapping[str, Any], p: Any) -> dict[str, float]:
 
 
 def given_quantity(value: Any, unit: str) -> float:
-    """A number in SI, or a quantity. Raises ``ValueError``."""
+    """A number in SI, or a quantity that fits the unit. Raises ``ValueError``."""
     try:
         return float(value)
     except ValueError:
-        return _quantity(str(value), [f"a number in {unit}"])
+        pass
+    from freebody.model import units
+
+    found, wanted = units.quantity(str(value)), units.unit(unit).dimension
+    if found is not None and not found.dimension.fits(wanted):
+        raise ValueError(f"{value!r} is {found.dimension.words()}, where {wanted.words()} is asked for")
+    return _quantity(str(value), [f"a number in {unit}"])

@@ -172,6 +172,23 @@ def replace(tree: Tree, new: Mapping[Sym, Tree]) -> Tree:
             return Fn(name, tuple(replace(arg, new) for arg in args))
 
 
+def rebuilt(tree: Tree, put: Callable[[Tree], Tree | None]) -> Tree:
+    """The tree with every part for which ``put`` has another exchanged for that, from above."""
+    new = put(tree)
+    if new is not None:
+        return new
+    match tree:
+        case Add(terms):
+            return add(*(rebuilt(term, put) for term in terms))
+        case Mul(factors):
+            return mul(*(rebuilt(factor, put) for factor in factors))
+        case Pow(base, exponent):
+            return power(rebuilt(base, put), exponent)
+        case Fn(name, args):
+            return Fn(name, tuple(rebuilt(arg, put) for arg in args))
+    return tree
+
+
 def evaluate(tree: Tree, values: Mapping[Sym, Any], tables: Mapping[str, Callable[..., Any]] | None = None) -> Any:
     """The value of the tree: a number, or an array if the values are arrays (they are broadcast).
 

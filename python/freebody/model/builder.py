@@ -116,6 +116,12 @@ class Builder:
         """The mechanism of a model."""
         return cls._of(model, None, None)
 
+    def copy(self) -> Any:
+        """A mechanism that starts as this one."""
+        made = self._of(self.model.model_copy(deep=True), None, self._file)
+        made.others = dict(self.others)
+        return made
+
     @classmethod
     def _of(cls, model: schema.Model, source: Source | None, path: str | None) -> Any:
         made = cls()

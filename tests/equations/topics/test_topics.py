@@ -216,3 +216,14 @@ def test_the_command_line_has_all_forms_and_topics() -> None:
     )
     assert done.exit_code == 0, done.output
     assert "Coriolis" in done.output
+
+
+def test_prescribed_rates_are_put_into_what_a_frame_gives() -> None:
+    """A point at r on a wheel that turns at ω₂ against a rod of l, which turns at ω₁: a = −l ω₁² λ − r (ω₁ − ω₂)² λ_wheel."""
+    said = topic(system("S19.20"), "frame").text()
+    assert "a = −l w₁² λ_rod − r (w₁ − w₂)² λ_wheel" in said
+
+
+def test_what_nobody_reads_is_not_printed() -> None:
+    said = " ".join(topic(system("GEN-STEP"), "moment").text().split())
+    assert "too long to be read; ask of fewer bodies" in said

@@ -40,7 +40,10 @@ TOPICS: Mapping[str, Topic] = {
     "particle": Topic(particle, "a particle along i, j and in polar coordinates; options: body, about"),
     "moment": Topic(moment, "moments about a fixed or moving point, each with its right-hand side; options: about, bodies"),
     "elimination": Topic(elimination, "fewer equations by conserved momenta"),
-    "impact": Topic(impact, "a blow in the run: impulses, what is absent and why, momentum, restitution; options: number"),
+    "impact": Topic(
+        impact,
+        "a blow in the run, or of a point at rest: impulses, what is absent and why, momentum, restitution; options: number, of, at, or point, direction, impulse",
+    ),
     "out_of_plane": Topic(out_of_plane, "what the plane exerts; options: gravity"),
 }
 """By name, as in ``freebody equations MODEL --form NAME``."""

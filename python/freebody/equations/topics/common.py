@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from freebody.equations.collect import factored, pythagorean
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.derive import used
+from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Arrow, Subject
 from freebody.equations.document import Block, Document, Heading
@@ -19,6 +20,9 @@ from freebody.equations.tree import Tree, add, mul, negative
 if TYPE_CHECKING:
     from freebody.instant import State
     from freebody.model.builder import Builder
+
+
+_ELSEWHERE = "ask of fewer bodies, or about another point"
 
 
 class NotHere(ValueError):
@@ -34,7 +38,8 @@ def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequen
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
-    made = (first, *opening.configuration(subject), *opening.letters(letters, used(list(blocks))), *blocks)
+    short = [readable(block, _ELSEWHERE) for block in blocks]
+    made = (first, *opening.configuration(subject), *opening.letters(letters, used(short)), *short)
     return Document(tuple(lettered(block, letters) for block in made), letters)
 
 

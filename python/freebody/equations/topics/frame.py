@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from freebody.equations.collect import factored, quotient
 from freebody.equations.derivation import opening
-from freebody.equations.derivation.told import Arrow, Subject
+from freebody.equations.derivation.directions import Directions
+from freebody.equations.derivation.told import Arrow, Direction, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.linear import linear_in
 from freebody.equations.simplify import equal
+from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
-from freebody.equations.tree import Sym, is_zero, read
+from freebody.equations.tree import Sym, Tree, is_zero, negative, read, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -73,7 +77,37 @@ def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) ->
         told_as("a_coriolis", "a_coriolis", "Coriolis: 2 ω × v_relative"),
         told_as("a", "a", "Together, a = a_transport + a_relative + a_coriolis"),
     ]
+    made += _prescribed(subject, directions, arrows)
     return made + _directly(subject, place, arrows, point)
+
+
+def _prescribed(subject: Subject, directions: Directions, arrows: Mapping[str, Arrow]) -> list[Block]:
+    """Velocity and acceleration with the rates that motions prescribe, where they prescribe those of single coordinates."""
+    rows = [row for row in subject.rows if row.kind == "motion"]
+    known = dict(
+        filter(None, (_given(tree, subject, dots) for row in rows for tree, dots in ((row.rate, 1), (row.acceleration, 2))))
+    )
+    if not known:
+        return []
+    made: list[Block] = [Heading("With what is prescribed")]
+    made += [Equation(x, tree, "Motions give" if i == 0 else "") for i, (x, tree) in enumerate(known.items())]
+    told = (("v", "So"), ("a", ""))
+    return made + [Equation(_vector(word), directions.vector(_with(arrows[word], known)), name) for word, name in told]
+
+
+def _given(tree: Tree | None, subject: Subject, dots: int) -> tuple[Sym, Tree] | None:
+    """A rate or acceleration that is all that stands in what vanishes, and what it is."""
+    unknown = [x for x in (Sym(name, dots) for name in moving_names(subject)) if tree is not None and x in symbols(tree)]
+    if tree is None or len(unknown) != 1:
+        return None
+    parts = linear_in(tree, unknown)
+    return unknown[0], quotient(negative(parts.rest), parts.coefficients[unknown[0]])
+
+
+def _with(arrow: Arrow, known: Mapping[Sym, Tree]) -> Arrow:
+    """A vector with some letters replaced."""
+    parts = (Direction(d.angle, _put(d.along, known), _put(d.across, known)) for d in arrow.parts)
+    return Arrow(tuple(parts), *(_put(tree, known) for tree in (arrow.i, arrow.j)), arrow.xy)
 
 
 def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
@@ -90,6 +124,10 @@ def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point
         ]
     made.append(Paragraph("Both ways give the same, for all values of the letters; it was checked at random ones."))
     return made
+
+
+def _put(tree: Tree, known: Mapping[Sym, Tree]) -> Tree:
+    return factored(from_sympy(to_sympy(replace(tree, known))))
 
 
 def _vector(name: str) -> Written:

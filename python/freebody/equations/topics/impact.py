@@ -2,125 +2,86 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.balances.reasons import agree
-from freebody.equations.answers import AGREES, with_positive_divisors
-from freebody.equations.collect import collected, without_circles
+from freebody.equations.collect import collected
 from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined, load_words
-from freebody.equations.derivation.told import Balance
-from freebody.equations.document import Block, Bullets, Document, Equation, Figure, Heading, Paragraph, Words
-from freebody.equations.letters import Letter, Letters
-from freebody.equations.solve import Singular, TooLarge, linear_system, solve
-from freebody.equations.topics.blow import Blow, after, blow, impulse
+from freebody.equations.document import (
+    Block,
+    Bullets,
+    Document,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Side,
+    Words,
+)
+from freebody.equations.solve import Singular, TooLarge
+from freebody.equations.topics.blow import Blow, after, blow, hammered
 from freebody.equations.topics.common import document, moving_names
-from freebody.equations.tree import Num, Sym, Tree, evaluate, is_zero, minus, operations, replace, symbols
+from freebody.equations.topics.jumps import Solution, jumps
+from freebody.equations.topics.rows import Rows
+from freebody.equations.tree import ZERO, Num, Sym, is_zero, symbols
 from freebody.free_body import Load
 
 if TYPE_CHECKING:
     from freebody.instant import State
     from freebody.model.builder import Builder
 
-_Sides: TypeAlias = tuple[Tree, Tree]
-_DEPENDS = 1e-9
-"""Below it a row adds nothing to others."""
-MOST_OPERATIONS = 300
-"""Operations in all equations above which they are not solved in letters."""
+_ROUND_OFF = 1e-14
+"""Of the largest rate, below which one is what is left of 0."""
+_NOTHING = 1e-12
+"""Of a number in SI, below which it is what is left of 0."""
 
 
 def impact(
-    mechanism: Builder, state: State | None = None, *, number: int | str = 1, of: str | None = None, at: str | float | None = None
+    mechanism: Builder,
+    state: State | None = None,
+    *,
+    number: int | str = 1,
+    of: str | None = None,
+    at: str | float | None = None,
+    point: str | None = None,
+    direction: Any = None,
+    impulse: Any = None,
+    frame: str | None = None,
 ) -> Document:
     """The blow of a ``number`` (from 1) in the run of a model: a contact, a string that becomes taut, a stop, what catches; ``of``
-    counts only those of one of these by name, ``at`` only those from a time on. The run tells where it is, so ``state`` is not
-    asked for. Raises ``NotHere`` where there is none."""
-    found = blow(mechanism, int(number), of, at)
+    counts only those of one of these by name, ``at`` only those from a time on; the run tells where it is.
+
+    With a ``point`` the model stands still as at its start, and is struck there: along a ``direction`` (an angle from the x axis of
+    the ``frame``, ``fixed`` or ``body``), by an ``impulse`` (N·s, for the numbers). Raises ``NotHere`` where there is no blow."""
+    how = {"direction": direction, "impulse": impulse, "frame": frame}
+    strike = {name: value for name, value in how.items() if value is not None}
+    if point is None:
+        if strike:
+            raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
+        found = blow(mechanism, int(number), of, at)
+        title = f"blow at {joined(list(found.change.of))}" if found.change.of else "blow of what catches"
+    else:
+        found = hammered(mechanism, state or mechanism.start()[0], point, **strike)
+        title = f"struck at {point}"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
-    title = f"blow at {joined(list(found.change.of))}" if found.change.of else "blow of what catches"
-    return document(found.subject, title, made, _letters(found))
-
-
-def rates_after(found: Blow) -> dict[Sym, Tree]:
-    """Rates after the blow and impulses of what acts, in letters, with what is 0 at the blow left out. Raises ``TooLarge``,
-    ``Singular``; ``ArithmeticError`` where they are not those of the run."""
-    equations = [(found.acting(each.balance), found.jump(each.balance)) for each in found.of_coordinates()]
-    conditions = [(left, right) for _, left, right in found.conditions()]
-    if not all(_holds(found, *sides) for sides in conditions):
-        raise ArithmeticError(_otherwise(found))
-    equations += conditions
-    equations = [(replace(left, found.zeros), replace(right, found.zeros)) for left, right in equations]
-    equations = [sides for sides in equations if symbols(*sides)]  # 0 = 0 is held whatever happens
-    there = set().union(*(symbols(*sides) for sides in equations))
-    wanted = [Sym(after(name), 1) for name in moving_names(found.subject)]
-    wanted += [x for x in found.impulses.values() if x in there]
-    if len(wanted) != len(equations):
-        raise TooLarge(f"{len(equations)} equations for {len(wanted)} unknowns: more is held than it takes")
-    solved = _solved(found, equations, wanted)
-    _check(found, solved)
-    return {x: solved[x] for x in wanted}
-
-
-def impulses_of_joints(found: Blow, solved: Mapping[Sym, Tree]) -> dict[Sym, Tree]:
-    """The impulses that the balances of the coordinates do not have, those of tree joints, from the balances of single bodies and
-    what is ``solved`` already. Raises as ``rates_after``."""
-    sizes = found.sizes()
-    wanted = [x for x in found.impulses.values() if x not in solved]
-    balances = [(found.acting(each.balance), found.jump(each.balance)) for each in found.of_bodies()]
-    balances = [(replace(left, found.zeros), replace(right, found.zeros)) for left, right in balances]
-    if any(np.isnan(sizes[x]) for x in wanted):
-        raise Singular("the impulses in the joints are not determined: more is held than it takes")
-    equations = _enough(found, balances, wanted)
-    return _solved(found, [(replace(left, solved), replace(right, solved)) for left, right in equations], wanted)
-
-
-def _enough(found: Blow, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> list[_Sides]:
-    """The first equations that together give what is wanted, at the numbers of the blow."""
-    values = _values(found)
-    rates = {Sym(after(name), 1): u for name, u in (found.change.after.u if found.change.after else {}).items()}
-    chosen: list[_Sides] = []
-    rows: list[list[float]] = []
-    for left, right in equations:
-        row = [float(evaluate(minus(replace(left, {x: Num(1)}), replace(left, {x: Num(0)})), values | rates | found.sizes()))
-               for x in wanted]  # fmt: skip
-        if np.linalg.matrix_rank([*rows, row], tol=_DEPENDS) > len(rows):
-            rows.append(row)
-            chosen.append((left, right))
-    return chosen
-
-
-def _solved(found: Blow, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> dict[Sym, Tree]:
-    """First each equation that has only one unknown left, then the rest together."""
-    for k, sides in enumerate(equations):
-        unknown = [x for x in wanted if x in symbols(*sides)]
-        if len(unknown) == 1 < len(wanted):
-            first = _together(found, [sides], unknown)
-            rest = [(replace(left, first), replace(right, first)) for left, right in (*equations[:k], *equations[k + 1 :])]
-            return first | _solved(found, rest, [x for x in wanted if x not in first])
-    return _together(found, equations, wanted) if wanted else {}
-
-
-def _together(found: Blow, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> dict[Sym, Tree]:
-    if (size := sum(operations(side) for pair in equations for side in pair)) > MOST_OPERATIONS:
-        raise TooLarge(f"{len(wanted)} equations with {size} operations are too long for an answer in letters")
-    letters = Letters({**found.subject.letters.table, **{x.name: x for x in _letters(found)}})
-    solution = solve(*linear_system(equations, wanted), letters)
-    values = _values(found)
-    return {x: with_positive_divisors(tree, values) for x, tree in zip(wanted, solution, strict=True)}
+    return document(found.subject, title, made, list(found.letters.values()))
 
 
 def _what(found: Blow) -> list[Block]:
-    made: list[Block] = [Heading("Impulses on each body")]
-    made.append(
-        Paragraph("In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it.")
-    )
+    said = "In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it."
+    if found.subject.blow.given:
+        said += " Before it all stands still."
+        said += "" if found.subject.source.about["limits"] else " Were there rates, they would stay, and the jumps add to them."
+    made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
-        items: list[Words] = [[Sym(impulse(load)), f", of the {_plain(_on(load, body))}"] for load in loads]
+        items: list[Words] = [[found.letter(load), f", {_named(found, load, body)}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
     from freebody.views.diagram.impulses import Impulses
 
@@ -133,6 +94,10 @@ def _what(found: Blow) -> list[Block]:
         )
     )
     return [*made, Paragraph("Absent:"), Bullets(missing)] if missing else made
+
+
+def _named(found: Blow, load: Load, body: str) -> str:
+    return "which strikes" if load.name in found.subject.blow.given else f"of the {_plain(_on(load, body))}"
 
 
 def _plain(words: str) -> str:
@@ -149,21 +114,24 @@ def _equations(found: Blow) -> list[Block]:
             )
         )
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
-    made.append(Paragraph("With the impulses in them, one for each coordinate, impulse = momentum after − momentum before:"))
+    before = ", for all stood still before" if found.subject.blow.given else " − momentum before"
+    made.append(Paragraph(f"With the impulses in them, one for each coordinate, impulse = momentum after{before}:"))
     of_coordinates = found.of_coordinates()
     made += [_with_impulses(found, each) for each in of_coordinates]
-    return made + _of_bodies(found, [each.balance for each in of_coordinates])
+    return made + _of_bodies(found, of_coordinates)
 
 
-def _of_bodies(found: Blow, balances: Sequence[Balance]) -> list[Block]:
-    """The balances of the bodies on which impulses act that other balances do not have."""
-    free, there = found.subject.free, {c.load for b in balances for c in b.contributions if not c.absent}
+def _of_bodies(found: Blow, stated: Sequence[Stated]) -> list[Block]:
+    """The balances of the bodies on which impulses act that those stated do not have."""
+    free, there = found.subject.free, {c.load for each in stated for c in each.balance.contributions if not c.absent}
+    said = {each.title for each in stated}
     kept_out = {load.symbol for i, load in enumerate(free.loads) if load in found.forces and i not in there}
     bodies = [body for body in free.bodies if any(load.symbol in kept_out for load in free.on(body))]
     if not bodies:
         return []
     words = Paragraph(f"Of {joined(bodies)} alone, on which impulses of joints act that are not in those:")
-    return [words, *(_with_impulses(found, each) for each in found.of_bodies() if each.balance.bodies[0] in bodies)]
+    more = [each for each in found.of_bodies() if each.balance.bodies[0] in bodies and each.title not in said]
+    return [words, *(_with_impulses(found, each) for each in more)]
 
 
 def _with_impulses(found: Blow, each: Stated) -> Equation:
@@ -176,7 +144,7 @@ def _left_out(found: Blow, each: Stated) -> Words:
     """Which impulses on the bodies are not in an equation, and why."""
     said: list[str | Sym] = []
     for why, loads in dropped(found.subject, each).items():
-        letters = [Sym(impulse(load)) for load in loads]
+        letters = [found.letter(load) for load in loads]
         said += ["; " if said else "Not in it: ", letters[0], *(x for letter in letters[1:] for x in (", ", letter))]
         said.append(f" ({agree(why, len(loads))})")
     return [*said, "."] if said else ""
@@ -188,17 +156,25 @@ def _title(title: str) -> str:
 
 
 def _restitution(found: Blow) -> list[Block]:
-    made: list[Block] = [Heading("Restitution, and what holds")]
-    for name, left, right in found.conditions():
+    made: list[Block] = []
+    for each in found.conditions():
+        left, right = found.sides(each)
         if not symbols(left, right):
             continue  # the mechanism holds it by itself
-        if not _holds(found, left, right):
-            made.append(Paragraph(f"At {name}: {_otherwise(found)}."))
+        if not found.holds(each):
+            made.append(Paragraph(f"At {each.name}: {found.otherwise()}."))
             continue
-        struck = found.change.impulses is not None and name in found.change.impulses.restitution
-        back = f"{name} throws back" if not is_zero(right) else f"at {name} nothing comes back" if struck else f"{name} holds"
+        struck = found.change.impulses is not None and each.name in found.change.impulses.restitution
+        back = (
+            f"{each.name} throws back"
+            if not is_zero(right)
+            else f"At {each.name} nothing comes back"
+            if struck
+            else f"{each.name} holds"
+        )
         made.append(Equation(left, right, back))
-    return made + _friction(found)
+    made += _friction(found)
+    return [Heading("What holds" if found.subject.blow.given else "Restitution, and what holds"), *made] if made else []
 
 
 def _friction(found: Blow) -> list[Block]:
@@ -208,98 +184,86 @@ def _friction(found: Blow) -> list[Block]:
     for load in found.slides:
         note = "Coulomb's law, integrated over the blow: friction has all the impulse that it can, against the sliding."
         law = found.law(load)
-        made.append(Equation(Sym(impulse(load)), law, f"{load.name} slides throughout the blow", note=note))
-    stuck = all(_holds(found, left, right) for _, left, right in found.conditions())
+        made.append(Equation(found.letter(load), law, f"{load.name} slides throughout the blow", note=note))
+    stuck = all(found.holds(each) for each in found.conditions())
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
-            n, f = Sym(impulse(normal)), Sym(impulse(load))
-            words = f"{load.name} does not slide any more after the blow, for friction can give what that takes: "
-            made.append(Paragraph([words, f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]))
+            n, f = found.letter(normal), found.letter(load)
+            words = f"{load.name} does not slide any more after the blow, for friction can give what that takes"
+            share = [": ", f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]
+            made.append(Paragraph([words, *(["."] if np.isnan(sizes[f] + sizes[n]) else share)]))
     return made
 
 
 def _answers(found: Blow) -> list[Block]:
     made: list[Block] = [Heading("After the blow")]
     try:
-        solved = rates_after(found)
-        made += _given(found) + [Equation(x, without_circles(tree)) for x, tree in solved.items()]
-        joints = impulses_of_joints(found, solved)
-    except (TooLarge, Singular, ArithmeticError) as error:
+        solved = jumps(found)
+    except (TooLarge, Singular) as error:
+        return [*made, Paragraph(f"In letters no more is said: {error}."), *_matrix(found)]
+    except ArithmeticError as error:
         return [*made, Paragraph(f"In letters no more is said: {error}.")]
-    told = [(x, without_circles(tree)) for x, tree in joints.items()]
-    return made + [Equation(x, tree, "and in the joints" if i == 0 else "") for i, (x, tree) in enumerate(told)]
+    made += _given(found)
+    made += _told(solved.known, "What held before the blow gives of the rates then")
+    made += _told(solved.names, "With")
+    own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
+    made += _told(own, "So" if made[1:] else "")
+    made += _told(solved.joints, "and in the joints")
+    return made + [Paragraph(f"Of the joints no more is said: {solved.untold}.")] * bool(solved.untold)
+
+
+def _told(solution: Solution, name: str) -> list[Block]:
+    return [Equation(x, tree, name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
 
 
 def _given(found: Blow) -> list[Block]:
-    said: list[str | Sym] = [piece for x in found.zeros for piece in (x, " = ")]
-    return [Paragraph(["At this blow ", *said, "0, so that"])] if said else []
+    rest = bool(found.subject.blow.given)  # then no rate before it stands anywhere
+    there = [x for x, tree in found.zeros.items() if is_zero(tree) and not (rest and x.dots)]
+    said: list[str | Side] = [piece for x in there for piece in (x, " = ")] + ["0"] * bool(there)
+    for x, tree in found.zeros.items():
+        said += [", " if said else "", x, " = ", tree] if not is_zero(tree) else []
+    return [Paragraph(["At this blow ", *said, "."])] if said else []
+
+
+def _matrix(found: Blow) -> list[Block]:
+    """All equations together in numbers."""
+    rows = Rows.of(found)
+    matrix, right = rows.matrix(found)
+    unknowns = [Sym(after(name), 1) for name in moving_names(found.subject)] + rows.impulses
+    name = "The balances of the coordinates, then what holds, in numbers (SI) at this blow"
+    return [MatrixEquation([list(map(_figure, row)) for row in matrix], unknowns, list(map(_figure, right)), name)]
+
+
+def _figure(value: float) -> Num:
+    return ZERO if abs(value) < _NOTHING else Num(float(f"{value:.5g}"))
 
 
 def _numbers(found: Blow) -> list[Block]:
     change = found.change
+    given = [Sym(letter) for letter in found.subject.blow.given.values()]
+    before, now = change.before.u, change.after.u
+    small = _ROUND_OFF * max(map(abs, (*before.values(), *now.values())), default=0.0)
     rows: list[Words] = [
-        [Sym(name, 1), f": {change.before.u[name]:.6g} before, {change.after.u[name]:.6g} after"] for name in change.after.u
+        [Sym(name, 1), f": {_clean(before[name], small):.6g} before, {_clean(u, small):.6g} after"] for name, u in now.items()
     ]
     impulses: list[Words] = [
         [x, " is not determined: more is held than it takes" if np.isnan(size) else f" = {size:.6g}"]
         for x, size in found.sizes().items()
     ]
-    lost = Paragraph(f"The blow takes {change.lost:.6g} J." + f" {change.note}" * bool(change.note))
-    return [
-        Heading("In the run"),
-        Paragraph(f"At t = {change.t:.6g} s, rates in m/s or rad/s:"), Bullets(rows),
-        Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses), lost,
-    ]  # fmt: skip
+    where: Words = f"At t = {change.t:.6g} s, rates in m/s or rad/s:"
+    if given:
+        where = ["With ", given[0], f" = {found.values[given[0]]:.6g} N·s, rates in m/s or rad/s:"]
+    took = f"gives {-change.lost:.6g}" if given else f"takes {change.lost:.6g}"
+    made: list[Block] = [Heading("In numbers" if given else "In the run"), Paragraph(where), Bullets(rows)]
+    if impulses:
+        made += [Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses)]
+    return [*made, Paragraph(f"The blow {took} J." + f" {change.note}" * bool(change.note))]
+
+
+def _clean(rate: float, small: float) -> float:
+    return rate if abs(rate) > small else 0.0
 
 
 def _on(load: Load, body: str) -> str:
     """A pair of equal pushes or pulls is told as that on the body, what has a sign as it is counted."""
     return load_words(load, [body] if load.kind in ("contact", "string") else ())
-
-
-def _letters(found: Blow) -> Sequence[Letter]:
-    known = found.subject.letters
-    made = [
-        Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow")
-        for name in moving_names(found.subject)
-    ]
-    written = found.written
-    made += [
-        Letter(impulse(load), "unknown", "N*s", f"impulse of the {_plain(load_words(load))}", written[load.symbol])
-        for load in found.subject.blow.acting
-    ]
-    own = [(name, e) for name, e in found.coefficients.items() if e.name not in known]
-    return made + [Letter(e.name, "parameter", "", f"restitution at {name}") for name, e in own]
-
-
-def _values(found: Blow) -> dict[Sym, float]:
-    return found.subject.values | {e: found.restitution[name] for name, e in found.coefficients.items()}
-
-
-def _holds(found: Blow, left: Tree, right: Tree) -> bool:
-    """Whether two sides are the same in the run, to the rounding of its rates."""
-    after_it = {Sym(after(name), 1): u for name, u in found.change.after.u.items()}
-    one, other = (float(evaluate(side, _values(found) | after_it, found.subject.tables)) for side in (left, right))
-    return abs(one - other) <= 10 * AGREES * _fastest(found)
-
-
-def _fastest(found: Blow) -> float:
-    rates = (*found.change.after.u.values(), *found.change.before.u.values())
-    return max((abs(u) for u in rates), default=1.0) or 1.0
-
-
-def _check(found: Blow, solved: dict[Sym, Tree]) -> None:
-    values = _values(found)
-    for name, true in found.change.after.u.items():
-        if abs(float(evaluate(solved[Sym(after(name), 1)], values)) - true) > 10 * AGREES * _fastest(found):
-            raise ArithmeticError(_otherwise(found))
-
-
-def _otherwise(found: Blow) -> str:
-    """Why a blow is not what its equations say."""
-    if any(load.kind == "friction" for load in found.forces):
-        return (
-            "what slides reverses or stops sliding during the blow, so that friction has neither all the impulse that it can, "
-            "nor what it takes to stick; that is decided stage by stage, see the run"
-        )
-    return f"the run takes another law of impact. {found.change.note}".strip()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from freebody.equations.collect import factored
 from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.told import Arrow, Balance, Subject
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
@@ -44,7 +45,7 @@ def _cartesian(subject: Subject, body: str, balances: list[Balance]) -> list[Blo
             acting.append([f"{load_words(subject.free.loads[along_x.load])}: ", arrow])
     made.append(Bullets(acting or ["nothing"]))
     names = ("Σ F·i = m a_x", "Σ F·j = m a_y")
-    return made + [Equation(b.right, b.left, name) for b, name in zip(balances, names, strict=True)]
+    return made + [Equation(factored(b.right), b.left, name) for b, name in zip(balances, names, strict=True)]
 
 
 def _polar(subject: Subject, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[Letter]]:

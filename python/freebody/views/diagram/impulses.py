@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
-from freebody.blow import Blow
+from freebody.blow import Impulsive
 from freebody.free_body import Body, FreeBodies
 from freebody.naming import ImpulseNaming
 from freebody.views.diagram import Cut, Desk, Diagram
@@ -42,7 +42,7 @@ class Impulses(Picture):
     """The impulse diagrams of every body during a blow, drawn when they are asked for."""
 
     name: str
-    blow: Blow
+    blow: Impulsive
 
     @cached_property
     def drawn(self) -> Diagram:
@@ -61,7 +61,7 @@ class Impulses(Picture):
 
 
 def impulse_diagram(
-    blow: Blow,
+    blow: Impulsive,
     groups: Sequence[Sequence[str]] | None = None,
     scaled: bool = False,
     effective: bool = True,
@@ -80,6 +80,6 @@ def _still(body: Body) -> Body:
     return replace(body, mass=0.0, inertia=0.0)
 
 
-def _told(cut: Cut, blow: Blow) -> Cut:
+def _told(cut: Cut, blow: Impulsive) -> Cut:
     absent = [f"Absent: {sentence}." for sentence in blow.absent(*cut.group)]
     return replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent]))
