@@ -163,7 +163,7 @@ class Letters:
     def _meaning(self, letter: Letter) -> Meaning:
         if letter.name in self.meanings:
             return self.meanings[letter.name]
-        near = nearest(letter.name, self.meanings)
+        near = next((name for name in self.meanings if name.endswith(f".{letter.name}")), nearest(letter.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
         raise Complaint(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{letter.name}: …`")
 

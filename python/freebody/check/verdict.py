@@ -204,7 +204,8 @@ def _compared(case: Case, equation: Equation, found: Residual, text: str) -> Ver
     gap = found.ratio if equation.relation.startswith("<") else -found.ratio
     if gap.max() <= HOLDS:
         return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, equation, found))
-    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, equation, Residual(found.sides, gap)))
+    broken = Residual(found.sides, np.maximum(gap, 0.0))
+    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, equation, broken))
 
 
 def _valueless(case: Case, equation: Equation) -> str:
