@@ -98,6 +98,11 @@ class Letters:
         """Letters that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""
         return [name for name, m in self.meanings.items() if m.kind in kinds]
 
+    @property
+    def still(self) -> list[str]:
+        """Letters that do not change with time."""
+        return self.of_kind("parameter", "gravity", "direction")
+
     @cached_property
     def vectors(self) -> frozenset[str]:
         """Letters that are vectors."""
@@ -110,8 +115,8 @@ class Letters:
             name = "".join(found[0].split())
             if name not in self.meanings and (meaning := self._reading(name)) is not None:
                 self._put(name, meaning)
-        program = parse(text, self.names)
-        return parse(text, self.names) if self._strange(program) and self._learn_printed() else program
+        program = parse(text, self.names, self.still)
+        return parse(text, self.names, self.still) if self._strange(program) and self._learn_printed() else program
 
     def _strange(self, program: Program) -> bool:
         """Whether some letter has no meaning."""
@@ -163,7 +168,8 @@ class Letters:
     def _meaning(self, letter: Letter) -> Meaning:
         if letter.name in self.meanings:
             return self.meanings[letter.name]
-        near = next((name for name in self.meanings if name.endswith(f".{letter.name}")), nearest(letter.name, self.meanings))
+        bare = letter.name.rstrip("'")
+        near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(letter.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
         raise Complaint(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{letter.name}: …`")
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from ...model import units
 from ...model.errors import Complaint
 from .alphabet import folded
+from .derivatives import derivative
 from .errors import Span, StatementError
 from .evaluate import ARGUMENTS
 from .nodes import (
@@ -33,7 +35,7 @@ from .tokens import Names, Token
 RELATIONS = ("=", "<=", ">=", "<", ">")
 _ADDS = ("+", "-")
 SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
-_BEGINS = ("number", "letter", "function", "(", "[", "{", "frac", "matrix[", "|")
+_BEGINS = ("number", "letter", "function", "rate", "(", "[", "{", "frac", "matrix[", "|")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
@@ -188,6 +190,9 @@ class Line:
             self.take()
             top, bottom = self.group(), self.group()
             return Quotient(top, bottom, span=self.span(token))
+        if token.kind == "rate":
+            self.take()
+            return self.rate(self.factor(), token.dots, token)
         if token.kind == "|":
             self.take()
             inside = self.sum()
@@ -325,12 +330,18 @@ class Line:
         return Negative(found, span=self.span(sign)) if sign else found
 
     def derived(self, arguments: tuple[Node, ...], span: Span) -> Node:
-        """diff(θ, t) and diff(θ, t, 2) of a letter."""
-        letter, time, *rest = arguments
+        """diff(θ, t) and diff(θ, t, 2)."""
+        of, time, *rest = arguments
         count = int(rest[0].value) if rest and isinstance(rest[0], Number) else 1
-        if not isinstance(letter, Letter) or time != Letter("t"):
-            raise StatementError("only letters are differentiated here, by t", span, "like `diff(theta, t, 2)`")
-        return Letter(letter.name, letter.dots + count, span=span)
+        if time != Letter("t"):
+            raise StatementError("things are differentiated by t alone here", span, "like `diff(theta, t, 2)`")
+        return self.rate(of, count, Token("rate", "diff", span))
+
+    def rate(self, of: Node, count: int, token: Token) -> Node:
+        """A derivative by time, written out."""
+        for _ in range(count):
+            of = derivative(of, self.names.still)
+        return replace(of, span=self.span(token))
 
     # --- units ---------------------------------------------------------------------------------
 
