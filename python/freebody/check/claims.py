@@ -34,10 +34,26 @@ _RUNS = 12
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``Complaint``."""
+    given, claim = _defined(text.strip())
     for pattern, judge in _FORMS:
-        if found := pattern.fullmatch(text.strip()):
-            return replace(judge(checker, declared, *(part.strip() for part in found.groups())), text=text.strip())
+        if found := pattern.fullmatch(claim):
+            said = (part.strip() for part in found.groups())
+            return replace(judge(checker, {**declared, **given}, *said), text=text.strip())
+    for word, form in _WHOLE.items():
+        if re.match(rf"{word}\s*:", claim):
+            raise Complaint(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
     return None
+
+
+def _defined(text: str) -> tuple[dict[str, str], str]:
+    """The names that lines before a claim give, or words behind it (*where*), and the claim."""
+    *before, last = re.split(r"\s*[;\n]\s*", text)
+    claim, *after = re.split(r"\s+(?:where|with)\s+(?=[^:]*=[^:]*$)", last) if ":" in last else [last]
+    said = [*before, *(line for part in after for line in re.split(r",(?![^()\[\]]*[)\]])|\band\b", part))]
+    lines = [found for line in said if (found := _NAME.fullmatch(line))]
+    if ":" not in last or not lines or len(lines) < len(said):
+        return {}, text
+    return {found[1]: found[2] for found in lines}, claim
 
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
@@ -49,9 +65,10 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
 
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """True under a hypothesis, and broken by an example without it."""
-    under, always = _if(checker, declared, condition, statement), checker.check(statement, declared)
+    under = _if(checker, declared, condition, statement)
     if not under.ok:
         return under
+    always = checker.check(statement, declared, mending=False)
     if always.ok:
         return replace(always, kind=Kind.WRONG, reason=f"it holds without `{condition}`, too")
     reason = f"holds where {condition}; broken without it"
@@ -226,6 +243,14 @@ def _solve(given: Program, values: dict[str, Array]) -> None:
             values[letter.key] = values[letter.key] - steps[:, i]
 
 
+_NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
+_WHOLE = {
+    "limit": "limit: … as p -> 0",
+    "follows": "follows: … from …",
+    "shorter": "shorter: … than …",
+    "report": "report: NAME = 1.23",
+}
+"""Words with which a claim begins, and how it goes on."""
 _Judge = Callable[..., Verdict]
 _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),

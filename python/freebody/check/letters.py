@@ -17,9 +17,11 @@ from freebody.model.writer import Writer
 
 from .declared import Array, Meaning, Reader
 from .language.alphabet import folded
+from .language.dimensions import DimensionError, check_dimensions
 from .language.errors import StatementError
 from .language.nodes import Letter, Program, walk
-from .language.parser import parse
+from .language.parser import parse, parse_expression
+from .language.spelling import spell as written
 from .language.tokens import Names
 
 if TYPE_CHECKING:
@@ -116,7 +118,26 @@ class Letters:
             if name not in self.meanings and (meaning := self._reading(name)) is not None:
                 self._put(name, meaning)
         program = parse(text, self.names, self.still)
-        return parse(text, self.names, self.still) if self._strange(program) and self._learn_printed() else program
+        if self._strange(program) and self._learn_printed():
+            program = parse(text, self.names, self.still)
+        return program if self._fits(program, strictly=True) else self._with_units(text, program)
+
+    def _with_units(self, text: str, program: Program) -> Program:
+        """The same where ``5 m/s`` is a speed though m and s are letters, if its dimensions fit only so."""
+        try:
+            other = parse(text, self.names, self.still, units=True)
+        except StatementError:
+            return program
+        return other if other != program and self._fits(other) else program
+
+    def _fits(self, program: Program, strictly: bool = False) -> bool:
+        try:
+            check_dimensions(program, self.dimensions, strictly=strictly)
+        except DimensionError:
+            return False
+        except StatementError:
+            pass  # kinds that do not go together are told with the verdict
+        return True
 
     def _strange(self, program: Program) -> bool:
         """Whether some letter has no meaning."""
@@ -238,8 +259,16 @@ class Letters:
             self.__dict__.pop(cached, None)
 
     def _measured(self, said: str) -> tuple[str, Dimension | None]:
-        """An expression in SI with its dimension; letters declared before, and Greek ones, are written out."""
-        return self.writer.measured(replace_names(said, self._written_out))
+        """An expression in SI with its dimension; letters declared before, and Greek ones, are written out. What is none of the
+        model language, like ``m g/k``, is read as in a statement."""
+        try:
+            return self.writer.measured(replace_names(said, self._written_out))
+        except Complaint as complaint:
+            try:
+                plain = written(parse_expression(said, self.names, self.still))
+                return self.writer.measured(replace_names(plain, self._written_out))
+            except (StatementError, Complaint):
+                raise complaint from None
 
     def _written_out(self, token: str, is_call: bool) -> str:
         if is_call or token in self.named.values:

@@ -28,6 +28,8 @@ _BEYOND = re.compile(
     r"|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|friction|force|value|power|work|N|T)\b"
 )
 """What reads more than the configuration."""
+_SOLVED = re.compile(r"\b(accel|ax|ay|alpha|tension)\(|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T)\b")
+"""What reads an acceleration or an unknown force."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
 _BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
@@ -69,6 +71,13 @@ class StatementLetters:
         except StatementError:
             pass
         return True
+
+    def solved(self, letter: Letter) -> bool:
+        """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
+        if letter.name not in self.letters.meanings:
+            return False
+        one = self._one(letter)
+        return one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots))
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from .assumptions import assumption
 from .case import Case
-from .families import Family, NoMotion
+from .families import ALL, Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation, letters
 from .mend import Mend, mends
@@ -153,6 +153,8 @@ def holds(case: Case) -> bool:
 
 def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
     """The verdict where dimensions do not fit: each equation with its mends, or with the nearest true one."""
+    if not case.mending:
+        return Verdict(Kind.DIMENSIONS, text, reason)
     try:
         fixes = {equation: tuple(mends(case, equation)) for equation in equations}
     except NoMotion:
@@ -165,7 +167,9 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
     values = case.values()
     blind = [_spelled(case, term) for term in unreached(equation, values)]
     if blind and len(blind) == _count(equation):
-        return Verdict(Kind.TRUE, text, "every term is 0 in every motion of this model", untested=tuple(blind))
+        motions = "of this model" if case.hypothesis == ALL else "of which it is said"
+        alone = len(blind) == 1  # it says that this is 0, and so it is
+        return Verdict(Kind.TRUE, text, f"every term is 0 in every motion {motions}", untested=() if alone else tuple(blind))
     if residual(equation, case.elsewhere(values)).worst < HOLDS:
         return Verdict(Kind.TRUE, text, "the two sides are the same by themselves: it says nothing of the motion")
     states = len(found.ratio)
@@ -182,6 +186,8 @@ def _count(equation: Equation) -> int:
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
     """A slip where one mends it; else an assumption that excuses what was left out; else wrong."""
     seen = evidence(case, equation, found)
+    if not case.mending:
+        return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(mends(case, equation))
     if not any(mend.is_slip for mend in fixes) and (assumed := assumption(case, equation)):
         words, _ = assumed
@@ -225,16 +231,17 @@ def _sufficiency(case: Case) -> str:
 
 
 def independent(case: Case) -> tuple[int, int, list[str]]:
-    """Rank of the equations in their unknowns (second derivatives), how many there are, and the unknowns."""
+    """Rank of the equations in their unknowns (accelerations, forces), how many there are, and the unknowns."""
     values = dict(case.values())
-    unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.dots == 2 and n.key in values))
+    unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.key in values and case.meaning.solved(n)))
     base = _stacked(case, values)
     if not unknown:
         return 0, len(case.equations), []
     columns = []
     for key in unknown:
-        step = np.max(np.abs(values[key])) or 1.0
-        columns.append((_stacked(case, values | {key: values[key] + step}) - base) / step)
+        size = np.max(np.abs(values[key])) or 1.0
+        steps = size * np.eye(3)[:2] if values[key].ndim == 2 else [size]
+        columns += [(_stacked(case, values | {key: values[key] + step}) - base) / size for step in steps]
     slopes = np.stack(columns, axis=-1)
     scaled = slopes / (np.abs(slopes).max(axis=2, keepdims=True) + 1e-300)
     ranks = np.linalg.matrix_rank(scaled, tol=1e-8)

@@ -366,7 +366,7 @@ class Line:
         ends, at, some_unknown = [], start, False
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
-            known = self.names.find(folded(found["word"])) is not None
+            known = not self.names.units and self.names.find(folded(found["word"])) is not None
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
                 break
             at, some_unknown = found.end(), some_unknown or not known

@@ -26,14 +26,14 @@ from .nodes import Assignment, Equation, Letter, Node, Program, walk
 from .tokens import Names, Token, tokens
 
 
-def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = ()) -> Program:
+def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units: bool = False) -> Program:
     """The lines of a statement. ``names`` are the letters that are known, of which those in ``still`` do not change with time;
-    unknown ones stay as they are written.
+    unknown ones stay as they are written. ``units``: a unit behind a number goes before a letter of that name.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
     own = tuple(names)
-    known = Names.of(own, still)
+    known = Names.of(own, still, units)
     try:
         known = known.also(_assigned(tokens(text, known), known))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]

@@ -51,15 +51,17 @@ class Names:
     known: tuple[str, ...] = ()
     still: frozenset[str] = frozenset()
     """Those that do not change with time."""
+    units: bool = False
+    """Whether what may be a unit behind a number is one, known letter or not."""
 
     @classmethod
-    def of(cls, names: Iterable[str], still: Iterable[str] = ()) -> Names:
+    def of(cls, names: Iterable[str], still: Iterable[str] = (), units: bool = False) -> Names:
         """Known letters, each once."""
-        return cls(tuple(dict.fromkeys(names)), frozenset(still))
+        return cls(tuple(dict.fromkeys(names)), frozenset(still), units)
 
     def also(self, names: Iterable[str]) -> Names:
         """These and more."""
-        return Names.of([*self.known, *names], self.still)
+        return Names.of([*self.known, *names], self.still, self.units)
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
