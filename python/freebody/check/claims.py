@@ -13,8 +13,9 @@ from freebody.model.errors import Complaint
 from freebody.results import Array
 
 from . import moments
+from .assumptions import first_order
 from .case import Case
-from .families import Sample, Samples
+from .families import Family, Sample, Samples
 from .hypothesis import FAR, family
 from .language.errors import StatementError
 from .language.evaluate import equation_sides, evaluate
@@ -78,6 +79,8 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
 def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
     """In a limit: what is left shrinks with the parameter, or vanishes."""
     given = family(limits, checker.truth, lambda more: checker.letters({**declared, **more}))
+    if given.small:
+        return _small(checker, declared, statement, limits, given)
     near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
     case = checker.case(statement, declared, given)
     values, before = case.values(), case.values(near)
@@ -87,6 +90,16 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(case, equation, found))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
+
+
+def _small(checker: Checker, declared: Declared, statement: str, limits: str, given: Family) -> Verdict:
+    """For small motions, to first order."""
+    case = checker.case(statement, declared, given)
+    for equation in case.equations:
+        if not first_order(case, equation, given):
+            found = residual(equation, case.values())
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(case, equation, found))
+    return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:

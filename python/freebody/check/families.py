@@ -25,7 +25,9 @@ class Family:
     """Which motions: ``held`` are parameters with a number of their own (SI, or an expression of others), ``numbers`` holds all
     at the model's, ``at_rest`` has all rates 0, ``at_start`` stays where the model starts, ``zeros`` lets parameters that are 0
     in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
-    expressions of configuration and, linearly, rates that are 0."""
+    expressions of configuration and, linearly, rates that are 0; ``small`` are expressions of configuration with the size that
+    they and their rates have at most. ``since``: motions that begin where the model does, with its rates (``start``) or without
+    (``rest``)."""
 
     held: tuple[tuple[str, float | str], ...] = ()
     numbers: bool = False
@@ -35,6 +37,8 @@ class Family:
     gravity: bool = True
     scaled: tuple[tuple[str, float], ...] = ()
     vanishing: tuple[str, ...] = ()
+    small: tuple[tuple[str, float], ...] = ()
+    since: str = ""
 
 
 ALL = Family()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -17,6 +18,7 @@ from freebody.results import Array, quote
 from .described import Described
 from .families import ALL, Family, Sample
 
+_EXACT = 1e-13  # of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
@@ -87,6 +89,25 @@ class OnRuns(Described):
         found = State(state.p, t, q, u)
         same = _same(self._mode(motion, found), self._own_mode)
         return Sample(found, motion) if same and motion.instant(t).residual < BALANCED else None
+
+    def since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        """A state on a run from the model's own start with random numbers, with the rates there or at rest, before
+        anything switches."""
+        state = self.started(values)
+        if family.since == "rest":
+            near = {c["name"]: float(x) for c, x in zip(self.coordinates, state.q, strict=True)}
+            rates = self.rates(rng, replace(family, at_rest=True))
+            q, u, _ = self.core.assemble(state.p, state.t, guess=near, rates=rates)
+            state = State(state.p, state.t, q, u)
+        late = rng.uniform(0.05, 0.3) / self.rate
+        motion = self.core.simulate(state.p, state.t, state.q, state.u, state.t + late, rtol=_EXACT, max_steps=_STEPS)
+        ends = [motion.final()[0], *(change["t"] for change in json.loads(motion.changes) if change["t"] > state.t)]
+        t = state.t + 0.99 * (min(ends) - state.t)
+        q, u = (a[0] for a in motion.sample(np.array([t])))
+        found = State(state.p, t, q, u)
+        if self.restricted and not _same(self._mode(motion, found), self._own_mode):
+            return None
+        return Sample(found, motion) if motion.instant(t).residual < BALANCED else None
 
     def _placed(self, rng: np.random.Generator, state: State) -> State:
         """A random place near the start, at rest, where what is closed there is closed: bodies of other sizes touch elsewhere."""

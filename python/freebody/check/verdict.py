@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .assumptions import assumption
+from .assumptions import assumption, linearised, tiny
 from .case import Case
 from .families import ALL, Family, NoMotion
 from .language.errors import StatementError
@@ -189,9 +189,13 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if not case.mending:
         return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(mends(case, equation))
-    if not any(mend.is_slip for mend in fixes) and (assumed := assumption(case, equation)):
-        words, _ = assumed
-        return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", words, fixes, seen)
+    if small := linearised(case, equation):
+        return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
+    if not any(mend.is_slip and len(mend.edits) == 1 for mend in fixes) and (assumed := assumption(case, equation)):
+        return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
+    if not fixes and (small := tiny(case, equation)):
+        words, near = small
+        fixes = tuple(replace(mend, given=words) for mend in mends(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
     return Verdict(Kind.WRONG, text, "wrong, and no single or double edit mends it", evidence=seen, true=nearest(case, equation))
