@@ -14,13 +14,14 @@ import numpy as np
 
 from .edits import Edit, depth
 from .language.evaluate import Array, evaluate
-from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Product, Quotient, Sum, letters, replace, walk
+from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Power, Product, Quotient, Sum, letters, replace, walk
 from .language.nodes import terms as terms_of
 from .needed import Need, needs
 from .vocabulary import Powers, Vocabulary, dimension
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _LIKELY = 60  # terms of which pairs with all others are tried
+_FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
 _DENOMINATOR = 12
 _NUMERATOR = 60
 
@@ -78,8 +79,18 @@ class Fits:
                 if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
                     new = Letter(letter.name, letter.dots, span=need.node.span)
                     yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+        yield from self._squares(equation, need)
         if isinstance(need.node, Letter) and need.node in self.vocabulary.parameters:
             yield from self._lengthened(equation, need, need.node)
+
+    def _squares(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        """The square of a letter that should be that of another, of whatever sign."""
+        match need.node:
+            case Power(base=Letter() as base, exponent=Number(value=2.0) as two) if need.value.ndim == 1:
+                for letter in self._letters:
+                    if letter != base and np.allclose(self.values[letter.key] ** 2, need.needed, rtol=_SAME, atol=0):
+                        new = Power(Letter(letter.name, letter.dots), two, span=need.node.span)
+                        yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.1)
 
     def _lengthened(self, equation: Equation, need: Need, letter: Letter) -> Iterator[Edit]:
         """A parameter that should be the sum or the difference of two, as an arm often is."""
@@ -136,7 +147,14 @@ class Fits:
         for term in self._matching(like, need.missing):
             old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
             new = Sum((*old, term), span=need.node.span)
-            yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term))
+            far = _FAR_FETCHED * self._far_fetched(term, equation)
+            yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term) + far)
+
+    def _far_fetched(self, term: Node, equation: Equation) -> bool:
+        """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
+        said = set(letters(equation))
+        new = [n for n in letters(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
+        return bool(new) and any(isinstance(n, Number) and n.value == 2 for n in walk(term))
 
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""

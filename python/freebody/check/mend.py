@@ -16,7 +16,7 @@ from .edits import Edit, depth, edits, with_unit_vectors
 from .fits import Fits
 from .language.errors import StatementError
 from .language.evaluate import Array, evaluate
-from .language.nodes import Equation, Letter, Node, Number, letters
+from .language.nodes import Equation, Letter, Negative, Node, Number, letters
 from .language.nodes import replace as replaced
 from .language.spelling import spell
 from .residual import HOLDS, Residual, residual, unreached
@@ -34,6 +34,8 @@ _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
 _SHOWN = 6
 _FRESH = 1
+_LIKELY = 2.0  # size of a single edit above which pairs may be as likely
+_SWAPPED = ("missing factor", "letter", "other term")
 _LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
 
 
@@ -112,10 +114,13 @@ def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps
     searches = [(_Search(case, row, family), given) for family, given in families]
     if any(search.right for search, _ in searches):
         return
+    tried: list[list[_Found]] = [[] for _ in searches]
     for step in steps:
-        every = [(search.best(step(search)), given) for search, given in searches]
+        for (search, _), seen in zip(searches, tried, strict=True):
+            seen += step(search)
+        every = [(search.best(seen), given) for (search, given), seen in zip(searches, tried, strict=True)]
         some = [(found, given) for found, given in every if found]
-        if some:
+        if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
             found, given = min(some, key=lambda pair: pair[0][0].size)
             yield from (_mend(each, given) for each in found)
             return
@@ -181,26 +186,32 @@ class _Search:
     def best(self, found: Iterable[_Found]) -> list[_Found]:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
         ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
-        kept: dict[tuple[float, ...], _Found] = {}
+        kept: dict[tuple[float, ...], list[_Found]] = {}
         least = 0.0
         for size, _, each in ranked:
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is None or mark in kept or self._is_idle(each) or self._is_vacuous(each.after):
+            if mark is None or self._is_idle(each) or self._is_vacuous(each.after):
                 continue
-            if self._confirmed(each.after):
+            if (mark in kept and self.fit(each.after)) or self._confirmed(each.after):
                 least = size if not kept else least
-                kept[mark] = each
-        return list(kept.values())[:_SHOWN]
+                kept.setdefault(mark, []).append(each)
+        return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
+
+    def _oddness(self, found: _Found) -> tuple[bool, int]:
+        """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, and long."""
+        sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
+        alone = [side for side in sides if isinstance(side, Letter)]
+        return any(edit.old in alone and edit.old is not None for edit in found.edits), len(spell(found.after))
 
     def _size(self, found: _Found) -> float:
         """How large a mend is; larger where it adds what is always 0 here."""
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
     def _is_idle(self, found: _Found) -> bool:
-        """Whether it takes a term away by a factor that is always 0."""
-        return any(e.kind == "missing factor" and e.new is not None and not self._moves(e.new) for e in found.edits)
+        """Whether it takes a part away by what is always 0."""
+        return any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in found.edits)
 
     def _is_vacuous(self, equation: Equation) -> bool:
         """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
