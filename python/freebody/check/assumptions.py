@@ -17,7 +17,7 @@ from .language.errors import StatementError
 from .language.evaluate import Array, evaluate
 from .language.nodes import Call, Equation, Letter, letters, terms, walk
 from .residual import HOLDS, residual, unreached
-from .rounding import is_figure, rounding
+from .rounding import figures, rounding
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
@@ -115,7 +115,7 @@ def _holds(case: Case, equation: Equation, family: Family) -> bool:
     except NoMotion:
         return False
     found = residual(equation, values)
-    as_printed = family.at_start and family.numbers and is_figure(equation)
+    as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
     return bool(near) and not unreached(equation, values)
 

@@ -29,6 +29,9 @@ class Meaning(Protocol):
     def fits(self, equation: Equation) -> bool:
         """Whether its terms have one dimension."""
 
+    def in_figures(self) -> Meaning:
+        """The same where figures stand for measures in SI units, so that they fit any dimension."""
+
     def solved(self, letter: Letter) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
 

@@ -48,6 +48,7 @@ SIZES = {
 }
 """How large each kind of edit is; those within ``mend.EQUAL`` are equally small."""
 
+_FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
 
 
@@ -78,6 +79,19 @@ def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
             yield Edit("sign", node, opposite, replace(equation, node, opposite))
             yield from _fewer(equation, node)
             yield from _more(equation, node, vocabulary)
+
+
+def other_figures(equation: Equation) -> Iterator[Edit]:
+    """Figures that are mistaken for each other, and a term doubled or halved: first steps of two."""
+    for node, addend in _parts(equation):
+        if isinstance(node, Number) and node.value in _FIGURES:
+            for value in _FIGURES:
+                if value != node.value:
+                    new = Number(value, f"{value:g}", span=node.span)
+                    yield Edit("factor", node, new, replace(equation, node, new))
+        elif addend and not any(isinstance(n, Number) for n in walk(node)):
+            for new in (Product((Number(2.0, "2"), node), span=node.span), Quotient(node, Number(2.0, "2"), span=node.span)):
+                yield Edit("factor", node, new, replace(equation, node, new))
 
 
 def _parts(equation: Equation) -> Iterator[tuple[Node, bool]]:

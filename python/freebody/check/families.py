@@ -13,6 +13,7 @@ from freebody import _core
 from freebody.instant import State
 from freebody.results import Array
 
+from .declared import LOAD
 from .prestress import admissible, written_out
 
 
@@ -80,10 +81,22 @@ class Samples:
         return {text: self.known[text] for text in texts}
 
     def _row(self, sample: Sample, texts: Sequence[str]) -> Array:
-        state = sample.state
-        if sample.motion is not None:
-            return sample.motion.evaluate(texts, np.array([state.t]))[0]
-        return self.core.evaluate(texts, state.p, state.t, state.q, state.u)
+        state, motion = sample.state, sample.motion
+        plain = [text for text in texts if not text.startswith(LOAD)]
+        if motion is not None:
+            found = motion.evaluate(plain, np.array([state.t]))[0]
+        else:
+            found = self.core.evaluate(plain, state.p, state.t, state.q, state.u)
+        if len(plain) == len(texts):
+            return found
+        known = {**self._loads(sample), **dict(zip(plain, found.tolist(), strict=True))}
+        return np.array([known.get(text, np.nan) for text in texts])
+
+    def _loads(self, sample: Sample) -> dict[str, float]:
+        """Every load that is determined, as a text that begins with ``LOAD``."""
+        state, motion = sample.state, sample.motion
+        text = motion.free_bodies(state.t) if motion else self.core.free_bodies(state.p, state.t, state.q, state.u)
+        return {LOAD + load["symbol"]: load["value"] for load in json.loads(text)["loads"] if load["value"] is not None}
 
     def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
         """A row in which what reads reactions that are not determined has a value, too."""

@@ -114,7 +114,10 @@ class Fits:
         found = _constant(factor)
         if found is not None:
             number = recognised(found)
-            if number is not None and found not in (0, 1, -1):
+            if number == Number(-1.0):
+                new = need.node.of if isinstance(need.node, Negative) else Negative(need.node, span=need.node.span)
+                yield Edit("sign", need.node, new, replace(equation, need.node, new))
+            elif number is not None and number != Number(1.0):
                 new = multiplied(need.node, number)
                 own = 0.05 if any(isinstance(n, Number) for n in walk(need.node)) else 0.0
                 yield Edit("factor", need.node, new, replace(equation, need.node, new), own)

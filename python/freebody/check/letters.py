@@ -157,7 +157,7 @@ class Letters:
 
     def _reading(self, text: str) -> Meaning | None:
         try:
-            return Meaning("reading", *_single(self._measured(text)))
+            return Meaning("reading", *_single(self._measure(text)))
         except Complaint:
             return None
 
@@ -258,15 +258,17 @@ class Letters:
         for cached in ("vectors", "_spellings"):
             self.__dict__.pop(cached, None)
 
+    def _measure(self, said: str) -> tuple[str, Dimension | None]:
+        """An expression in SI with its dimension; letters declared before, and Greek ones, are written out."""
+        return self.writer.measured(replace_names(said, self._written_out))
+
     def _measured(self, said: str) -> tuple[str, Dimension | None]:
-        """An expression in SI with its dimension; letters declared before, and Greek ones, are written out. What is none of the
-        model language, like ``m g/k``, is read as in a statement."""
+        """The same; what is none of the model language, like ``m g/k``, is read as in a statement."""
         try:
-            return self.writer.measured(replace_names(said, self._written_out))
+            return self._measure(said)
         except Complaint as complaint:
             try:
-                plain = written(parse_expression(said, self.names, self.still))
-                return self.writer.measured(replace_names(plain, self._written_out))
+                return self._measure(written(parse_expression(said, self.names, self.still)))
             except (StatementError, Complaint):
                 raise complaint from None
 

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .conventions import conventions
-from .edits import Edit, depth, edits, with_unit_vectors
+from .edits import Edit, depth, edits, other_figures, with_unit_vectors
 from .fits import Fits
 from .language.errors import StatementError
 from .language.evaluate import Array, evaluate
 from .language.nodes import Equation, Letter, Negative, Node, Number, letters
 from .language.nodes import replace as replaced
+from .language.nodes import without_ones
 from .language.spelling import spell
 from .residual import HOLDS, Residual, residual, unreached
 from .rows import rows
@@ -32,8 +33,12 @@ _VAIN = 0.3  # more, for a mend by what is always 0
 _FEW = 5  # states on which an edit is tried first
 _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
+_PLAIN = ("sign", "function")  # edits of which all pairs are tried
+_MOST_PLAIN = 24
+_BEST_FIGURES = 12
 _SHOWN = 6
 _FRESH = 1
+_WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _SWAPPED = ("missing factor", "letter", "other term")
 _LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
@@ -129,7 +134,7 @@ def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps
 def _mend(found: _Found, given: str) -> Mend:
     told = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in found.edits)
     where = tuple(e.old.span for e in found.edits if e.old is not None and e.old.span != (0, 0))
-    return Mend(told, spell(found.after), found.size, where, given)
+    return Mend(told, spell(without_ones(found.after)), found.size, where, given)
 
 
 class _Search:
@@ -157,15 +162,21 @@ class _Search:
 
     def pairs(self) -> Iterator[_Found]:
         """Pairs of the edits that bring it nearest, and of one of them and what is then found to be lacking."""
-        scored = [(self._score(edit.after), edit) for edit in edits(self.equation, self.vocabulary)]
-        near = [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:_BEST]]
-        for first, second in combinations(near, 2):
+        every = list(edits(self.equation, self.vocabulary))
+        near = self._nearest(every, _BEST)
+        plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
+        for first, second in chain(combinations(near, 2), combinations(plain, 2)):
             if (both := _both(first, second)) is not None and self._passes(both.after):
                 yield _Found((first, both))
-        for first in near:
+        for first in (*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES)):
             second = self._fitted(first.after)
             yield from (_Found((first, edit)) for edit in self._promising(second))
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
+
+    def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
+        """The edits after which the least is left."""
+        scored = [(self._score(edit.after), edit) for edit in found]
+        return [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:count]]
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
         units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))
@@ -199,11 +210,12 @@ class _Search:
                 kept.setdefault(mark, []).append(each)
         return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
 
-    def _oddness(self, found: _Found) -> tuple[bool, int]:
-        """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, and long."""
+    def _oddness(self, found: _Found) -> tuple[bool, float]:
+        """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
         sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Letter)]
-        return any(edit.old in alone and edit.old is not None for edit in found.edits), len(spell(found.after))
+        length = len(spell(without_ones(found.after))) + _WORTH * found.size
+        return any(edit.old in alone and edit.old is not None for edit in found.edits), length
 
     def _size(self, found: _Found) -> float:
         """How large a mend is; larger where it adds what is always 0 here."""

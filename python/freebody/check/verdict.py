@@ -159,8 +159,27 @@ def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) ->
         fixes = {equation: tuple(mends(case, equation)) for equation in equations}
     except NoMotion:
         return Verdict(Kind.DIMENSIONS, text, reason)
+    least = min((mend.size for found in fixes.values() for mend in found), default=np.inf)
+    inside = _in_figures(case, list(fixes)) if least > 1.5 else ()
+    if inside and min(mend.size for mend in inside) < least:
+        return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
     true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
     return Verdict(Kind.DIMENSIONS, text, reason, mends=tuple(mend for found in fixes.values() for mend in found), true=true)
+
+
+def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Mend, ...]:
+    """The mends of equations whose figures stand for measures in SI units; none where dimensions do not fit so, either."""
+    other = replace(case, meaning=case.meaning.in_figures())
+    if not all(other.meaning.fits(equation) for equation in equations):
+        return ()
+    return tuple(mend for equation in equations if not _holds(other, equation) for mend in mends(other, equation))
+
+
+def _holds(case: Case, equation: Equation) -> bool:
+    try:
+        return case.residual(equation).worst < HOLDS
+    except StatementError:
+        return False
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:

@@ -222,6 +222,21 @@ def _replaced(value: object, old: Node, new: Node) -> object:
     return value
 
 
+def without_ones(node: N) -> N:
+    """The same without factors 1 and denominators 1."""
+    while (found := next((n for n in walk(node) if _has_one(n)), None)) is not None:
+        left = [f for f in found.factors if f != _ONE] or [_ONE] if isinstance(found, Product) else [found.top]
+        node = replace(node, found, left[0] if len(left) == 1 else Product(tuple(left), span=found.span))
+    return node
+
+
+_ONE = Number(1.0, "1")
+
+
+def _has_one(node: Node) -> bool:
+    return (isinstance(node, Product) and _ONE in node.factors) or (isinstance(node, Quotient) and node.bottom == _ONE)
+
+
 def substitute(node: N, expressions: dict[Letter, Node]) -> N:
     """The same with an expression for each of these letters."""
     found = [n for n in walk(node) if isinstance(n, Letter) and n in expressions]
