@@ -157,7 +157,8 @@ class Fits:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
         said = set(letters(equation))
         new = [n for n in letters(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
-        return bool(new) and any(isinstance(n, Number) and n.value == 2 for n in walk(term))
+        first = term.of if isinstance(term, Negative) else term
+        return bool(new) and isinstance(first, Product) and first.factors[0] == Number(2.0)
 
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""
@@ -219,16 +220,18 @@ class Fits:
 
     def _rows(self, nodes: Sequence[Node]) -> Array:
         """The value of each term; factors, of which there are few, are worked out once."""
-        known: dict[Node, Array] = {}
-
-        def value(node: Node) -> Array:
-            if node not in known:
-                known[node] = evaluate(node, self.values)
-            return known[node]
-
+        parts = [n.factors if isinstance(n, Product) else (n,) for n in nodes]
+        places: dict[Node, int] = {}
+        seen: dict[int, int] = {}  # by identity: many terms share their factors
+        for factor in (f for factors in parts for f in factors):
+            if id(factor) not in seen:
+                seen[id(factor)] = places.setdefault(factor, len(places) + 1)
         count = len(next(iter(self.values.values())))
-        made = [np.prod([value(f) for f in n.factors], axis=0) if isinstance(n, Product) else value(n) for n in nodes]
-        return np.array(made).reshape(len(nodes), count)
+        known = np.array([np.ones(count), *(evaluate(factor, self.values) for factor in places)])
+        rows = np.ones((len(nodes), count))
+        for i in range(max(map(len, parts), default=0)):
+            rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
+        return rows
 
     def _dimension(self, equation: Equation) -> Powers | None:
         """That of most terms of the equation, as one of them may be wrong."""

@@ -16,9 +16,8 @@ from .edits import Edit, depth, edits, other_figures, with_unit_vectors
 from .fits import Fits
 from .language.errors import StatementError
 from .language.evaluate import Array, evaluate
-from .language.nodes import Equation, Letter, Negative, Node, Number, letters
+from .language.nodes import Equation, Letter, Negative, Node, Number, letters, without_ones
 from .language.nodes import replace as replaced
-from .language.nodes import without_ones
 from .language.spelling import spell
 from .residual import HOLDS, Residual, residual, unreached
 from .rows import rows
@@ -275,6 +274,9 @@ class _Search:
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
         solved = self._solved(equation, found.sides.residual, places)
+        if solved is None and found.sides.residual.shape[1] > 1:
+            left = found.sides.residual
+            solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
         if solved is None:
             ratio = found.ratio.ravel()
             solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
