@@ -192,7 +192,7 @@ class Letters:
         bare = letter.name.rstrip("'")
         near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(letter.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
-        raise Complaint(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{letter.name}: …`")
+        raise Complaint(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
 
     # --- building ------------------------------------------------------------------------------
 

@@ -27,16 +27,17 @@ _FEW = 0.1  # share of such states
 
 
 class Kind(str, Enum):
-    """What can be said of a statement."""
+    """What can be said of a statement; of one among many also that it cannot be read."""
 
     TRUE = "true"
     TRUE_IF = "true only under an assumption"
     WRONG = "wrong"
     UNDECIDABLE = "not decidable from this model"
     DIMENSIONS = "dimensions do not fit"
+    UNREADABLE = "cannot be read"
 
 
-_ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS]
+_ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS, Kind.UNREADABLE]
 
 
 @dataclass(frozen=True)
