@@ -61,11 +61,17 @@ forces:
 initial: {x: 0, y: 1, rates: {x: 3, y: 4}}
 """
 
+KINETIC = "L = 1/2 M x'^2 + 1/2 m (x'^2 + 2 l x' θ' cos θ + l^2 θ'^2)"
 WRITTEN = [
     # d/dt of an angular momentum is the couple
     ("bead on a turning rod", "d/dt((m1 l^2/3 + m2 R^2) θ') = T", T),
     ("bead on a turning rod", r"\frac{d}{dt}\left[\left(\frac{m_1 l^2}{3} + m_2 R^2\right)\dot\theta\right] = 2T", W),
     ("bead on a turning rod", "I := m1 l^2/3 + m2 R^2; H = I θ'; H' = T", T),
+    # Lagrange's equations, of a Lagrangian in letters
+    ("pendulum on a cart", f"{KINETIC} + m g l cos θ; d/dt(∂L/∂θ') - ∂L/∂θ = 0; d/dt(∂L/∂x') - ∂L/∂x = F", T),
+    ("pendulum on a cart", f"{KINETIC} + m g l cos θ; p = ∂L/∂x'; p' = F", T),
+    ("pendulum on a cart", f"{KINETIC} - m g l cos θ; d/dt(∂L/∂θ') - ∂L/∂θ = 0", W),
+    ("pendulum on a cart", rf"{KINETIC} + m g l cos θ \\ \frac{{d}}{{dt}}\frac{{\partial L}}{{\partial \dot x}} = F", T),
     # programs
     ("bead on a turning rod", "theta_dd = (T - 2*m2*R*R_d*theta_d)/(m1*l**2/3 + m2*R**2)", T),
     ("bead on a turning rod", "θ' = ω; R' = v; v' = R ω^2; ω' = (T - 2 m2 R v ω)/(m1 l^2/3 + m2 R^2)", T),

@@ -1,4 +1,4 @@
-"""The time derivative of what a person wrote, by the rules of the calculus."""
+"""Derivatives of what a person wrote, by time or by one letter, by the rules of the calculus."""
 
 from __future__ import annotations
 
@@ -16,24 +16,36 @@ def derivative(node: Node, still: Collection[str] = ()) -> Node:
 
     Raises ``StatementError`` at what has no derivative.
     """
-    found = _Rules(still).of(node)
+    return _short(node, _Rules(lambda letter: _rate(letter, still)).of(node))
+
+
+def partial(node: Node, by: Letter) -> Node:
+    """Its change with one letter, all others held. Raises ``StatementError`` at what has no derivative."""
+    return _short(node, _Rules(lambda letter: _ONE if letter == by else _ZERO).of(node))
+
+
+def _rate(letter: Letter, still: Collection[str]) -> Node:
+    if letter == Letter("t"):
+        return _ONE
+    return _ZERO if letter.name in still else Letter(letter.name, letter.dots + 1, span=letter.span)
+
+
+def _short(node: Node, found: Node) -> Node:
     if sum(1 for _ in walk(found)) > _MOST:
         raise StatementError("the derivative of this is too long", node.span, "write it out in several lines")
     return found
 
 
 class _Rules:
-    def __init__(self, still: Collection[str]) -> None:
-        self.still = still
+    def __init__(self, letter: Callable[[Letter], Node]) -> None:
+        self.letter = letter
 
     def of(self, node: Node) -> Node:
         match node:
             case Number() | Unit():
                 return _ZERO
-            case Letter(name="t", dots=0):
-                return _ONE
-            case Letter(name=name, dots=dots):
-                return _ZERO if name in self.still else Letter(name, dots + 1, span=node.span)
+            case Letter():
+                return self.letter(node)
             case Negative(of=of):
                 return _negative(self.of(of))
             case Sum(terms=terms):
@@ -58,7 +70,7 @@ class _Rules:
 
     def stands(self, node: Node) -> bool:
         """Whether it does not change."""
-        return all(n.name in self.still for n in walk(node) if isinstance(n, Letter))
+        return all(self.letter(n) == _ZERO for n in walk(node) if isinstance(n, Letter))
 
     def each(self, factors: Sequence[Node], product: Callable[[list[Node]], Node]) -> Node:
         """Each factor in turn."""

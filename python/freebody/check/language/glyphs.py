@@ -56,7 +56,7 @@ _COMMANDS = {
         "gt": ">",
     },
     **{"frac": "frac", "tfrac": "frac", "dfrac": "frac", "sqrt": "sqrt", "{": "(", "}": ")", "lbrack": "[", "rbrack": "]"},
-    **{"circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
+    **{"partial": "∂", "circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
 }
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 _CLOTHES = {

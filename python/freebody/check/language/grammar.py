@@ -24,18 +24,21 @@ from .nodes import (
     Negative,
     Node,
     Number,
+    Partial,
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
     Unit,
+    walk,
 )
 from .tokens import Names, Token
 
 RELATIONS = ("=", "<=", ">=", "<", ">")
 _ADDS = ("+", "-")
 SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
-_BEGINS = ("number", "letter", "function", "rate", "(", "[", "{", "frac", "matrix[", "|")
+_BEGINS = ("number", "letter", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
@@ -62,7 +65,7 @@ class Line:
             raise StatementError(f"it ends where a `{kind}` is missing", self.end())
         if kind == "end" and self.now.kind in (")", "]", "}"):
             raise StatementError(f"a `{self.now.text}` that was never opened", self.now.span)
-        expected = "the end" if kind == "end" else f"`{kind}`"
+        expected = {"end": "the end", "letter": "a letter"}.get(kind, f"`{kind}`")
         raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span)
 
     def end(self) -> Span:
@@ -186,6 +189,8 @@ class Line:
             return self.group()
         if token.kind in ("[", "matrix["):
             return self.matrix()
+        if token.kind == "∂" or (token.kind == "frac" and self.row[self.at + 2].kind == "∂"):
+            return self.partial()
         if token.kind == "frac":
             self.take()
             top, bottom = self.group(), self.group()
@@ -338,10 +343,31 @@ class Line:
         return self.rate(of, count, Token("rate", "diff", span))
 
     def rate(self, of: Node, count: int, token: Token) -> Node:
-        """A derivative by time, written out."""
+        """A derivative by time, written out where it can be."""
+        lasting = any(isinstance(n, Partial) for n in walk(of))
         for _ in range(count):
-            of = derivative(of, self.names.still)
+            of = Rate(of) if lasting else derivative(of, self.names.still)
         return replace(of, span=self.span(token))
+
+    def partial(self) -> Node:
+        """∂L/∂θ̇, or the same as a LaTeX fraction."""
+        start = self.now
+        between = ("}", "{") if start.kind == "frac" else ("/",)
+        for kind in ("frac", "{") if start.kind == "frac" else ():
+            self.expect(kind)
+        of = self.changing()
+        for kind in between:
+            self.expect(kind)
+        by = self.changing()
+        if start.kind == "frac":
+            self.expect("}")
+        return Partial(of, by, span=self.span(start))
+
+    def changing(self) -> Letter:
+        """The letter behind a ∂."""
+        self.expect("∂")
+        token = self.expect("letter")
+        return Letter(token.text, token.dots, span=token.span)
 
     # --- units ---------------------------------------------------------------------------------
 

@@ -123,6 +123,21 @@ class Matrix(Node):
 
 
 @dataclass(frozen=True)
+class Partial(Node):
+    """∂L/∂θ̇: how a name that a line gives changes with one letter; written out once all lines are read."""
+
+    of: Letter
+    by: Letter
+
+
+@dataclass(frozen=True)
+class Rate(Node):
+    """The derivative by time of what has partial derivatives in it; written out with them."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
 class Equation(Node):
     """Two sides that are said to be equal, or as ``relation`` says: ``=``, ``<=``, ``>=``, ``<``, ``>``."""
 

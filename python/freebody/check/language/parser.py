@@ -19,10 +19,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from .alphabet import folded
-from .derivatives import derivative
+from .derivatives import derivative, partial
 from .errors import StatementError
 from .grammar import CLOSES, RELATIONS, SIGNED, Line
-from .nodes import Assignment, Equation, Letter, Node, Program, walk
+from .nodes import Assignment, Equation, Letter, Node, Partial, Program, Rate, replace, substitute, walk
 from .tokens import Names, Token, tokens
 
 
@@ -37,7 +37,7 @@ def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units
     try:
         known = known.also(_assigned(tokens(text, known), known))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
-        lines = _meanings(rows, set(own))
+        lines = _written_out(_meanings(rows, set(own)), known)
         program = Program((*_rates(lines, known), *lines), text, span=(0, len(text)))
     except StatementError as error:
         raise error.within(text) from None
@@ -101,6 +101,22 @@ def _definition(line: Equation, taken: set[str], begun: set[Node], alone: Sequen
         if not own and not (name.dots and Letter(name.name) in alone):
             return Assignment(name, said, span=line.span)
     return None
+
+
+def _written_out(lines: list[Assignment | Equation], names: Names) -> list[Assignment | Equation]:
+    """The lines with partial derivatives of names that lines give written out."""
+    given = {line.name: line.expression for line in lines if isinstance(line, Assignment)}
+    for _ in given:
+        given = {name: substitute(expression, given) for name, expression in given.items()}
+    while (found := next((n for line in lines for n in walk(line) if isinstance(n, Partial)), None)) is not None:
+        if found.of not in given:
+            hint = f"give it in a line: `{found.of.key} = …`"
+            raise StatementError(f"what `{found.of.key}` is made of is not said", found.of.span, hint)
+        new = partial(given[found.of], found.by)
+        lines = [replace(line, found, new) for line in lines]
+    while (rates := [n for line in lines for n in walk(line) if isinstance(n, Rate)]) != []:
+        lines = [replace(line, rates[-1], derivative(substitute(rates[-1].of, given), names.still)) for line in lines]
+    return lines
 
 
 def _rates(lines: Sequence[Assignment | Equation], names: Names) -> list[Assignment]:
