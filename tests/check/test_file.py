@@ -78,3 +78,15 @@ def test_a_model_without_an_equation_is_told_so(folder: Path) -> None:
     (folder / "nothing.yaml").write_text("model: model.yaml")
     with pytest.raises(Complaint, match="no statements"):
         read(folder / "nothing.yaml")
+
+
+def test_one_statement_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> None:
+    (folder / "many.yaml").write_text(
+        "statements: [\"l q'' = 0\", {says: 'x = (1'}, \"2*l*theta'' = -3*g*sin(theta)\", {id: end, says: 'limit: g = 1'}]"
+    )
+    done = [(one.statement.id, one.verdict.kind) for one in judge(folder / "many.yaml")]
+    assert done == [("1", Kind.UNREADABLE), ("2", Kind.UNREADABLE), ("3", Kind.TRUE), ("end", Kind.UNREADABLE)]
+    run = CliRunner().invoke(app, ["check", str(folder / "model.yaml"), "l q'' = 0", "2*l*theta'' = -3*g*sin(theta)"])
+    assert run.exit_code == 3
+    assert "`q''` has no meaning" in run.output
+    assert "\n  true\n" in run.output

@@ -68,7 +68,7 @@ MENDS = {
     ("S19.20", "WHEEL-1c"): "(-3.50*i + 4.33*j)",
     ("S19.20", "WHEEL-4a"): "-(17.32*i + 8.00*j)",
     ("S19.20", "WHEEL-4b"): "-(8.66*i + 4.00*j)",
-    ("S19.21", "BAR-4"): "l2*betaddot/2*n2",
+    ("S19.21", "BAR-4"): "l2*betaddot*n2/2",
     ("S19.21", "BAR-5"): "l3*phiddot/2*n3",
     ("S19.21", "BAR-7"): "R_D",  # its moment about A, r_D/A × R_D or d R_Dy
     ("S19.22", "BAR-8a"): "(n1 · λ3)/(n2 · λ3)",

@@ -305,4 +305,6 @@ initial: {x: 1 m}
 def test_figures_of_a_true_equation_are_in_si_units() -> None:
     spring = Checker(Mechanism.loads(SPRING))
     assert spring.check("2 x'' = -30 x").ok
-    assert spring.check("2 x'' = -31 x").kind is Kind.DIMENSIONS
+    verdict = spring.check("2 x'' = -31 x")
+    assert (verdict.kind, verdict.reason) == (Kind.WRONG, "figures are in SI units")
+    assert "30" in {edit[2] for mend in verdict.mends for edit in mend.edits}

@@ -47,8 +47,18 @@ def show_asked(asked: Asked, console: Console | None = None) -> None:
         console.print(Text(f"  failed: {asked.failure}\n", "bold red"))
 
 
-_STYLES = {"TRUE": "green", "TRUE_IF": "yellow", "WRONG": "red", "DIMENSIONS": "red", "UNDECIDABLE": "yellow"}
-_SHORT = {"TRUE": "true", "TRUE_IF": "true if", "WRONG": "wrong", "DIMENSIONS": "dimensions", "UNDECIDABLE": "not decidable"}
+_STYLES = {
+    "TRUE": "green",
+    "TRUE_IF": "yellow",
+    "WRONG": "red",
+    "DIMENSIONS": "red",
+    "UNDECIDABLE": "yellow",
+    "UNREADABLE": "red",
+}
+_SHORT = {
+    **{"TRUE": "true", "TRUE_IF": "true if", "WRONG": "wrong", "DIMENSIONS": "dimensions"},
+    **{"UNDECIDABLE": "not decidable", "UNREADABLE": "cannot be read"},
+}
 
 
 def show_statements(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:

@@ -36,6 +36,7 @@ class Checker:
         self.declared = dict(letters or {})
         self.truth = Truth(mechanism, seed)
         self.hypothesis = ALL
+        self.mending = True
         self._run: Any = None
 
     def letters(self, declared: Declared | None = None) -> Letters:
@@ -46,18 +47,23 @@ class Checker:
         """A statement beside the motions that decide about it. Raises ``StatementError`` and ``Complaint``."""
         known = self.letters(letters)
         program = known.read(text)
-        return Case(program, StatementLetters(known, program, self.truth), self.truth, hypothesis or self.hypothesis)
+        meaning = StatementLetters(known, program, self.truth)
+        return Case(program, meaning, self.truth, hypothesis or self.hypothesis, self.mending)
 
-    def check(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Verdict:
+    def check(
+        self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, mending: bool = True
+    ) -> Verdict:
         """The verdict about an equation, several lines of them, or a claim (see docs/check.md).
 
-        ``hypothesis``: the motions of which it is said. Raises ``StatementError`` and ``Complaint``.
+        ``hypothesis``: the motions of which it is said. Without ``mending`` it is only judged, which is quicker where it is wrong.
+        Raises ``StatementError`` and ``Complaint``.
         """
-        before, self.hypothesis = self.hypothesis, hypothesis or self.hypothesis
+        before = self.hypothesis, self.mending
+        self.hypothesis, self.mending = hypothesis or self.hypothesis, mending and self.mending
         try:
             return claimed(self, text, letters or {}) or self._equations(text, letters)
         finally:
-            self.hypothesis = before
+            self.hypothesis, self.mending = before
 
     def _equations(self, text: str, letters: Declared | None) -> Verdict:
         case = self.case(text, letters)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -11,35 +12,100 @@ from freebody import _core
 
 from .case import Case
 from .families import Family, NoMotion
+from .hypothesis import SMALL
 from .language.errors import StatementError
-from .language.nodes import Equation
+from .language.evaluate import Array, evaluate
+from .language.nodes import Call, Equation, Letter, letters, terms, walk
 from .residual import HOLDS, residual, unreached
-from .rounding import is_figure, rounding
+from .rounding import figures, rounding
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
 _STATES = 16
+_TINY = 5e-6  # rad, at which what is left of a true linear equation is below HOLDS, and round-off, too
+_NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
 
 
-def assumption(case: Case, equation: Equation) -> tuple[str, Family] | None:
-    """The mildest assumption under which an equation holds, in words, and its motions; None without one.
+def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
+    """The mildest assumptions, in words, under each of which an equation holds; none without one.
 
-    It counts only where every term still takes part: an assumption explains what was left out, not what is wrong.
+    They count only where every term still takes part: an assumption explains what was left out, not what is wrong.
     """
-    for words, family in _assumptions(case):
-        try:
-            if _holds(case, equation, family):
-                return words, family
-        except (StatementError, _core.ModelError):
-            continue
+    for families in _assumptions(case):
+        if found := tuple(words for words, family in families if _excuses(case, equation, family)):
+            return found
+    if words := _small(case, equation):
+        return (words,)
     for words, families in _limits(case):
-        try:
+        with suppress(NoMotion, StatementError, _core.ModelError):
             if _tends(case, equation, families):
-                return words, families[-1]
-        except (NoMotion, StatementError, _core.ModelError):
-            continue
-    return None
+                return (words,)
+    return ()
+
+
+def linearised(case: Case, equation: Equation) -> str:
+    """In words, what is small where an equation in which angles stand outside of sines and cosines is true to first order."""
+    return _small(case, equation) if _bare_angles(case, equation) else ""
+
+
+def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
+    """The statement of motions so small that sines are angles, in words; None where no angle stands outside of sines and cosines."""
+    if not _bare_angles(case, equation):
+        return None
+    angles = _angles(case, equation)
+    small = tuple((text, _TINY) for n in angles for text in case.meaning.texts(n))
+    return _words(angles), replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
+
+
+def _excuses(case: Case, equation: Equation, family: Family) -> bool:
+    try:
+        return _holds(case, equation, family)
+    except (StatementError, _core.ModelError):
+        return False
+
+
+def _bare_angles(case: Case, equation: Equation) -> list[Letter]:
+    """Coordinates that are angles and stand outside of functions."""
+    known = case.meaning.vocabulary
+    inside = {id(n) for call in walk(equation) if isinstance(call, Call) for n in walk(call)}
+    bare = [n for n in walk(equation) if isinstance(n, Letter) and id(n) not in inside]
+    return [n for n in dict.fromkeys(bare) if n in known.coordinates and n in known.angular]
+
+
+def _small(case: Case, equation: Equation) -> str:
+    """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
+    given, angles = case.hypothesis, _angles(case, equation)
+    small = tuple((text, SMALL) for n in angles for text in case.meaning.texts(n))
+    with suppress(NoMotion, StatementError, _core.ModelError):
+        if small and not given.small and first_order(case, equation, replace(given, small=small)):
+            return f"{_words(angles)}, to first order"
+    return ""
+
+
+def _angles(case: Case, equation: Equation) -> list[Letter]:
+    known = case.meaning.vocabulary
+    plain = dict.fromkeys(Letter(n.name) for n in letters(equation))
+    return [n for n in plain if n in known.coordinates and n in known.angular]
+
+
+def _words(angles: Iterable[Letter]) -> str:
+    return f"small {', '.join(n.name for n in angles)}"
+
+
+def first_order(case: Case, equation: Equation, family: Family) -> bool:
+    """Whether what is left is of higher order than each term, as what is small grows smaller. Raises ``NoMotion``."""
+    larger = replace(family, small=tuple((text, 10 * size) for text, size in family.small))
+    far, near = (_beside_terms(equation, case.values(each, count=_STATES)) for each in (larger, family))
+    return bool(near < HOLDS or (near < _NEGLIGIBLE and near < far / 3))
+
+
+def _beside_terms(equation: Equation, values: Mapping[str, Array]) -> float:
+    """What is left of an equation beside the least of its terms, in the median."""
+    left = np.abs(residual(equation, values).sides.residual).max(axis=1)
+    sizes = [np.abs(evaluate(term.node, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
+    with np.errstate(all="ignore"):
+        return float(np.max([np.median(left / size) for size in sizes], initial=0.0))
 
 
 def _holds(case: Case, equation: Equation, family: Family) -> bool:
@@ -49,12 +115,13 @@ def _holds(case: Case, equation: Equation, family: Family) -> bool:
     except NoMotion:
         return False
     found = residual(equation, values)
-    as_printed = family.at_start and family.numbers and is_figure(equation)
+    as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
     return bool(near) and not unreached(equation, values)
 
 
-def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
+def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
+    """Families in words, equally mild ones together."""
     truth, given = case.truth, case.hypothesis
     zeros = [name for name, value in truth.free_parameters.items() if value == 0]
     held = dict(given.held)
@@ -62,19 +129,25 @@ def _assumptions(case: Case) -> Iterator[tuple[str, Family]]:
     def with_zero(*names: str) -> Family:
         return replace(given, held=tuple({**held, **dict.fromkeys(names, 0.0)}.items()))
 
-    yield from ((f"{name} = 0, as in this model", with_zero(name)) for name in zeros)
-    if len(zeros) > 1:
-        yield f"{', '.join(f'{name} = 0' for name in zeros)}, as in this model", with_zero(*zeros)
-    yield "at rest", replace(given, at_rest=True)
-    if truth.gravities:
-        yield "without gravity", replace(given, gravity=False)
-    yield from ((f"{name} = 0 (no friction)", with_zero(name)) for name in truth.frictions)
+    yield [
+        *((f"{name} = 0, as in this model", with_zero(name)) for name in zeros),
+        *([(f"{', '.join(f'{name} = 0' for name in zeros)}, as in this model", with_zero(*zeros))] if len(zeros) > 1 else ()),
+    ]
     others = [n for n in mattering(case) if n not in (*zeros, *truth.frictions, *truth.gravities)]
-    yield from ((f"{name} = 0", with_zero(name)) for name in others)
-    yield "these numbers of the model", replace(given, numbers=True, zeros=False)
-    yield "at rest, and these numbers of the model", replace(given, numbers=True, zeros=False, at_rest=True)
-    yield "at the start", replace(given, at_start=True)
-    yield "at the start, with these numbers of the model", replace(given, numbers=True, zeros=False, at_start=True)
+    yield [
+        ("at rest", replace(given, at_rest=True)),
+        *([("without gravity", replace(given, gravity=False))] if truth.gravities else ()),
+        *((f"{name} = 0 (no friction)", with_zero(name)) for name in truth.frictions),
+        *((f"{name} = 0", with_zero(name)) for name in others),
+    ]
+    own = replace(given, numbers=True, zeros=False)
+    yield [("these numbers of the model", own)]
+    yield [("at rest, and these numbers of the model", replace(own, at_rest=True))]
+    yield [("at the start", replace(given, at_start=True))]
+    yield [("at the start, with these numbers of the model", replace(own, at_start=True))]
+    if not (given.at_rest or given.at_start or given.vanishing or given.small):
+        yield [("motions from the start of this model", replace(given, since="start"))]
+        yield [("motions from the start of this model at rest", replace(given, since="rest"))]
 
 
 def mattering(case: Case) -> list[str]:
@@ -85,7 +158,7 @@ def mattering(case: Case) -> list[str]:
 
 def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:
     given = case.hypothesis
-    for name in mattering(case):
+    for name in mattering(case) if not given.since else ():
         if case.truth.free_parameters[name] == 0 or name in dict(given.held):
             continue
         for words, power in (("→ ∞", 1), ("→ 0", -1)):

@@ -29,6 +29,12 @@ class Meaning(Protocol):
     def fits(self, equation: Equation) -> bool:
         """Whether its terms have one dimension."""
 
+    def in_figures(self) -> Meaning:
+        """The same where figures stand for measures in SI units, so that they fit any dimension."""
+
+    def solved(self, letter: Letter) -> bool:
+        """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
+
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that name one quantity twice agree in it."""
 
@@ -41,12 +47,14 @@ class Meaning(Protocol):
 
 @dataclass
 class Case:
-    """A program of statements, what its letters mean, and true motions. ``hypothesis`` is the family of which it is said."""
+    """A program of statements, what its letters mean, and true motions. ``hypothesis`` is the family of which it is said;
+    ``mending``: whether mends are wanted where it is wrong."""
 
     program: Program
     meaning: Meaning
     truth: Truth
     hypothesis: Family = ALL
+    mending: bool = True
     known: dict[tuple[Family, int, int], Mapping[str, Array]] = field(default_factory=dict)
 
     @property

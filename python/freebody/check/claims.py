@@ -13,8 +13,9 @@ from freebody.model.errors import Complaint
 from freebody.results import Array
 
 from . import moments
+from .assumptions import first_order
 from .case import Case
-from .families import Sample, Samples
+from .families import Family, Sample, Samples
 from .hypothesis import FAR, family
 from .language.errors import StatementError
 from .language.evaluate import equation_sides, evaluate
@@ -34,10 +35,26 @@ _RUNS = 12
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``Complaint``."""
+    given, claim = _defined(text.strip())
     for pattern, judge in _FORMS:
-        if found := pattern.fullmatch(text.strip()):
-            return replace(judge(checker, declared, *(part.strip() for part in found.groups())), text=text.strip())
+        if found := pattern.fullmatch(claim):
+            said = (part.strip() for part in found.groups())
+            return replace(judge(checker, {**declared, **given}, *said), text=text.strip())
+    for word, form in _WHOLE.items():
+        if re.match(rf"{word}\s*:", claim):
+            raise Complaint(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
     return None
+
+
+def _defined(text: str) -> tuple[dict[str, str], str]:
+    """The names that lines before a claim give, or words behind it (*where*), and the claim."""
+    *before, last = re.split(r"\s*[;\n]\s*", text)
+    claim, *after = re.split(r"\s+(?:where|with)\s+(?=[^:]*=[^:]*$)", last) if ":" in last else [last]
+    said = [*before, *(line for part in after for line in re.split(r",(?![^()\[\]]*[)\]])|\band\b", part))]
+    lines = [found for line in said if (found := _NAME.fullmatch(line))]
+    if ":" not in last or not lines or len(lines) < len(said):
+        return {}, text
+    return {found[1]: found[2] for found in lines}, claim
 
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
@@ -49,9 +66,10 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
 
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """True under a hypothesis, and broken by an example without it."""
-    under, always = _if(checker, declared, condition, statement), checker.check(statement, declared)
+    under = _if(checker, declared, condition, statement)
     if not under.ok:
         return under
+    always = checker.check(statement, declared, mending=False)
     if always.ok:
         return replace(always, kind=Kind.WRONG, reason=f"it holds without `{condition}`, too")
     reason = f"holds where {condition}; broken without it"
@@ -61,6 +79,8 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
 def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
     """In a limit: what is left shrinks with the parameter, or vanishes."""
     given = family(limits, checker.truth, lambda more: checker.letters({**declared, **more}))
+    if given.small:
+        return _small(checker, declared, statement, limits, given)
     near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
     case = checker.case(statement, declared, given)
     values, before = case.values(), case.values(near)
@@ -70,6 +90,16 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(case, equation, found))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
+
+
+def _small(checker: Checker, declared: Declared, statement: str, limits: str, given: Family) -> Verdict:
+    """For small motions, to first order."""
+    case = checker.case(statement, declared, given)
+    for equation in case.equations:
+        if not first_order(case, equation, given):
+            found = residual(equation, case.values())
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(case, equation, found))
+    return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
@@ -226,6 +256,14 @@ def _solve(given: Program, values: dict[str, Array]) -> None:
             values[letter.key] = values[letter.key] - steps[:, i]
 
 
+_NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
+_WHOLE = {
+    "limit": "limit: … as p -> 0",
+    "follows": "follows: … from …",
+    "shorter": "shorter: … than …",
+    "report": "report: NAME = 1.23",
+}
+"""Words with which a claim begins, and how it goes on."""
 _Judge = Callable[..., Verdict]
 _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import combinations
 
 from .edits import Edit
 from .language.nodes import (
@@ -26,6 +27,8 @@ from .language.spelling import spell
 from .vocabulary import Vocabulary
 
 _OTHER = {"sin": "cos", "cos": "sin"}
+_SIZES = ((1, 0, 0), (0, 1, 0), (2, 1, 0))
+"""Dimensions of lengths, masses and moments of inertia, which have no sense."""
 _QUARTER = Quotient(Number(math.pi, "pi"), Number(2.0, "2"))
 
 
@@ -42,14 +45,21 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         plain = Letter(name)
         if plain in vocabulary.angular and plain in vocabulary.coordinates:
             yield from _angles(equation, plain, vocabulary)
-        if plain not in vocabulary.vectors:
+        if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _SIZES:
             yield _edit(equation, {name: _opposite}, f"`{name}` taken in the other sense")
     for name in often:
         for other in vocabulary.alike(Letter(name)):
             if name < other.name and other.name in often:
-                swapped = {Letter(a, d): Letter(b, d) for a, b in ((name, other.name), (other.name, name)) for d in range(3)}
-                after = _exchanged(equation, swapped)
-                yield Edit("convention", None, None, after, words=f"`{name}` and `{other.name}` exchanged")
+                yield _swapped(equation, name, other.name)
+    given = [n for n in dict.fromkeys(found) if n in vocabulary.parameters]
+    unlike = [(a, b) for a, b in combinations(given, 2) if b not in vocabulary.alike(a)]
+    yield from (_swapped(equation, a.name, b.name) for a, b in unlike)
+
+
+def _swapped(equation: Equation, one: str, two: str) -> Edit:
+    """Two letters exchanged wherever they stand."""
+    swapped = {Letter(a, d): Letter(b, d) for a, b in ((one, two), (two, one)) for d in range(3)}
+    return Edit("convention", None, None, _exchanged(equation, swapped), words=f"`{one}` and `{two}` exchanged")
 
 
 def _products(equation: Equation) -> Iterator[Edit]:

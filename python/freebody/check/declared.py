@@ -102,6 +102,9 @@ _DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
 _JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
 _GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\S+)")
 _FORCE = re.compile(r"force on (.+)")
+_LOAD = re.compile(r"load (.+)")
+LOAD = "load "
+"""How a text begins that names a load of the free-body diagrams, which the model language does not read."""
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,7 @@ class Reader:
             (_JOINT, self.reaction),
             (_GROUP, self.moment),
             (_FORCE, self.resultant),
+            (_LOAD, self.load),
         )
 
     def components(self, said: Sequence[str | float]) -> Meaning:
@@ -173,6 +177,10 @@ class Reader:
         if what == "couple":
             return self.vector(["0", "0", sign + self.measured(f"{joint}.M")[0]], ENERGY)
         return self.vector([sign + self.measured(f"{joint}.{part}")[0] for part in ("Fx", "Fy")], FORCE)
+
+    def load(self, symbol: str) -> Meaning:
+        """The force at one place of a contact that holds at several, by its symbol in the data of a free-body diagram."""
+        return Meaning("reaction", (LOAD + symbol,), FORCE)
 
     def moment(self, what: str, bodies: str, point: str) -> Meaning:
         """Angular momentum of bodies about a point, or the moment on them."""

@@ -37,6 +37,7 @@ SIZES = {
     "factor": 1.0,
     "power": 1.0,
     "rates": 1.0,
+    "brackets": 1.0,
     "unit vector": 1.0,
     "extra factor": 1.1,
     "missing factor": 1.1,
@@ -47,6 +48,7 @@ SIZES = {
 }
 """How large each kind of edit is; those within ``mend.EQUAL`` are equally small."""
 
+_FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
 
 
@@ -77,6 +79,19 @@ def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
             yield Edit("sign", node, opposite, replace(equation, node, opposite))
             yield from _fewer(equation, node)
             yield from _more(equation, node, vocabulary)
+
+
+def other_figures(equation: Equation) -> Iterator[Edit]:
+    """Figures that are mistaken for each other, and a term doubled or halved: first steps of two."""
+    for node, addend in _parts(equation):
+        if isinstance(node, Number) and node.value in _FIGURES:
+            for value in _FIGURES:
+                if value != node.value:
+                    new = Number(value, f"{value:g}", span=node.span)
+                    yield Edit("factor", node, new, replace(equation, node, new))
+        elif addend and not any(isinstance(n, Number) for n in walk(node)):
+            for new in (Product((Number(2.0, "2"), node), span=node.span), Quotient(node, Number(2.0, "2"), span=node.span)):
+                yield Edit("factor", node, new, replace(equation, node, new))
 
 
 def _parts(equation: Equation) -> Iterator[tuple[Node, bool]]:
@@ -118,6 +133,7 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
         case Product(factors=factors):
             kept = [factors[:i] + factors[i + 1 :] for i in range(len(factors))]
             yield from (("extra factor", Product(rest, **at) if len(rest) > 1 else rest[0]) for rest in kept)
+            yield from (("brackets", new) for new in _below(factors, node.span))
         case Quotient(top=top, bottom=bottom):
             yield "extra factor", top
             yield "missing factor", Product((top, bottom), **at)
@@ -128,6 +144,16 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
             yield "function", Cross(left, right, **at)
     if _is_rate(node, vocabulary):
         yield "power", Power(node, Number(2.0, "2"), **at)
+
+
+def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
+    """What stands behind a fraction taken into its denominator: 3g/2l for 3g/(2 l)."""
+    for i, factor in enumerate(factors[:-1]):
+        if isinstance(factor, Quotient):
+            for end in range(i + 2, len(factors) + 1):
+                fraction = Quotient(factor.top, Product((factor.bottom, *factors[i + 1 : end])), span=span)
+                rest = (*factors[:i], fraction, *factors[end:])
+                yield Product(rest, span=span) if len(rest) > 1 else fraction
 
 
 def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
@@ -145,7 +171,9 @@ def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
 def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
     """A rate squared that should be a product of two, or an acceleration."""
     if n == 2 and isinstance(base, Letter) and base.dots == 1:
-        yield from (("rates", Product((base, other), span=base.span)) for other in vocabulary.alike(base))
+        same = vocabulary.powers(base)
+        speeds = [n for n in vocabulary.others if same is not None and vocabulary.powers(n) == same]
+        yield from (("rates", Product((base, other), span=base.span)) for other in (*vocabulary.alike(base), *speeds))
         yield "derivative", Letter(base.name, 2, span=base.span)
 
 

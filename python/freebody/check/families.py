@@ -13,6 +13,7 @@ from freebody import _core
 from freebody.instant import State
 from freebody.results import Array
 
+from .declared import LOAD
 from .prestress import admissible, written_out
 
 
@@ -25,7 +26,9 @@ class Family:
     """Which motions: ``held`` are parameters with a number of their own (SI, or an expression of others), ``numbers`` holds all
     at the model's, ``at_rest`` has all rates 0, ``at_start`` stays where the model starts, ``zeros`` lets parameters that are 0
     in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
-    expressions of configuration and, linearly, rates that are 0."""
+    expressions of configuration and, linearly, rates that are 0; ``small`` are expressions of configuration with the size that
+    they and their rates have at most. ``since``: motions that begin where the model does, with its rates (``start``) or without
+    (``rest``)."""
 
     held: tuple[tuple[str, float | str], ...] = ()
     numbers: bool = False
@@ -35,6 +38,8 @@ class Family:
     gravity: bool = True
     scaled: tuple[tuple[str, float], ...] = ()
     vanishing: tuple[str, ...] = ()
+    small: tuple[tuple[str, float], ...] = ()
+    since: str = ""
 
 
 ALL = Family()
@@ -76,10 +81,22 @@ class Samples:
         return {text: self.known[text] for text in texts}
 
     def _row(self, sample: Sample, texts: Sequence[str]) -> Array:
-        state = sample.state
-        if sample.motion is not None:
-            return sample.motion.evaluate(texts, np.array([state.t]))[0]
-        return self.core.evaluate(texts, state.p, state.t, state.q, state.u)
+        state, motion = sample.state, sample.motion
+        plain = [text for text in texts if not text.startswith(LOAD)]
+        if motion is not None:
+            found = motion.evaluate(plain, np.array([state.t]))[0]
+        else:
+            found = self.core.evaluate(plain, state.p, state.t, state.q, state.u)
+        if len(plain) == len(texts):
+            return found
+        known = {**self._loads(sample), **dict(zip(plain, found.tolist(), strict=True))}
+        return np.array([known.get(text, np.nan) for text in texts])
+
+    def _loads(self, sample: Sample) -> dict[str, float]:
+        """Every load that is determined, as a text that begins with ``LOAD``."""
+        state, motion = sample.state, sample.motion
+        text = motion.free_bodies(state.t) if motion else self.core.free_bodies(state.p, state.t, state.q, state.u)
+        return {LOAD + load["symbol"]: load["value"] for load in json.loads(text)["loads"] if load["value"] is not None}
 
     def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
         """A row in which what reads reactions that are not determined has a value, too."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 from ruamel.yaml import YAML, YAMLError
 
 from freebody.model.errors import Complaint
@@ -31,8 +31,8 @@ class Statement(BaseModel):
     model: str | None = Field(None, description="another model, a file beside this one")
     set_: dict[str, Any] = Field({}, alias="set", description="parameters with other numbers; a list tries each")
     letters: dict[str, _SAID] = Field({}, description="own letters")
-    verdict: Literal["right", "if", "wrong", "undecidable", "dimensions"] | None = Field(
-        None, description="what is expected: right, if, wrong, undecidable or dimensions"
+    verdict: Literal["right", "if", "wrong", "undecidable", "dimensions", "unreadable"] | None = Field(
+        None, description="what is expected: right, if, wrong, undecidable, dimensions or unreadable"
     )
     note: str = Field("", description="what a reader should know")
 
@@ -44,7 +44,16 @@ class Statements(BaseModel):
 
     model: str = Field("model.yaml", description="the model, a file beside this one")
     letters: dict[str, _SAID] = Field({}, description="own letters for all statements")
-    statements: list[Statement] = Field(description="the statements, in order")
+    statements: list[Statement] = Field(description="the statements, in order; one that is only a text is named by its number")
+
+    @field_validator("statements", mode="before")
+    @classmethod
+    def _named(cls, found: Any) -> Any:
+        """Statements without a name, by their numbers."""
+        if not isinstance(found, list):
+            return found
+        whole = [{"says": one} if isinstance(one, str) else one for one in found]
+        return [{"id": str(i), **one} if isinstance(one, dict) else one for i, one in enumerate(whole, 1)]
 
 
 @dataclass(frozen=True)
@@ -66,6 +75,7 @@ WORDS = {
     "wrong": Kind.WRONG,
     "undecidable": Kind.UNDECIDABLE,
     "dimensions": Kind.DIMENSIONS,
+    "unreadable": Kind.UNREADABLE,
 }
 """Verdicts as a file writes them."""
 
@@ -89,7 +99,7 @@ def read(path: Path) -> Statements:
 
 
 def judge(path: Path) -> Iterator[Judged]:
-    """The verdicts about all statements of a file, one by one. Raises ``Complaint``."""
+    """The verdicts about all statements of a file, one by one. Raises ``Complaint`` where the file or a model cannot be read."""
     given = read(path)
     checkers: dict[tuple[str, str], Checker] = {}
     for statement in given.statements:
@@ -109,12 +119,17 @@ def _one(
         mechanism = Mechanism.load(path.parent / key[0])
         mechanism.parameters.update(values)
         checkers[key] = Checker(mechanism, given.letters)
-    try:
-        verdict = checkers[key].check(statement.says, statement.letters)
-    except (StatementError, Complaint) as error:
-        raise Complaint(f"{path}: {statement.id}: {error}") from None
+    verdict = judged_alone(checkers[key], statement.says, statement.letters)
     told = ", ".join(f"{name} = {value}" for name, value in values.items())
     return replace(verdict, reason=f"{verdict.reason} ({told})") if told and not verdict.ok else verdict
+
+
+def judged_alone(checker: Checker, text: str, letters: Mapping[str, _SAID] | None = None) -> Verdict:
+    """The verdict about one statement among many, which do not suffer if it cannot be read."""
+    try:
+        return checker.check(text, letters)
+    except (StatementError, Complaint) as error:
+        return Verdict(Kind.UNREADABLE, text, str(error))
 
 
 def _settings(given: Mapping[str, Any]) -> list[dict[str, Any]]:

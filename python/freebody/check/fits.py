@@ -14,13 +14,14 @@ import numpy as np
 
 from .edits import Edit, depth
 from .language.evaluate import Array, evaluate
-from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Product, Quotient, Sum, letters, replace, walk
+from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Power, Product, Quotient, Sum, letters, replace, walk
 from .language.nodes import terms as terms_of
 from .needed import Need, needs
 from .vocabulary import Powers, Vocabulary, dimension
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _LIKELY = 60  # terms of which pairs with all others are tried
+_FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
 _DENOMINATOR = 12
 _NUMERATOR = 60
 
@@ -78,8 +79,18 @@ class Fits:
                 if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
                     new = Letter(letter.name, letter.dots, span=need.node.span)
                     yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+        yield from self._squares(equation, need)
         if isinstance(need.node, Letter) and need.node in self.vocabulary.parameters:
             yield from self._lengthened(equation, need, need.node)
+
+    def _squares(self, equation: Equation, need: Need) -> Iterator[Edit]:
+        """The square of a letter that should be that of another, of whatever sign."""
+        match need.node:
+            case Power(base=Letter() as base, exponent=Number(value=2.0) as two) if need.value.ndim == 1:
+                for letter in self._letters:
+                    if letter != base and np.allclose(self.values[letter.key] ** 2, need.needed, rtol=_SAME, atol=0):
+                        new = Power(Letter(letter.name, letter.dots), two, span=need.node.span)
+                        yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.1)
 
     def _lengthened(self, equation: Equation, need: Need, letter: Letter) -> Iterator[Edit]:
         """A parameter that should be the sum or the difference of two, as an arm often is."""
@@ -103,7 +114,10 @@ class Fits:
         found = _constant(factor)
         if found is not None:
             number = recognised(found)
-            if number is not None and found not in (0, 1, -1):
+            if number == Number(-1.0):
+                new = need.node.of if isinstance(need.node, Negative) else Negative(need.node, span=need.node.span)
+                yield Edit("sign", need.node, new, replace(equation, need.node, new))
+            elif number is not None and number != Number(1.0):
                 new = multiplied(need.node, number)
                 own = 0.05 if any(isinstance(n, Number) for n in walk(need.node)) else 0.0
                 yield Edit("factor", need.node, new, replace(equation, need.node, new), own)
@@ -136,7 +150,15 @@ class Fits:
         for term in self._matching(like, need.missing):
             old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
             new = Sum((*old, term), span=need.node.span)
-            yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term))
+            far = _FAR_FETCHED * self._far_fetched(term, equation)
+            yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term) + far)
+
+    def _far_fetched(self, term: Node, equation: Equation) -> bool:
+        """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
+        said = set(letters(equation))
+        new = [n for n in letters(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
+        first = term.of if isinstance(term, Negative) else term
+        return bool(new) and isinstance(first, Product) and first.factors[0] == Number(2.0)
 
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""
@@ -198,16 +220,18 @@ class Fits:
 
     def _rows(self, nodes: Sequence[Node]) -> Array:
         """The value of each term; factors, of which there are few, are worked out once."""
-        known: dict[Node, Array] = {}
-
-        def value(node: Node) -> Array:
-            if node not in known:
-                known[node] = evaluate(node, self.values)
-            return known[node]
-
+        parts = [n.factors if isinstance(n, Product) else (n,) for n in nodes]
+        places: dict[Node, int] = {}
+        seen: dict[int, int] = {}  # by identity: many terms share their factors
+        for factor in (f for factors in parts for f in factors):
+            if id(factor) not in seen:
+                seen[id(factor)] = places.setdefault(factor, len(places) + 1)
         count = len(next(iter(self.values.values())))
-        made = [np.prod([value(f) for f in n.factors], axis=0) if isinstance(n, Product) else value(n) for n in nodes]
-        return np.array(made).reshape(len(nodes), count)
+        known = np.array([np.ones(count), *(evaluate(factor, self.values) for factor in places)])
+        rows = np.ones((len(nodes), count))
+        for i in range(max(map(len, parts), default=0)):
+            rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
+        return rows
 
     def _dimension(self, equation: Equation) -> Powers | None:
         """That of most terms of the equation, as one of them may be wrong."""

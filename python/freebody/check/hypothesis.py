@@ -15,12 +15,18 @@ from .truth import Truth
 FAR = 1e7
 """How far a parameter goes that goes to infinity (its inverse: to 0)."""
 
+SMALL = 1e-3
+"""How small a coordinate is that is small, in rad or m."""
+
 _WORDS: dict[str, Callable[[Family], Family]] = {
     "at rest": lambda f: replace(f, at_rest=True),
     "at the start": lambda f: replace(f, at_start=True),
+    "the start is at rest": lambda f: replace(f, since="rest"),
+    "from the start": lambda f: replace(f, since="start"),
     "without gravity": lambda f: replace(f, gravity=False),
     "with these numbers": lambda f: replace(f, numbers=True, zeros=False),
 }
+_RELEASED = re.compile(r"(?:it |the motion )?(?:(?:is )?(?:released|started|starting|starts|begins) (?:from|at) rest|from rest)")
 _INFINITE = ("inf", "infinity", "∞", "oo")
 
 
@@ -39,6 +45,8 @@ def family(text: str, truth: Truth, letters: Callable[[dict[str, str]], Letters]
 
 
 def _part(part: str, truth: Truth, letters: Callable[[dict[str, str]], Letters], given: Family) -> Family:
+    if _RELEASED.fullmatch(part):
+        part = "the start is at rest"
     if part in _WORDS:
         return _WORDS[part](given)
     if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(\S+)", part):
@@ -55,8 +63,12 @@ def _part(part: str, truth: Truth, letters: Callable[[dict[str, str]], Letters],
 
 
 def limit(name: str, value: str, truth: Truth, letters: Callable[[dict[str, str]], Letters], given: Family) -> Family:
-    """A parameter that goes to infinity or to 0; 0 itself where the model can have it. Raises ``Complaint``."""
+    """A parameter that goes to infinity or to 0; 0 itself where the model can have it; or a coordinate that stays near a
+    value (``theta -> 0``: small motions, to first order). Raises ``Complaint``."""
     found = parameter(name, truth, letters)
+    if found is None and value not in _INFINITE:
+        text = letters({"hypothesis": f"({name}) - ({value})"}).meanings["hypothesis"].texts[0]
+        return replace(given, small=(*given.small, (text, SMALL)))
     if found is None or value not in ("0", *_INFINITE):
         raise Complaint(f"`{name} → {value}` is no limit that can be taken", "a free parameter goes to `inf` or to `0`")
     if value == "0":

@@ -17,9 +17,11 @@ from freebody.model.writer import Writer
 
 from .declared import Array, Meaning, Reader
 from .language.alphabet import folded
+from .language.dimensions import DimensionError, check_dimensions
 from .language.errors import StatementError
 from .language.nodes import Letter, Program, walk
-from .language.parser import parse
+from .language.parser import parse, parse_expression
+from .language.spelling import spell as written
 from .language.tokens import Names
 
 if TYPE_CHECKING:
@@ -98,6 +100,11 @@ class Letters:
         """Letters that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""
         return [name for name, m in self.meanings.items() if m.kind in kinds]
 
+    @property
+    def still(self) -> list[str]:
+        """Letters that do not change with time."""
+        return self.of_kind("parameter", "gravity", "direction")
+
     @cached_property
     def vectors(self) -> frozenset[str]:
         """Letters that are vectors."""
@@ -110,8 +117,27 @@ class Letters:
             name = "".join(found[0].split())
             if name not in self.meanings and (meaning := self._reading(name)) is not None:
                 self._put(name, meaning)
-        program = parse(text, self.names)
-        return parse(text, self.names) if self._strange(program) and self._learn_printed() else program
+        program = parse(text, self.names, self.still)
+        if self._strange(program) and self._learn_printed():
+            program = parse(text, self.names, self.still)
+        return program if self._fits(program, strictly=True) else self._with_units(text, program)
+
+    def _with_units(self, text: str, program: Program) -> Program:
+        """The same where ``5 m/s`` is a speed though m and s are letters, if its dimensions fit only so."""
+        try:
+            other = parse(text, self.names, self.still, units=True)
+        except StatementError:
+            return program
+        return other if other != program and self._fits(other) else program
+
+    def _fits(self, program: Program, strictly: bool = False) -> bool:
+        try:
+            check_dimensions(program, self.dimensions, strictly=strictly)
+        except DimensionError:
+            return False
+        except StatementError:
+            pass  # kinds that do not go together are told with the verdict
+        return True
 
     def _strange(self, program: Program) -> bool:
         """Whether some letter has no meaning."""
@@ -131,7 +157,7 @@ class Letters:
 
     def _reading(self, text: str) -> Meaning | None:
         try:
-            return Meaning("reading", *_single(self._measured(text)))
+            return Meaning("reading", *_single(self._measure(text)))
         except Complaint:
             return None
 
@@ -163,9 +189,10 @@ class Letters:
     def _meaning(self, letter: Letter) -> Meaning:
         if letter.name in self.meanings:
             return self.meanings[letter.name]
-        near = nearest(letter.name, self.meanings)
+        bare = letter.name.rstrip("'")
+        near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(letter.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
-        raise Complaint(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{letter.name}: …`")
+        raise Complaint(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
 
     # --- building ------------------------------------------------------------------------------
 
@@ -231,9 +258,19 @@ class Letters:
         for cached in ("vectors", "_spellings"):
             self.__dict__.pop(cached, None)
 
-    def _measured(self, said: str) -> tuple[str, Dimension | None]:
+    def _measure(self, said: str) -> tuple[str, Dimension | None]:
         """An expression in SI with its dimension; letters declared before, and Greek ones, are written out."""
         return self.writer.measured(replace_names(said, self._written_out))
+
+    def _measured(self, said: str) -> tuple[str, Dimension | None]:
+        """The same; what is none of the model language, like ``m g/k``, is read as in a statement."""
+        try:
+            return self._measure(said)
+        except Complaint as complaint:
+            try:
+                return self._measure(written(parse_expression(said, self.names, self.still)))
+            except (StatementError, Complaint):
+                raise complaint from None
 
     def _written_out(self, token: str, is_call: bool) -> str:
         if is_call or token in self.named.values:

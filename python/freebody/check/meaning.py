@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Mapping
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -28,6 +29,8 @@ _BEYOND = re.compile(
     r"|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|friction|force|value|power|work|N|T)\b"
 )
 """What reads more than the configuration."""
+_SOLVED = re.compile(r"\b(accel|ax|ay|alpha|tension)\(|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T)\b")
+"""What reads an acceleration or an unknown force."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
 _BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
@@ -38,7 +41,7 @@ class StatementLetters:
     """What the letters of a program mean in a model. Raises ``StatementError`` at a letter without a meaning."""
 
     def __init__(self, letters: Letters, program: Program, truth: Truth) -> None:
-        self.letters, self.truth = letters, truth
+        self.letters, self.truth, self.figures = letters, truth, False
         self.required = letters.require(program)
         named = {line.name for line in program.assignments}
         used = [n for n in walk(program) if isinstance(n, Letter) and n not in named]
@@ -63,12 +66,25 @@ class StatementLetters:
     def fits(self, equation: Equation) -> bool:
         """Whether its terms have one dimension, as far as that is known."""
         try:
-            check_dimensions(Program((equation,)), self.letters.dimensions)
+            check_dimensions(Program((equation,)), self.letters.dimensions, figures=self.figures)
         except DimensionError:
             return False
         except StatementError:
             pass
         return True
+
+    def in_figures(self) -> StatementLetters:
+        """The same where figures stand for measures in SI units, so that they fit any dimension."""
+        other = copy(self)
+        other.figures = True
+        return other
+
+    def solved(self, letter: Letter) -> bool:
+        """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
+        if letter.name not in self.letters.meanings:
+            return False
+        one = self._one(letter)
+        return one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots))
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""

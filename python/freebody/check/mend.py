@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .conventions import conventions
-from .edits import Edit, depth, edits, with_unit_vectors
+from .edits import Edit, depth, edits, other_figures, with_unit_vectors
 from .fits import Fits
 from .language.errors import StatementError
 from .language.evaluate import Array, evaluate
-from .language.nodes import Equation, Letter, Node, Number, letters
+from .language.nodes import Equation, Letter, Negative, Node, Number, letters, without_ones
 from .language.nodes import replace as replaced
 from .language.spelling import spell
 from .residual import HOLDS, Residual, residual, unreached
@@ -32,8 +32,14 @@ _VAIN = 0.3  # more, for a mend by what is always 0
 _FEW = 5  # states on which an edit is tried first
 _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
+_PLAIN = ("sign", "function")  # edits of which all pairs are tried
+_MOST_PLAIN = 24
+_BEST_FIGURES = 12
 _SHOWN = 6
 _FRESH = 1
+_WORTH = 10  # characters that an edit of size 1 may save
+_LIKELY = 2.0  # size of a single edit above which pairs may be as likely
+_SWAPPED = ("missing factor", "letter", "other term")
 _LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
 
 
@@ -112,10 +118,13 @@ def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps
     searches = [(_Search(case, row, family), given) for family, given in families]
     if any(search.right for search, _ in searches):
         return
+    tried: list[list[_Found]] = [[] for _ in searches]
     for step in steps:
-        every = [(search.best(step(search)), given) for search, given in searches]
+        for (search, _), seen in zip(searches, tried, strict=True):
+            seen += step(search)
+        every = [(search.best(seen), given) for (search, given), seen in zip(searches, tried, strict=True)]
         some = [(found, given) for found, given in every if found]
-        if some:
+        if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
             found, given = min(some, key=lambda pair: pair[0][0].size)
             yield from (_mend(each, given) for each in found)
             return
@@ -124,7 +133,7 @@ def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps
 def _mend(found: _Found, given: str) -> Mend:
     told = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in found.edits)
     where = tuple(e.old.span for e in found.edits if e.old is not None and e.old.span != (0, 0))
-    return Mend(told, spell(found.after), found.size, where, given)
+    return Mend(told, spell(without_ones(found.after)), found.size, where, given)
 
 
 class _Search:
@@ -152,15 +161,21 @@ class _Search:
 
     def pairs(self) -> Iterator[_Found]:
         """Pairs of the edits that bring it nearest, and of one of them and what is then found to be lacking."""
-        scored = [(self._score(edit.after), edit) for edit in edits(self.equation, self.vocabulary)]
-        near = [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:_BEST]]
-        for first, second in combinations(near, 2):
+        every = list(edits(self.equation, self.vocabulary))
+        near = self._nearest(every, _BEST)
+        plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
+        for first, second in chain(combinations(near, 2), combinations(plain, 2)):
             if (both := _both(first, second)) is not None and self._passes(both.after):
                 yield _Found((first, both))
-        for first in near:
+        for first in (*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES)):
             second = self._fitted(first.after)
             yield from (_Found((first, edit)) for edit in self._promising(second))
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
+
+    def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
+        """The edits after which the least is left."""
+        scored = [(self._score(edit.after), edit) for edit in found]
+        return [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:count]]
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
         units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))
@@ -181,26 +196,33 @@ class _Search:
     def best(self, found: Iterable[_Found]) -> list[_Found]:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
         ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
-        kept: dict[tuple[float, ...], _Found] = {}
+        kept: dict[tuple[float, ...], list[_Found]] = {}
         least = 0.0
         for size, _, each in ranked:
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is None or mark in kept or self._is_idle(each) or self._is_vacuous(each.after):
+            if mark is None or self._is_idle(each) or self._is_vacuous(each.after):
                 continue
-            if self._confirmed(each.after):
+            if (mark in kept and self.fit(each.after)) or self._confirmed(each.after):
                 least = size if not kept else least
-                kept[mark] = each
-        return list(kept.values())[:_SHOWN]
+                kept.setdefault(mark, []).append(each)
+        return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
+
+    def _oddness(self, found: _Found) -> tuple[bool, float]:
+        """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
+        sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
+        alone = [side for side in sides if isinstance(side, Letter)]
+        length = len(spell(without_ones(found.after))) + _WORTH * found.size
+        return any(edit.old in alone and edit.old is not None for edit in found.edits), length
 
     def _size(self, found: _Found) -> float:
         """How large a mend is; larger where it adds what is always 0 here."""
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
     def _is_idle(self, found: _Found) -> bool:
-        """Whether it takes a term away by a factor that is always 0."""
-        return any(e.kind == "missing factor" and e.new is not None and not self._moves(e.new) for e in found.edits)
+        """Whether it takes a part away by what is always 0."""
+        return any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in found.edits)
 
     def _is_vacuous(self, equation: Equation) -> bool:
         """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
@@ -252,6 +274,9 @@ class _Search:
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
         solved = self._solved(equation, found.sides.residual, places)
+        if solved is None and found.sides.residual.shape[1] > 1:
+            left = found.sides.residual
+            solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
         if solved is None:
             ratio = found.ratio.ravel()
             solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])

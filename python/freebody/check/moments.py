@@ -34,7 +34,10 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
     """At a moment of the model's own run, with its own numbers; figures to their printed digits."""
     case, values, t = _read(checker, declared, moment, statement)
     for equation in case.equations:
-        sides = equation_sides(equation, values)
+        with np.errstate(all="ignore"):
+            sides = equation_sides(equation, values)
+        if not np.isfinite(sides.residual).all():
+            return Verdict(Kind.UNDECIDABLE, statement, f"at {moment} (t = {t:.6g} s) it has no value: {_figures(sides)}")
         off, allowed = np.abs(sides.residual), rounding(equation, values)
         if np.any(off > allowed * (1 + _ROUND)):
             shown = {n.key: values[n.key][0].tolist() for n in letters(equation) if n.key in values}

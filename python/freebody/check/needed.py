@@ -44,6 +44,8 @@ def needs(equation: Equation, values: Mapping[str, Array]) -> Iterator[Need]:
         zero = is_zero(equation.left), is_zero(equation.right)
         left = None if zero[0] else evaluate(equation.left, values)
         right = None if zero[1] else evaluate(equation.right, values)
+        if left is not None and right is not None and left.ndim != right.ndim:
+            return  # a number beside a vector
         if left is not None and left.ndim < 3:
             yield from _inside(Need(equation.left, left, np.zeros_like(left) if right is None else right, True), values)
         if right is not None and right.ndim < 3:

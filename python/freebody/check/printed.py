@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 _ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
-"""The force at one place of a contact that holds at several, which the model language does not read."""
+"""The force at one place of a contact that holds at several."""
 
 
 def printed(mechanism: Builder) -> Mapping[str, str]:
@@ -38,8 +38,9 @@ def _loads(subject: Subject) -> Iterator[tuple[str, str]]:
 
     names = load_names(subject.free.loads, subject.source)
     for load in subject.free.loads:
-        if load.symbol in names and not _ONE_OF_SEVERAL.search(load.symbol):
-            yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else load.symbol
+        if load.symbol in names:
+            one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
+            yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
 
 
 def _numbers(subject: Subject) -> Iterator[tuple[str, str]]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +18,7 @@ from freebody.results import Array, quote
 from .described import Described
 from .families import ALL, Family, Sample
 
+_EXACT = 1e-13  # of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
@@ -23,6 +26,7 @@ _PLACES = 12  # steps of Newton's method to one
 _TOUCHES = 1e-12  # gap that is closed, relative to the size of the model
 _STEPS = 2000  # of a run, which is short
 _STEP = 1e-6  # of central differences of gaps, relative to the size of the model
+_ONE_OF_SEVERAL = re.compile(r"\.N\d+$")  # the force at one place of a contact that holds at several
 BALANCED = 1e-11
 """Largest relative residual of a state that may judge: below it is round-off, above it a bad condition."""
 
@@ -74,16 +78,36 @@ class OnRuns(Described):
         late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
         if family.at_rest:
             state = State(state.p, state.t, state.q, np.zeros_like(state.u))
-        if not (family.at_start or family.vanishing or state.u.any()):
+        if not (family.at_start or family.vanishing or state.u.any() or self._lies):
             state = self._placed(rng, state)
-        if rng.random() < 0.7 and not (family.at_rest or family.at_start):
+        if rng.random() < 0.7 and not (family.at_rest or family.at_start or self._lies):
             state = self._moving(rng, state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
         ends = motion.final()[0]
         t = min(late, 0.9 * ends)
         q, u = (a[0] for a in motion.sample(np.array([t])))
-        same = _same(self._mode(motion.instant(t), motion, t), self._own_mode)
-        return Sample(State(state.p, t, q, u), motion) if same and motion.instant(t).residual < BALANCED else None
+        found = State(state.p, t, q, u)
+        same = _same(self._mode(motion, found), self._own_mode)
+        return Sample(found, motion) if same and motion.instant(t).residual < BALANCED else None
+
+    def since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+        """A state on a run from the model's own start with random numbers, with the rates there or at rest, before
+        anything switches."""
+        state = self.started(values)
+        if family.since == "rest":
+            near = {c["name"]: float(x) for c, x in zip(self.coordinates, state.q, strict=True)}
+            rates = self.rates(rng, replace(family, at_rest=True))
+            q, u, _ = self.core.assemble(state.p, state.t, guess=near, rates=rates)
+            state = State(state.p, state.t, q, u)
+        late = rng.uniform(0.05, 0.3) / self.rate
+        motion = self.core.simulate(state.p, state.t, state.q, state.u, state.t + late, rtol=_EXACT, max_steps=_STEPS)
+        ends = [motion.final()[0], *(change["t"] for change in json.loads(motion.changes) if change["t"] > state.t)]
+        t = state.t + 0.99 * (min(ends) - state.t)
+        q, u = (a[0] for a in motion.sample(np.array([t])))
+        found = State(state.p, t, q, u)
+        if self.restricted and not _same(self._mode(motion, found), self._own_mode):
+            return None
+        return Sample(found, motion) if motion.instant(t).residual < BALANCED else None
 
     def _placed(self, rng: np.random.Generator, state: State) -> State:
         """A random place near the start, at rest, where what is closed there is closed: bodies of other sizes touch elsewhere."""
@@ -92,6 +116,8 @@ class OnRuns(Described):
         for _ in range(_PLACES):
             q, u, _ = self.core.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)))
             gaps = self._gaps(State(state.p, state.t, q, u), q)
+            if not np.isfinite(gaps[self._closed]).all():
+                break
             if np.max(np.abs(gaps[self._closed]), initial=0.0) < _TOUCHES * self.length:
                 return State(state.p, state.t, q, u) if not u.any() else state
             slopes = self._slopes(State(state.p, state.t, q, u), self._closed)
@@ -131,8 +157,8 @@ class OnRuns(Described):
         return np.array(columns).T[closed]
 
     def _gaps(self, state: State, q: Array) -> Array:
-        """How far every limit is from closing, less than 0 where it is violated."""
-        return np.array([limit["gap"] for limit in self._limits(self._untouched, state, q)])
+        """How far every limit is from closing, less than 0 where it is violated, NaN where it has no gap."""
+        return np.array([limit["gap"] for limit in self._limits(self._untouched, state, q)], dtype=float)
 
     def _limits(self, core: _core.Mechanism, state: State, q: Array) -> list[dict[str, Any]]:
         return json.loads(core.instant(state.p, state.t, q, np.zeros_like(q)).limits)
@@ -145,20 +171,30 @@ class OnRuns(Described):
 
     @cached_property
     def _own_mode(self) -> tuple[Any, ...]:
-        state = self.first
-        motion = self._run(state, 1e-3 / self.rate)
-        t = motion.final()[0]
-        return self._mode(motion.instant(t), motion, t)
+        motion = self._run(self.first, 1e-3 / self.rate)
+        t, q, u, *_ = motion.final()
+        return self._mode(motion, State(self.first.p, t, q, u))
 
-    def _mode(self, solved: Any, motion: Any, t: float) -> tuple[Any, ...]:
-        """How every limit is held, to which side it slides, and to which side every joint rubs."""
+    def _mode(self, motion: Any, state: State) -> tuple[Any, ...]:
+        """How every limit is held, to which side it slides, to which side every joint rubs, and at how many places contacts hold."""
         limits = tuple(
             (x["state"], np.sign(round(x["friction"] or 0.0, 12)) if x["state"] == "sliding" else 0)
-            for x in json.loads(solved.limits)
+            for x in json.loads(motion.instant(state.t).limits)
         )
-        rubs = motion.evaluate(self._rubbing, np.array([t]))[0] if self._rubbing else np.empty(0)
+        rubs = motion.evaluate(self._rubbing, np.array([state.t]))[0] if self._rubbing else np.empty(0)
         slow = 1e-9 * self.rate * min(self.length, 1.0)
-        return (*limits, *(float(np.sign(x)) if abs(x) > slow else 0.0 for x in rubs))
+        sides = (float(np.sign(x)) if abs(x) > slow else 0.0 for x in rubs)
+        return (*limits, *sides, self._places(state) if self._lies else 0)
+
+    @cached_property
+    def _lies(self) -> bool:
+        """Whether a contact holds at several places, so that a turn would lift one: then random places and rates would end it."""
+        return self._places(self.first) > 0
+
+    def _places(self, state: State) -> int:
+        """At how many places contacts hold that hold at several."""
+        told = json.loads(self.core.free_bodies(state.p, state.t, state.q, state.u))["loads"]
+        return sum(bool(_ONE_OF_SEVERAL.search(load["symbol"])) for load in told)
 
 
 def _same(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:

@@ -92,7 +92,9 @@ class Truth(OnRuns):
         return None
 
     def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
-        if not self.restricted and not family.at_start:
+        if family.since:
+            found: Sample | None = self.since_start(rng, values, family)
+        elif not self.restricted and not family.at_start:
             found = self._anywhere(rng, values, family)
         else:
             found = self.on_a_run(rng, values, family) if self.restricted else Sample(self.started(values))
@@ -150,7 +152,9 @@ class Truth(OnRuns):
         near = {c["name"]: float(x) for c, x in zip(self.coordinates, guess, strict=True)}
         rates = self.rates(rng, family)
         q, u, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
-        for text in family.vanishing:
+        small = [f"({text}) - ({size * _about(rng)!r})" for text, size in family.small]
+        slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in family.small if not family.at_rest]
+        for text in (*family.vanishing, *small, *slow):
             q, u = self._vanished(text, State(p, t, q, u), list(rates), words["branch"])
         solved = self.core.instant(p, t, q, u)
         if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
@@ -189,6 +193,11 @@ class Truth(OnRuns):
 
     def _time(self, rng: np.random.Generator) -> float:
         return 3 * rng.random() / self.rate
+
+
+def _about(rng: np.random.Generator) -> float:
+    """A number of the size of 1, of either sign."""
+    return float(rng.uniform(0.3, 1.0) * rng.choice([-1.0, 1.0]))
 
 
 def _told(text: str) -> str:

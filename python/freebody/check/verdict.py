@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .assumptions import assumption
+from .assumptions import assumption, linearised, tiny
 from .case import Case
-from .families import Family, NoMotion
+from .families import ALL, Family, NoMotion
 from .language.errors import StatementError
 from .language.nodes import Equation, letters
 from .mend import Mend, mends
@@ -27,16 +27,17 @@ _FEW = 0.1  # share of such states
 
 
 class Kind(str, Enum):
-    """What can be said of a statement."""
+    """What can be said of a statement; of one among many also that it cannot be read."""
 
     TRUE = "true"
     TRUE_IF = "true only under an assumption"
     WRONG = "wrong"
     UNDECIDABLE = "not decidable from this model"
     DIMENSIONS = "dimensions do not fit"
+    UNREADABLE = "cannot be read"
 
 
-_ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS]
+_ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS, Kind.UNREADABLE]
 
 
 @dataclass(frozen=True)
@@ -153,19 +154,42 @@ def holds(case: Case) -> bool:
 
 def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
     """The verdict where dimensions do not fit: each equation with its mends, or with the nearest true one."""
+    if not case.mending:
+        return Verdict(Kind.DIMENSIONS, text, reason)
     try:
         fixes = {equation: tuple(mends(case, equation)) for equation in equations}
     except NoMotion:
         return Verdict(Kind.DIMENSIONS, text, reason)
+    least = min((mend.size for found in fixes.values() for mend in found), default=np.inf)
+    inside = _in_figures(case, list(fixes)) if least > 1.5 else ()
+    if inside and min(mend.size for mend in inside) < least:
+        return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
     true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
     return Verdict(Kind.DIMENSIONS, text, reason, mends=tuple(mend for found in fixes.values() for mend in found), true=true)
+
+
+def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Mend, ...]:
+    """The mends of equations whose figures stand for measures in SI units; none where dimensions do not fit so, either."""
+    other = replace(case, meaning=case.meaning.in_figures())
+    if not all(other.meaning.fits(equation) for equation in equations):
+        return ()
+    return tuple(mend for equation in equations if not _holds(other, equation) for mend in mends(other, equation))
+
+
+def _holds(case: Case, equation: Equation) -> bool:
+    try:
+        return case.residual(equation).worst < HOLDS
+    except StatementError:
+        return False
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
     values = case.values()
     blind = [_spelled(case, term) for term in unreached(equation, values)]
     if blind and len(blind) == _count(equation):
-        return Verdict(Kind.TRUE, text, "every term is 0 in every motion of this model", untested=tuple(blind))
+        motions = "of this model" if case.hypothesis == ALL else "of which it is said"
+        alone = len(blind) == 1  # it says that this is 0, and so it is
+        return Verdict(Kind.TRUE, text, f"every term is 0 in every motion {motions}", untested=() if alone else tuple(blind))
     if residual(equation, case.elsewhere(values)).worst < HOLDS:
         return Verdict(Kind.TRUE, text, "the two sides are the same by themselves: it says nothing of the motion")
     states = len(found.ratio)
@@ -182,10 +206,16 @@ def _count(equation: Equation) -> int:
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
     """A slip where one mends it; else an assumption that excuses what was left out; else wrong."""
     seen = evidence(case, equation, found)
+    if not case.mending:
+        return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(mends(case, equation))
-    if not any(mend.is_slip for mend in fixes) and (assumed := assumption(case, equation)):
-        words, _ = assumed
-        return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", words, fixes, seen)
+    if small := linearised(case, equation):
+        return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
+    if not any(mend.is_slip and len(mend.edits) == 1 for mend in fixes) and (assumed := assumption(case, equation)):
+        return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
+    if not fixes and (small := tiny(case, equation)):
+        words, near = small
+        fixes = tuple(replace(mend, given=words) for mend in mends(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
     return Verdict(Kind.WRONG, text, "wrong, and no single or double edit mends it", evidence=seen, true=nearest(case, equation))
@@ -204,7 +234,8 @@ def _compared(case: Case, equation: Equation, found: Residual, text: str) -> Ver
     gap = found.ratio if equation.relation.startswith("<") else -found.ratio
     if gap.max() <= HOLDS:
         return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, equation, found))
-    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, equation, Residual(found.sides, gap)))
+    broken = Residual(found.sides, np.maximum(gap, 0.0))
+    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, equation, broken))
 
 
 def _valueless(case: Case, equation: Equation) -> str:
@@ -224,16 +255,17 @@ def _sufficiency(case: Case) -> str:
 
 
 def independent(case: Case) -> tuple[int, int, list[str]]:
-    """Rank of the equations in their unknowns (second derivatives), how many there are, and the unknowns."""
+    """Rank of the equations in their unknowns (accelerations, forces), how many there are, and the unknowns."""
     values = dict(case.values())
-    unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.dots == 2 and n.key in values))
+    unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.key in values and case.meaning.solved(n)))
     base = _stacked(case, values)
     if not unknown:
         return 0, len(case.equations), []
     columns = []
     for key in unknown:
-        step = np.max(np.abs(values[key])) or 1.0
-        columns.append((_stacked(case, values | {key: values[key] + step}) - base) / step)
+        size = np.max(np.abs(values[key])) or 1.0
+        steps = size * np.eye(3)[:2] if values[key].ndim == 2 else [size]
+        columns += [(_stacked(case, values | {key: values[key] + step}) - base) / size for step in steps]
     slopes = np.stack(columns, axis=-1)
     scaled = slopes / (np.abs(slopes).max(axis=2, keepdims=True) + 1e-300)
     ranks = np.linalg.matrix_rank(scaled, tol=1e-8)

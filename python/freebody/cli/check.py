@@ -48,14 +48,14 @@ def _statements(
     path: Path, texts: Iterable[str], where: list[str] | None, changes: list[str] | None, quiet: bool
 ) -> tuple[list[Any], bool]:
     from freebody.check import Checker
-    from freebody.check.file import as_json
+    from freebody.check.file import as_json, judged_alone
     from freebody.check.letters import declarations
     from freebody.cli import opened
 
-    checker = Checker(opened(path, changes), declarations(where or []))
+    checker, texts = Checker(opened(path, changes), declarations(where or [])), list(texts)
     verdicts = []
     for text in texts:
-        verdicts.append(checker.check(text))
+        verdicts.append(checker.check(text) if len(texts) == 1 else judged_alone(checker, text))
         if not quiet:
             show(text, verdicts[-1])
     return [as_json(v) for v in verdicts], all(v.ok for v in verdicts)
@@ -74,7 +74,14 @@ def _file(path: Path, quiet: bool) -> tuple[list[Any], bool]:
     return told, fine
 
 
-_COLOURS = {"TRUE": "green", "TRUE_IF": "yellow", "WRONG": "red", "DIMENSIONS": "red", "UNDECIDABLE": "yellow"}
+_COLOURS = {
+    "TRUE": "green",
+    "TRUE_IF": "yellow",
+    "WRONG": "red",
+    "DIMENSIONS": "red",
+    "UNDECIDABLE": "yellow",
+    "UNREADABLE": "red",
+}
 
 
 def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:

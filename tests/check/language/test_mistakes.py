@@ -29,9 +29,13 @@ MISTAKES = [
     ("[m, 0; 1] (x, F) = 0", "^^^^^^^^^", "different lengths"),
     ("x = 1\nF = m g)", "       ^", "never opened"),
     (r"F = \frac{m}{", "            ^", "never closed"),
-    ("d/dt(m x) = F", "^^^^", "only letters are differentiated"),
-    (r"\frac{d}{dt} (m x) = F", "^^^^^^^^^^^^", "only letters are differentiated"),
-    ("diff(m x, t) = 0", "^^^^^^^^^^^^", "only letters are differentiated"),
+    ("d/dt(m^x) = F", "     ^^^", "an exponent that changes"),
+    ("d/dt(max(x, m)) = F", "     ^^^^^^^^^", "no derivative"),
+    ("∂Q/∂x = F", " ^", "what `Q` is made of is not said"),
+    ("L = x; ∂L/∂3 = F", "           ^", "where a letter is expected"),
+    ("diff(m x, m) = 0", "^^^^^^^^^^^^", "by t alone"),
+    ("m" * 500 + " = 0", "^" * 500, "500 letters without a sign"),
+    ("(" * 400 + "m" + ")" * 400 + " = 0", "^" * 805, "brackets in brackets"),
 ]
 
 

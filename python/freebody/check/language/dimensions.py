@@ -60,16 +60,18 @@ class DimensionError(StatementError):
         return error
 
 
-def check_dimensions(program: Program, units_of_letters: Mapping[str, str | Dimension], *, figures: bool = False) -> None:
+def check_dimensions(
+    program: Program, units_of_letters: Mapping[str, str | Dimension], *, figures: bool = False, strictly: bool = False
+) -> None:
     """Raises ``DimensionError`` at the first two terms that do not go together.
 
     ``units_of_letters``: dimension or unit of each letter by its name, ``""`` for plain numbers and directions. A rate has that of its
     letter by second; a letter that is not listed fits anything. ``figures``: so does every
-    figure, every sum with one in it, and the time in seconds.
+    figure, every sum with one in it, and the time in seconds. ``strictly``: a figure with a decimal point is a plain number, too.
     """
     try:
         for line in inlined(program):
-            _Reader(units_of_letters, figures).equation(line)
+            _Reader(units_of_letters, figures, strictly).equation(line)
     except StatementError as error:
         raise error.within(program.text) from None
 
@@ -80,8 +82,8 @@ def dimensions(node: Node, units_of_letters: Mapping[str, str | Dimension]) -> S
 
 
 class _Reader:
-    def __init__(self, units_of_letters: Mapping[str, str | Dimension], figures: bool = False) -> None:
-        self.units, self.figures = units_of_letters, figures
+    def __init__(self, units_of_letters: Mapping[str, str | Dimension], figures: bool = False, strictly: bool = False) -> None:
+        self.units, self.figures, self.strictly = units_of_letters, figures, strictly
 
     def equation(self, equation: Equation) -> None:
         """All terms of both sides have one dimension; of columns, entry by entry."""
@@ -97,7 +99,7 @@ class _Reader:
     def of(self, node: Node) -> Shape:
         match node:
             case Number(value=value, text=text):
-                return None if self.figures or value == 0 or "." in text else NUMBER_ONLY
+                return None if self.figures or value == 0 or ("." in text and not self.strictly) else NUMBER_ONLY
             case Unit(text=text):
                 return unit(text).dimension
             case Letter():

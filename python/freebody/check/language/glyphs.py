@@ -56,7 +56,7 @@ _COMMANDS = {
         "gt": ">",
     },
     **{"frac": "frac", "tfrac": "frac", "dfrac": "frac", "sqrt": "sqrt", "{": "(", "}": ")", "lbrack": "[", "rbrack": "]"},
-    **{"circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
+    **{"partial": "∂", "circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
 }
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 _CLOTHES = {
@@ -98,7 +98,7 @@ _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
-_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
+_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
 _FITTED = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$)(.*?)\$\}", re.DOTALL)
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from ...model import units
 from ...model.errors import Complaint
 from .alphabet import folded
+from .derivatives import derivative
 from .errors import Span, StatementError
 from .evaluate import ARGUMENTS
 from .nodes import (
@@ -22,18 +24,21 @@ from .nodes import (
     Negative,
     Node,
     Number,
+    Partial,
     Power,
     Product,
     Quotient,
+    Rate,
     Sum,
     Unit,
+    walk,
 )
 from .tokens import Names, Token
 
 RELATIONS = ("=", "<=", ">=", "<", ">")
 _ADDS = ("+", "-")
 SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
-_BEGINS = ("number", "letter", "function", "(", "[", "{", "frac", "matrix[", "|")
+_BEGINS = ("number", "letter", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
@@ -60,7 +65,7 @@ class Line:
             raise StatementError(f"it ends where a `{kind}` is missing", self.end())
         if kind == "end" and self.now.kind in (")", "]", "}"):
             raise StatementError(f"a `{self.now.text}` that was never opened", self.now.span)
-        expected = "the end" if kind == "end" else f"`{kind}`"
+        expected = {"end": "the end", "letter": "a letter"}.get(kind, f"`{kind}`")
         raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span)
 
     def end(self) -> Span:
@@ -184,10 +189,15 @@ class Line:
             return self.group()
         if token.kind in ("[", "matrix["):
             return self.matrix()
+        if token.kind == "∂" or (token.kind == "frac" and self.row[self.at + 2].kind == "∂"):
+            return self.partial()
         if token.kind == "frac":
             self.take()
             top, bottom = self.group(), self.group()
             return Quotient(top, bottom, span=self.span(token))
+        if token.kind == "rate":
+            self.take()
+            return self.rate(self.factor(), token.dots, token)
         if token.kind == "|":
             self.take()
             inside = self.sum()
@@ -325,12 +335,39 @@ class Line:
         return Negative(found, span=self.span(sign)) if sign else found
 
     def derived(self, arguments: tuple[Node, ...], span: Span) -> Node:
-        """diff(θ, t) and diff(θ, t, 2) of a letter."""
-        letter, time, *rest = arguments
+        """diff(θ, t) and diff(θ, t, 2)."""
+        of, time, *rest = arguments
         count = int(rest[0].value) if rest and isinstance(rest[0], Number) else 1
-        if not isinstance(letter, Letter) or time != Letter("t"):
-            raise StatementError("only letters are differentiated here, by t", span, "like `diff(theta, t, 2)`")
-        return Letter(letter.name, letter.dots + count, span=span)
+        if time != Letter("t"):
+            raise StatementError("things are differentiated by t alone here", span, "like `diff(theta, t, 2)`")
+        return self.rate(of, count, Token("rate", "diff", span))
+
+    def rate(self, of: Node, count: int, token: Token) -> Node:
+        """A derivative by time, written out where it can be."""
+        lasting = any(isinstance(n, Partial) for n in walk(of))
+        for _ in range(count):
+            of = Rate(of) if lasting else derivative(of, self.names.still)
+        return replace(of, span=self.span(token))
+
+    def partial(self) -> Node:
+        """∂L/∂θ̇, or the same as a LaTeX fraction."""
+        start = self.now
+        between = ("}", "{") if start.kind == "frac" else ("/",)
+        for kind in ("frac", "{") if start.kind == "frac" else ():
+            self.expect(kind)
+        of = self.changing()
+        for kind in between:
+            self.expect(kind)
+        by = self.changing()
+        if start.kind == "frac":
+            self.expect("}")
+        return Partial(of, by, span=self.span(start))
+
+    def changing(self) -> Letter:
+        """The letter behind a ∂."""
+        self.expect("∂")
+        token = self.expect("letter")
+        return Letter(token.text, token.dots, span=token.span)
 
     # --- units ---------------------------------------------------------------------------------
 
@@ -355,7 +392,7 @@ class Line:
         ends, at, some_unknown = [], start, False
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
-            known = self.names.find(folded(found["word"])) is not None
+            known = not self.names.units and self.names.find(folded(found["word"])) is not None
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
                 break
             at, some_unknown = found.end(), some_unknown or not known

@@ -123,6 +123,21 @@ class Matrix(Node):
 
 
 @dataclass(frozen=True)
+class Partial(Node):
+    """∂L/∂θ̇: how a name that a line gives changes with one letter; written out once all lines are read."""
+
+    of: Letter
+    by: Letter
+
+
+@dataclass(frozen=True)
+class Rate(Node):
+    """The derivative by time of what has partial derivatives in it; written out with them."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
 class Equation(Node):
     """Two sides that are said to be equal, or as ``relation`` says: ``=``, ``<=``, ``>=``, ``<``, ``>``."""
 
@@ -220,6 +235,21 @@ def _replaced(value: object, old: Node, new: Node) -> object:
         after = tuple(_replaced(v, old, new) for v in value)
         return after if any(x is not y for x, y in zip(after, value, strict=True)) else value
     return value
+
+
+def without_ones(node: N) -> N:
+    """The same without factors 1 and denominators 1."""
+    while (found := next((n for n in walk(node) if _has_one(n)), None)) is not None:
+        left = [f for f in found.factors if f != _ONE] or [_ONE] if isinstance(found, Product) else [found.top]
+        node = replace(node, found, left[0] if len(left) == 1 else Product(tuple(left), span=found.span))
+    return node
+
+
+_ONE = Number(1.0, "1")
+
+
+def _has_one(node: Node) -> bool:
+    return (isinstance(node, Product) and _ONE in node.factors) or (isinstance(node, Quotient) and node.bottom == _ONE)
 
 
 def substitute(node: N, expressions: dict[Letter, Node]) -> N:

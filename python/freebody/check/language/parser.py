@@ -10,7 +10,8 @@ Rules of reading:
 - ``(a, b)`` is a column, ``[a, b; c, d]`` a matrix; brackets without commas only group.
 - Lines end at line ends, at ``;`` and ``,`` outside brackets, and at the words *where*, *with*, *and*. A line that starts with
   ``=``, ``+``, ``*``, ``/``, follows an operator, or starts with ``-`` where one of the two has no ``=``, goes on.
-- A lone letter on the left that is not known and stands in another line, too, gets its meaning there.
+- A lone letter on the left that is not known and stands in another line, too, gets its meaning there; so does one on the right
+  (``x' = v``) that no line begins with. Its rates follow.
 """
 
 from __future__ import annotations
@@ -18,31 +19,38 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from .alphabet import folded
+from .derivatives import derivative, partial
 from .errors import StatementError
 from .grammar import CLOSES, RELATIONS, SIGNED, Line
-from .nodes import Assignment, Equation, Letter, Node, Program, walk
+from .nodes import Assignment, Equation, Letter, Node, Partial, Program, Rate, replace, substitute, walk
 from .tokens import Names, Token, tokens
 
 
-def parse(text: str, names: Iterable[str] = ()) -> Program:
-    """The lines of a statement. ``names`` are the letters that are known; unknown ones stay as they are written.
+def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units: bool = False) -> Program:
+    """The lines of a statement. ``names`` are the letters that are known, of which those in ``still`` do not change with time;
+    unknown ones stay as they are written. ``units``: a unit behind a number goes before a letter of that name.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
-    known = Names.of(names)
-    known = known.also(_assigned(tokens(text, known), known))
+    own = tuple(names)
+    known = Names.of(own, still, units)
     try:
+        known = known.also(_assigned(tokens(text, known), known))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
+        lines = _written_out(_meanings(rows, set(own)), known)
+        program = Program((*_rates(lines, known), *lines), text, span=(0, len(text)))
     except StatementError as error:
         raise error.within(text) from None
+    except RecursionError:
+        raise StatementError("brackets in brackets without end", (0, len(text)), "give parts names of their own", text) from None
     if not rows:
         raise StatementError("there is no equation", (0, len(text)), "write one, like `m*a = F`", text)
-    return Program(tuple(_meanings(rows, set(names))), text, span=(0, len(text)))
+    return program
 
 
-def parse_expression(text: str, names: Iterable[str] = ()) -> Node:
+def parse_expression(text: str, names: Iterable[str] = (), still: Iterable[str] = ()) -> Node:
     """An expression without a sign of relation. Raises ``StatementError``."""
-    known = Names.of(names)
+    known = Names.of(names, still)
     row = [t for t in tokens(text, known) if t.kind != "line"]
     try:
         parser = Line(row, known, text)
@@ -54,28 +62,79 @@ def parse_expression(text: str, names: Iterable[str] = ()) -> Node:
 
 
 def _assigned(row: Sequence[Token], names: Names) -> list[str]:
-    """Unknown letters that stand alone on the left of a line."""
+    """Unknown letters that stand alone on the left of a line, or on its right; not the rate of one that does."""
+    ends = ("line", ",", ";", "end")
     out = []
     for before, token, after in zip([None, *row], row, row[1:], strict=False):
-        starts = before is None or before.kind in ("line", ",", ";")
-        if starts and token.kind == "letter" and after.kind == "=" and not names.find(folded(token.text)):
+        starts = (before is None or before.kind in ends) and after.kind == "="
+        closes = before is not None and before.kind == "=" and after.kind in ends
+        if token.kind == "letter" and (starts or closes) and not names.find(folded(token.text)):
             out.append(token.text)
-    return out
+    return [name for name in out if name.rstrip("'") == name or name.rstrip("'") not in out]
 
 
 def _meanings(rows: Sequence[Sequence[Equation]], known: set[str]) -> list[Assignment | Equation]:
     """The lines, those that only give a name as assignments; links of a chain state something."""
     out: list[Assignment | Equation] = []
-    given: set[Node] = set()
+    alone = [side for row in rows for line in row for side in (line.left, line.right) if isinstance(side, Letter)]
+    taken = set(known)
     for row in rows:
-        name = row[0].left
-        elsewhere = {n for other in rows if other is not row for line in other for n in walk(line)}
-        alone = len(row) == 1 and isinstance(name, Letter) and name.name not in known and row[0].relation == "="
-        if alone and name in elsewhere - given and name not in walk(row[0].right):
-            given.add(name)
-            out.append(Assignment(name, row[0].right, span=row[0].span))
+        others = [n for other in rows if other is not row for line in other for n in walk(line)]
+        used = {n.name for n in others if isinstance(n, Letter)}
+        begun = {line.left for other in rows if other is not row for line in other}
+        found = None if len(row) > 1 or row[0].relation != "=" else _definition(row[0], taken, begun, alone)
+        if found is not None and found.name.name in used:
+            taken.add(found.name.name)
+            out.append(found)
         else:
             out += row
+    return out
+
+
+def _definition(line: Equation, taken: set[str], begun: set[Node], alone: Sequence[Letter]) -> Assignment | None:
+    """The line as one that gives a name: to its left side, or, where no other line begins with it, to its right side. The rate of
+    a name that stands ``alone`` somewhere is none."""
+    for name, said in ((line.left, line.right), (line.right, line.left)):
+        if not isinstance(name, Letter) or name.name in taken or (name is line.right and name in begun):
+            continue
+        own = any(isinstance(n, Letter) and n.name == name.name for n in walk(said))
+        if not own and not (name.dots and Letter(name.name) in alone):
+            return Assignment(name, said, span=line.span)
+    return None
+
+
+def _written_out(lines: list[Assignment | Equation], names: Names) -> list[Assignment | Equation]:
+    """The lines with partial derivatives of names that lines give written out."""
+    given = {line.name: line.expression for line in lines if isinstance(line, Assignment)}
+    for _ in given:
+        given = {name: substitute(expression, given) for name, expression in given.items()}
+    while (found := next((n for line in lines for n in walk(line) if isinstance(n, Partial)), None)) is not None:
+        if found.of not in given:
+            hint = f"give it in a line: `{found.of.key} = …`"
+            raise StatementError(f"what `{found.of.key}` is made of is not said", found.of.span, hint)
+        new = partial(given[found.of], found.by)
+        lines = [replace(line, found, new) for line in lines]
+    while (rates := [n for line in lines for n in walk(line) if isinstance(n, Rate)]) != []:
+        lines = [replace(line, rates[-1], derivative(substitute(rates[-1].of, given), names.still)) for line in lines]
+    return lines
+
+
+def _rates(lines: Sequence[Assignment | Equation], names: Names) -> list[Assignment]:
+    """What the rates are that lines ask for of names that lines give."""
+    given = {line.name: line for line in lines if isinstance(line, Assignment)}
+    out: list[Assignment] = []
+    asked = [n for line in lines for n in walk(line) if isinstance(n, Letter)]
+    while asked:
+        letter = asked.pop()
+        below = Letter(letter.name, letter.dots - 1)
+        if letter in given or not letter.dots or Letter(letter.name) not in given:
+            continue
+        if below not in given:
+            asked += [letter, below]
+            continue
+        given[letter] = Assignment(letter, derivative(given[below].expression, names.still), span=given[below].span)
+        out.append(given[letter])
+        asked += [n for n in walk(given[letter].expression) if isinstance(n, Letter)]
     return out
 
 

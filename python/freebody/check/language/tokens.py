@@ -15,7 +15,9 @@ from .glyphs import Glyph, Kind, glyphs
 ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
 _SUFFIXES = ("dddot", "ddot", "dot", "")
-_ONLY_LETTERS, _WRITE_OUT = "only letters are differentiated here, by t", "write the derivative out, like `m*vdot`"
+_SHORT = re.compile(r"(?P<before>d{1,2})?(?P<name>.+?)(?(before)|(?P<after>d{1,2}))")
+"""Rates as programs have them: dtheta, ddtheta, thetad, theta_dd."""
+_LONGEST = 400  # glyphs of names without a sign between them
 _WORDS = {"with", "where", "and"}
 _OPERANDS = {"letter", "number", "raised", ")", "]"}
 _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
@@ -23,6 +25,9 @@ _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
 _RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
 # {d^2 θ}{dt^2}
 _FRACTION = re.compile(r"\{d(?:\^\{?(\d)\}?)?([A-Za-z][\w']*)\}\{dt(?:\^\{?\1\}?)?\}")
+
+# {d}{dt}, {d^2}{dt^2}
+_RATE = re.compile(r"\{d(?:\^?\{?(\d|²)\}?)?\}\{dt(?:\^?\{?\1\}?)?\}")
 
 
 @dataclass(frozen=True)
@@ -44,15 +49,19 @@ class Names:
     """The letters that are known, by which rows of characters are read: ``mg`` is m·g where m and g are known."""
 
     known: tuple[str, ...] = ()
+    still: frozenset[str] = frozenset()
+    """Those that do not change with time."""
+    units: bool = False
+    """Whether what may be a unit behind a number is one, known letter or not."""
 
     @classmethod
-    def of(cls, names: Iterable[str]) -> Names:
+    def of(cls, names: Iterable[str], still: Iterable[str] = (), units: bool = False) -> Names:
         """Known letters, each once."""
-        return cls(tuple(dict.fromkeys(names)))
+        return cls(tuple(dict.fromkeys(names)), frozenset(still), units)
 
     def also(self, names: Iterable[str]) -> Names:
         """These and more."""
-        return Names.of([*self.known, *names])
+        return Names.of([*self.known, *names], self.still, self.units)
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
@@ -64,10 +73,10 @@ class Names:
         """Folded names with strokes, points and brackets in them, long ones first."""
         return sorted((s for s in self.by_spelling if not re.fullmatch(r"[\w']+", s)), key=len, reverse=True)
 
-    @cached_property
+    @property
     def primed(self) -> bool:
-        """Whether a prime is part of a name here; otherwise it is a derivative."""
-        return not self.known or any(n.endswith("'") for n in self.known)
+        """Whether every prime is part of a name; otherwise one behind a known name is a derivative."""
+        return not self.known
 
     def find(self, spelling: str) -> tuple[str, int] | None:
         """The name and its number of time derivatives, e.g. of ``thetaddot``; None where it is not known."""
@@ -77,9 +86,23 @@ class Names:
             stem = spelling.removesuffix(suffix)
             if suffix and stem != spelling and stem in self.by_spelling:
                 return self.by_spelling[stem], count
-        if not self.primed and (stem := spelling.rstrip("'")) != spelling and stem in self.by_spelling:
-            return self.by_spelling[stem], len(spelling) - len(stem)
-        return None
+        return self._primes(spelling) or self._short(spelling)
+
+    def _primes(self, spelling: str) -> tuple[str, int] | None:
+        """A name with primes behind it, each a derivative; None where two names could be meant."""
+        bare = spelling.rstrip("'")
+        found = [n for n in range(len(bare), len(spelling)) if spelling[:n] in self.by_spelling]
+        if self.primed or len(found) != 1:
+            return None
+        return self.by_spelling[spelling[: found[0]]], len(spelling) - found[0]
+
+    def _short(self, spelling: str) -> tuple[str, int] | None:
+        """The rate of a known name, as programs write it, where no letter is called d."""
+        found = _SHORT.fullmatch(spelling)
+        name = self.by_spelling.get(found["name"]) if found and "d" not in self.by_spelling else None
+        if found is None or name is None or name == "t" or name in self.still:
+            return None
+        return name, len(found["before"] or found["after"])
 
 
 def tokens(text: str, names: Names = Names()) -> list[Token]:
@@ -136,7 +159,7 @@ class _Reader:
 
     def sign(self, glyph: Glyph) -> None:
         start, kind, text = self.at, glyph.text, glyph.text
-        if text == "frac" and (found := self.fraction_derivative()):
+        if text == "frac" and (found := self.fraction_derivative() or self.fraction_rate()):
             return self.take([found])
         self.at += 1
         if glyph.kind is Kind.DIGIT:
@@ -169,6 +192,9 @@ class _Reader:
         if found := self.derivative():
             return self.take([found])
         end = self.run_end(self.at)
+        if end - self.at > _LONGEST:
+            span = (self.row[self.at].span[0], self.row[end - 1].span[1])
+            raise StatementError(f"{end - self.at} letters without a sign between them", span, "write signs between them")
         if self.spelling(self.at, end) in _WORDS and not self.names.find(self.spelling(self.at, end)):
             return self.take([_Piece("line", "\n", 0, end)])
         if (end - self.at == 1 and self.row[self.at].text == "x") and self.crosses(end):
@@ -321,9 +347,8 @@ class _Reader:
         if self.spelling(stroke, stroke + 3) != "/dt":
             return None
         again, end = self.order(stroke + 3)
-        if stroke == at:
-            span = (row[self.at].span[0], row[end - 1].span[1])
-            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
+        if stroke == at and again == order:
+            return _Piece("rate", "d/dt", order, end)
         if again != order or (end < len(row) and row[end].kind in _IN_NAMES):
             return None
         spelling = self.spelling(at, stroke)
@@ -334,9 +359,6 @@ class _Reader:
         """The same written as a LaTeX fraction, from there on."""
         inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
         text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside)
-        if text.startswith("{d}{dt}"):
-            span = (self.row[self.at].span[0], self.row[inside[6]].span[1])
-            raise StatementError(_ONLY_LETTERS, span, _WRITE_OUT)
         found = _FRACTION.match(text)
         if not found:
             return None
@@ -346,6 +368,18 @@ class _Reader:
         name, dots = self.names.find(folded(found[2])) or (found[2], 0)
         marks = self.marks(self.at, ends[found.end()])
         return _Piece("letter", name, dots + int(found[1] or 1) + marks, ends[found.end()])
+
+    def fraction_rate(self) -> _Piece | None:
+        """The derivative of what stands behind, written as a LaTeX fraction: d/dt, d²/dt²."""
+        inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
+        text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside[:16])
+        found = _RATE.match(text)
+        if not found:
+            return None
+        count = 0
+        while sum(len(self.row[i].text) for i in inside[:count]) < found.end():
+            count += 1
+        return _Piece("rate", "d/dt", int((found[1] or "1").replace("²", "2")), inside[count - 1] + 1)
 
     def order(self, at: int) -> tuple[int, int]:
         """The order of a derivative written here (1 where nothing is), and the glyph behind it."""
