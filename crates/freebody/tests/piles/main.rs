@@ -71,13 +71,6 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
     let start = Start { p: &[], t: 0.0, q: &q, u: &u, mode: None };
     let run = simulate(m, &start, until, &settings, &mut |_| clock.elapsed().as_secs_f64() < patience);
     let wall = clock.elapsed().as_secs_f64();
-    if let (Ok(run), Ok(n)) = (&run, std::env::var("TELL")) {
-        let n: usize = n.parse().expect("a number");
-        for c in &run.changes[run.changes.len().saturating_sub(n)..] {
-            println!("  {:.15} {:8} {:?} lost {:.2e} {}", c.t, c.kind, c.of, c.lost, c.note.clone().unwrap_or_default());
-        }
-        for w in run.steps.windows(2).rev().take(12) { println!("   step {:.15} {:.3e}", w[0], w[1] - w[0]); }
-    }
     let run = run.unwrap_or_else(|e| panic!("seed {seed}: {}", e.sentence));
     judge(seed, &pile, &run, wall)
 }
