@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
 from freebody.balances.show import fewest_words
-from freebody.balances.states import nearby
 from freebody.equations.derivation import closing, virtual
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
@@ -70,7 +69,7 @@ def _chosen(subject: Subject) -> _Chosen:
     rubs = any(load.follows for load in subject.free.loads)
     if all(row.kind == "motion" for row in subject.rows) and not rubs:
         return _Chosen(of_coordinates(subject), None)
-    search = minimal_form(nearby(subject.source, subject.state), subject.points, forces=True)
+    search = minimal_form(subject.neighbours, subject.points, forces=True)
     found = from_search(subject, list(search.equations))
     return _Chosen(found if found or not search.wanted else of_coordinates(subject), search)
 

@@ -8,6 +8,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
+from freebody.balances.states import nearby
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
 from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
@@ -16,6 +19,9 @@ from freebody.instant import State
 from freebody.source import Source
 
 Question = Mapping[str, Any]
+_SEED, _OTHERS = 5, 3
+_NEAR = 0.15
+"""Part by which parameters of other states differ from those of a state, or what they are where they are 0 there."""
 
 
 @dataclass(frozen=True)
@@ -175,6 +181,19 @@ class Subject:
         """All loads at the state, in numbers; they are counted as in contributions."""
         s = self.state
         return FreeBodies.read(self.source.core.free_bodies(s.p, s.t, s.q, s.u))
+
+    @cached_property
+    def neighbours(self) -> list[FreeBodies]:
+        """The free bodies at the state and at others near by, with other parameters, as far as these are letters: so what drops out
+        of a balance there does so whatever the letters are."""
+        rng, fixed = np.random.default_rng(_SEED), self.numbers or {}
+        given = [(p["name"], float(x)) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)]
+        parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
+        changed = [
+            self.source.core.bind({name: x if name in fixed else part * (x or _NEAR) for (name, x), part in zip(given, row, strict=True)})
+            for row in parts
+        ]
+        return nearby(self.source, self.state, changed)
 
     @cached_property
     def rows(self) -> list[Row]:

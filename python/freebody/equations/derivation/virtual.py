@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody import _core
-from freebody.balances.states import nearby
 from freebody.balances.system import DEPENDENT
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
@@ -44,7 +43,7 @@ def virtual_power(subject: Subject) -> list[VirtualPower]:
     """One equation for each degree of freedom, prescribed ones among them. Raises ``_core.MotionError`` where they grow too large."""
     names = [c["name"] for c in subject.coordinates]
     rows = [i for i, row in enumerate(subject.rows) if row.kind != "motion"]
-    told = nearby(subject.source, subject.state)[-1].rows
+    told = subject.neighbours[-1].rows
     table = np.array([[told[i].coefficients[name] for name in names] for i in rows]).reshape(len(rows), len(names))
     bound = [len(names) - 1 - place for place in _independent(table[:, ::-1].T)]
     kept = _independent(table[:, bound])
