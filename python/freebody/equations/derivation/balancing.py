@@ -26,13 +26,15 @@ _SAME = 1e-9
 @dataclass(frozen=True)
 class Stated:
     """A balance with its name: ``AMB about the pin elbow for forearm``. ``where`` is the point or direction in words, ``word``
-    about, along or across; a ``constructed`` one is only described."""
+    about, along or across; a ``constructed`` one is only described. ``own``: the sign of the acceleration that it is for, 0 where
+    it is for none."""
 
     balance: Balance
     where: str
     word: str
     label: str = ""
     constructed: bool = False
+    own: int = 0
 
     @property
     def kind(self) -> str:
@@ -46,14 +48,14 @@ class Stated:
 
     @property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        """What is moved = what acts, each unknown with one factor; ``is_turned`` where that reads better."""
         left, right = self._collected
-        return (negative(left), negative(right)) if self._is_turned else (left, right)
+        return (negative(left), negative(right)) if self.is_turned else (left, right)
 
     @property
     def linear(self) -> Linear:
         """The equation as linear in what is unknown, with the sign of its sides."""
-        return self.balance.linear.negative() if self._is_turned else self.balance.linear
+        return self.balance.linear.negative() if self.is_turned else self.balance.linear
 
     @cached_property
     def _collected(self) -> tuple[Tree, Tree]:
@@ -61,9 +63,9 @@ class Stated:
         return collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
 
     @property
-    def _is_turned(self) -> bool:
-        left, right = self._collected
-        return _all_negative(left) and (_all_negative(right) or is_zero(right))
+    def is_turned(self) -> bool:
+        """Whether all signs are changed: so that its own acceleration is positive, or some term of what is moved."""
+        return self.own < 0 or (self.own == 0 and _all_negative(self._collected[0]))
 
 
 def _all_negative(side: Tree) -> bool:
@@ -94,7 +96,8 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     if inertia:
         rate = "angular momentum" if balance.turns else "momentum"
         made += [Paragraph(f"The rate of {rate}:"), Bullets(inertia)]
-    made.append(Equation(*stated.sides, f"So {sign} is", stated.label))
+    turned = ", with all signs changed," if stated.is_turned else ""
+    made.append(Equation(*stated.sides, f"So {sign}{turned} is", stated.label))
     return made
 
 

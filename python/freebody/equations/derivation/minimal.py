@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
@@ -34,7 +34,7 @@ def minimal(subject: Subject) -> Form:
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows = subject.rows
     chosen = _chosen(subject)
-    stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(chosen.stated, 1)]
+    stated = [replace(s, label=str(i)) for i, s in enumerate(chosen.stated, 1)]
     equations = [_printed(s) for s in stated]
     form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []

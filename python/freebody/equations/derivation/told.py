@@ -13,7 +13,7 @@ import numpy as np
 from freebody.balances.states import nearby
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
 from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.source import Source
@@ -140,6 +140,17 @@ class Row:
     rate: Tree | None
     acceleration: Tree
     linear: Linear
+
+    @property
+    def negative(self) -> Row:
+        """The same with all signs changed."""
+        value, rate = (None if tree is None else negative(tree) for tree in (self.value, self.rate))
+        return replace(self, value=value, rate=rate, acceleration=negative(self.acceleration), linear=self.linear.negative())
+
+    @property
+    def says_nothing(self) -> bool:
+        """Whether it holds wherever the coordinates are, and however they move."""
+        return all(tree is None or is_zero(tree) for tree in (self.value, self.rate, self.acceleration))
 
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> Row:

@@ -6,7 +6,7 @@ import html
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from unicodedata import normalize
 
 from freebody.equations.document import (
@@ -30,7 +30,7 @@ from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_late
 from freebody.equations.letters import Letters
 from freebody.equations.mathml import broken, mathml
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
-from freebody.equations.rendering.matrices import fitted, has_matrices
+from freebody.equations.rendering.matrices import Named, fitted, has_matrices
 from freebody.equations.rendering.plain import side_text
 from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
@@ -82,6 +82,7 @@ class Markup(ABC):
 
     letters: Letters
     beside: str = ""
+    named: Named = field(default_factory=Named)
 
     def render(self, blocks: Sequence[Block]) -> str:
         """All blocks."""
@@ -117,7 +118,7 @@ class Markup(ABC):
         """An equation of matrices, and below it the entries that have names."""
         made, letters = fitted(block, self.letters, WIDTH)
         writer = replace(self, letters=letters)
-        parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in made]
+        parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in self.named.news(made)]
         return "\n\n".join(parts)
 
     def whole(self, block: Equation) -> str:
