@@ -38,6 +38,11 @@ def is_bare(tree: Tree) -> bool:
     return isinstance(node, Fn) and node.name in SIMPLE_FUNCTIONS and _is_plain(node.args[0])
 
 
+def is_function(tree: Tree) -> bool:
+    """Whether a factor is a function, or a power of one."""
+    return isinstance(tree.base if isinstance(tree, Pow) else tree, Fn)
+
+
 def product(tree: Tree, letters: Letters) -> Product:
     """The tree as one product."""
     factors = _factors(tree)

@@ -73,7 +73,12 @@ def _is_negative(term: Tree) -> bool:
 def _title(rows: Sequence[Row]) -> str:
     """Loops, motions, and what touches, as far as there are any."""
     kinds = {row.kind for row in rows}
-    named = (("Loop closure", {"joint"}), ("couplings", {"coupling"}), ("contacts", set(_HELD)), ("prescribed motions", {"motion"}))
+    named = (
+        ("Loop closure", {"joint"}),
+        ("couplings", {"coupling"}),
+        ("contacts", set(_HELD)),
+        ("prescribed motions", {"motion"}),
+    )
     found = joined([name for name, of in named if kinds & of])
     return found[0].upper() + found[1:]
 
@@ -87,7 +92,9 @@ def _why(rows: Sequence[Row], everywhere: bool) -> str:
 def _silent(rows: Sequence[Row]) -> str:
     """Which rows say nothing."""
     names = [row.name for row in rows if row.says_nothing]
-    counts = [f"{'one more' if names.count(name) == 1 else f'{names.count(name)} more'} at {name}" for name in dict.fromkeys(names)]
+    counts = [
+        f"{'one more' if names.count(name) == 1 else f'{names.count(name)} more'} at {name}" for name in dict.fromkeys(names)
+    ]
     return f" What would be {joined(counts)} holds by itself: other joints see to it." if names else ""
 
 

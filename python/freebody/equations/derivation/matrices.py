@@ -30,7 +30,7 @@ def section(form: str, content: Form, subject: Subject) -> list[Block]:
         if only_moves and not _is_symmetric(system, subject):
             made.append(Paragraph(_LOPSIDED))
     if not system.is_square:
-        made.append(Paragraph(_uneven(content)))
+        made.append(Paragraph(_uneven(content, len(subject.laws))))
     if moving:
         made += [Heading("First-order form"), *_first_order(content, moving)]
     return made
@@ -41,9 +41,11 @@ def _is_symmetric(system: System, subject: Subject) -> bool:
     return bool(np.abs(rows - rows.T).max() <= _SAME * np.abs(rows).max())
 
 
-def _uneven(content: Form) -> str:
+def _uneven(content: Form, laws: int) -> str:
     equations, unknowns = len(content.system.matrix), len(content.system.unknowns)
     these = "This is one equation" if equations == 1 else f"These are {equations} equations"
+    if laws and equations + laws == unknowns:
+        return f"{these} in {unknowns} unknowns: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
     if equations < unknowns:
         return (
             f"{these} in {unknowns} unknowns: what is held in more ways than needed, or rubs, "

@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
 from freebody.balances.show import fewest_words
-from freebody.equations.derivation import closing, virtual
+from freebody.equations.derivation import closing, rubbing, virtual
 from freebody.equations.derivation.balancing import Stated, blocks
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Heading, Paragraph, Words
-from freebody.equations.tree import Sym
+from freebody.equations.tree import Sym, symbols
 from freebody.naming import coefficient
 from freebody.tables import figure
 
@@ -34,11 +34,14 @@ def minimal(subject: Subject) -> Form:
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows = subject.rows
     chosen = _chosen(subject)
-    stated = [replace(s, label=str(i)) for i, s in enumerate(chosen.stated, 1)]
+    added = rubbing.beside(subject, chosen.stated)
+    stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen.stated, *added], 1)]
     equations = [_printed(s) for s in stated]
     form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, chosen)), *_friction(subject)]
+    if added:
+        made.append(Paragraph(rubbing.sentence(subject, added)))
     for s in stated:
         made += blocks(subject, s)
     if chosen.search and (chosen.search.stays or not chosen.search.equations) and stated:
@@ -81,8 +84,9 @@ def _printed(stated: Stated) -> Printed:
 def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
     number, search = len(chosen.stated), chosen.search
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
-    rubbing = [name for name in form.reactions if search and name in search.rubbing]
-    others = [name for name in form.reactions if name not in (*prescribed, *rubbing)]
+    leading = [name for name in form.reactions if search and name in search.rubbing]
+    by_law = {letter.name for letter, law in subject.laws for letter in (letter, *symbols(law))}
+    others = [name for name in form.reactions if name not in (*prescribed, *leading, *by_law)]
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
         return "Nothing is free to move: no equation of motion is left. What holds it is found by brute force."
@@ -93,12 +97,12 @@ def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
         said.append(
             f"Here {joined(others)} {'stays' if len(others) == 1 else 'stay'}, so there {'is' if number == 1 else 'are'} {number}."
             if search.equations
-            else f"So the balances of the coordinates stand, and in them {joined(others)}."
+            else f"{'Just as many' if search.exact and len(others) == search.least else 'Some'} are in the balances of the coordinates: {joined(others)}."
         )
-    elif rubbing:
-        each = "" if number == 1 else f", one for each degree of freedom and one for {joined(rubbing)},"
+    elif leading:
+        each = "" if number == 1 else f", one for each degree of freedom and one for {joined(leading)},"
         said = [f"{count}{each} in which no other reaction stands."]
-    elif prescribed:
+    elif prescribed or by_law:
         said = [f"{count}{each} in which no reaction of a joint stands."]
     if prescribed:
         verb = "is" if len(prescribed) == 1 else "are"

@@ -201,7 +201,9 @@ class Subject:
         given = [(p["name"], float(x)) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)]
         parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
         changed = [
-            self.source.core.bind({name: x if name in fixed else part * (x or _NEAR) for (name, x), part in zip(given, row, strict=True)})
+            self.source.core.bind(
+                {name: x if name in fixed else part * (x or _NEAR) for (name, x), part in zip(given, row, strict=True)}
+            )
             for row in parts
         ]
         return nearby(self.source, self.state, changed)

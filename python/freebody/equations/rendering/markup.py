@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from unicodedata import normalize
 
+from freebody.equations import breaking
 from freebody.equations.document import (
     Block,
     Bullets,
@@ -23,20 +24,21 @@ from freebody.equations.document import (
     Vector,
     Words,
     Written,
-    is_tree,
     pieces,
 )
-from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
+from freebody.equations.latex import LatexPrinter, aligned, latex, matrix_latex, sides_latex
 from freebody.equations.letters import Letters
 from freebody.equations.mathml import broken, mathml
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
 from freebody.equations.rendering.matrices import Named, fitted, has_matrices
-from freebody.equations.rendering.plain import side_text
-from freebody.equations.text import columns
 from freebody.equations.tree import Add, Tree, is_zero
 
-_LINE = 75
-"""Signs of a formula that may be wider than a line: it is measured by TeX."""
+_ACROSS = 80
+"""Columns of text that an equation of matrices may take."""
+_SLACK = 2.5
+"""Width, in em, that lists are indented, and that a line without a number beside it has more."""
+_INLINE = 16.0
+"""Width, in em, beyond which a formula in a list stands on lines of its own: TeX does not break it within brackets."""
 
 
 def side_latex(side: Side, letters: Letters) -> str:
@@ -49,16 +51,6 @@ def side_latex(side: Side, letters: Letters) -> str:
         parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
         return " + ".join(parts).replace("+ -", "- ") or "0"
     return latex(side, letters)
-
-
-def side_lines(side: Side, letters: Letters) -> list[str]:
-    """One side over as many lines as it needs: a vector that is long, a component a line."""
-    if is_tree(side):
-        return latex_lines(side, letters)
-    if isinstance(side, Vector) and columns(side_text(side, letters)) > WIDTH:
-        parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
-        return [parts[0], *(part if part.startswith("-") else f"+ {part}" for part in parts[1:])]
-    return [side_latex(side, letters)]
 
 
 def _component(tree: Tree, direction: str, letters: Letters) -> str:
@@ -100,7 +92,7 @@ class Markup(ABC):
             case Equation():
                 return self.stated(block, self.equation(block))
             case Bullets(items):
-                return self.bullets([self.words(item) for item in items])
+                return self.bullets([self.item(item) for item in items])
             case Table():
                 rows = [[self.words(cell) for cell in row] for row in (block.heads, *block.rows)]
                 return self.table(rows[0], rows[1:], self.words(block.caption))
@@ -114,9 +106,13 @@ class Markup(ABC):
             for piece in pieces(words)
         )
 
+    def item(self, words: Words) -> str:
+        """A sentence of a list."""
+        return self.words(words)
+
     def matrices(self, block: Equation | MatrixEquation) -> str:
         """An equation of matrices, and below it the entries that have names."""
-        made, letters = fitted(block, self.letters, WIDTH)
+        made, letters = fitted(block, self.letters, _ACROSS)
         writer = replace(self, letters=letters)
         parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in self.named.news(made)]
         return "\n\n".join(parts)
@@ -127,13 +123,7 @@ class Markup(ABC):
 
     def equation(self, block: Equation) -> str:
         """LaTeX of an equation."""
-        left, right = block.left, block.right
-        if is_tree(left) and is_tree(right):
-            return equation_latex(left, right, self.letters)
-        sides = [side_lines(side, self.letters) for side in (left, right)]
-        if all(len(lines) == 1 for lines in sides):
-            return f"{sides[0][0]} = {sides[1][0]}"
-        return aligned(*sides, beside=isinstance(left, Written))
+        return sides_latex(*(side_latex(side, self.letters) for side in (block.left, block.right)))
 
     def stated(self, block: Equation, body: str) -> str:
         """An equation between its name and its note."""
@@ -219,7 +209,7 @@ class Latex(Markup):
 
     def display(self, math: str, label: str) -> str:
         tag = rf"\tag{{{label}}}" if label else r"\notag"
-        if max(map(_signs_of, math.split(r"\\"))) > _LINE:
+        if "matrix" in math or "{array}" in math or max(map(breaking.width, math.split(r"\\"))) > breaking.ROOM + _SLACK:
             math = _fitted(rf"$\displaystyle {math}$")
         return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
 
@@ -228,6 +218,14 @@ class Latex(Markup):
 
     def paragraph(self, words: str) -> str:
         return words
+
+    def item(self, words: Words) -> str:
+        """A sentence of which a long formula stands below."""
+        shown = [p if isinstance(p, str) else side_latex(p, self.letters) for p in pieces(words)]
+        return "".join(
+            self.plain(made) if isinstance(piece, str) else self.inline(made) if breaking.width(made) <= _INLINE else _below(made)
+            for piece, made in zip(pieces(words), shown, strict=True)
+        )
 
     def bullets(self, items: Sequence[str]) -> str:
         return "\n".join([r"\begin{itemize}", *(rf"\item {item}" for item in items), r"\end{itemize}"])
@@ -290,9 +288,14 @@ def _fitted(shown: str) -> str:
     return rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
 
 
-def _signs_of(line: str) -> int:
-    """How many signs a line of a formula has, about."""
-    return len(re.sub(r"\\[a-zA-Z]+|[{}_^&\\\s]", "", line))
+def _below(math: str) -> str:
+    """A formula on lines below the words of a list."""
+    shown = breaking.lines(math, breaking.ROOM - _SLACK)
+    return (
+        "\n\\[\n"
+        + (shown[0] if len(shown) == 1 else aligned([f"&{shown[0]}", *(rf"&\quad {line}" for line in shown[1:])]))
+        + "\n\\]\n"
+    )
 
 
 _SIGNS = {sign: rf"\{word}" for word, sign in GREEK.items()}
