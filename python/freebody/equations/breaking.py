@@ -52,8 +52,9 @@ def lines(math: str, room: float = ROOM) -> list[str]:
         left -= needed
     shown = ["".join(node.latex for node in line).strip() for line in made]
     # Brackets that grow cannot be broken.
+    size = "Big" if r"\frac" in math else "big"
     torn = any(line.count(r"\left") != line.count(r"\right") for line in shown)
-    return [re.sub(r"\\(left|right)(?![a-z])", lambda found: rf"\big{found[1][0]}", line) for line in shown] if torn else shown
+    return [re.sub(r"\\(left|right)(?![a-z])", lambda found: rf"\{size}{found[1][0]}", line) for line in shown] if torn else shown
 
 
 def _unstacked(math: str, room: float) -> Iterator[str]:

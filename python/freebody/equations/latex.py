@@ -16,6 +16,8 @@ from freebody.equations.names import latex_name, upright
 from freebody.equations.printer import Printer
 from freebody.equations.tree import Entries, Fn, Sym, Tree
 
+ROW = " \\\\\n"
+"""Between two rows of an equation."""
 _MATRIX = 10  # columns of a matrix of amsmath
 _KNOWN = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "ln": r"\ln", "exp": r"\exp", "atan2": r"\operatorname{atan2}",
           "sign": r"\operatorname{sign}"}  # fmt: skip
@@ -50,7 +52,7 @@ def _indented(lines: Sequence[str]) -> list[str]:
 
 def aligned(rows: Sequence[str]) -> str:
     """Rows of which each has one place to stand below the others."""
-    return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+    return "\\begin{aligned}\n" + ROW.join(rows) + "\n\\end{aligned}"
 
 
 def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:

@@ -14,8 +14,8 @@ from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative
-from freebody.free_body import Body, Load
+from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative, symbols
+from freebody.free_body import Body, FreeBodies, Load
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
 """Points that bodies have without being told; the names of others are better known to a person."""
@@ -64,12 +64,14 @@ class Stated:
 
     @property
     def is_turned(self) -> bool:
-        """Whether all signs are changed: so that its own acceleration is positive, or some term of what is moved."""
+        """Whether all signs are changed: so that its own acceleration is positive, or some acceleration."""
         return self.own < 0 or (self.own == 0 and _all_negative(self._collected[0]))
 
 
 def _all_negative(side: Tree) -> bool:
-    terms = side.terms if isinstance(side, Add) else (side,)
+    """Whether all terms with accelerations are; where there are none, whether all terms are."""
+    every = side.terms if isinstance(side, Add) else (side,)
+    terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
     return all(isinstance(t, Mul) and isinstance(t.factors[0], Num) and t.factors[0].value < 0 for t in terms)
 
 
@@ -145,7 +147,12 @@ def numbers(subject: Subject, balance: Balance) -> tuple[float, float]:
 
 def size(subject: Subject) -> float:
     """The size of the mechanism, m."""
-    points = np.array([part.point for load in subject.free.loads for part in load.on] or [(0.0, 0.0)])
+    return extent(subject.free)
+
+
+def extent(free: FreeBodies) -> float:
+    """How far apart loads act, m."""
+    points = np.array([part.point for load in free.loads for part in load.on] or [(0.0, 0.0)])
     return float(np.hypot(*np.ptp(points, axis=0))) or 1.0
 
 
@@ -156,7 +163,7 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     for load in free.loads:
         pinned = load.kind == "joint" and load.component in ("x", "y")
         if pinned and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
-            return f"the pin {load.name}"
+            return pin(load.name)
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"
@@ -165,6 +172,17 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     ]
     own = sorted(there, key=lambda name: name.rpartition(".")[2] in _GIVEN)
     return _short(subject, own[0]) if own else ""
+
+
+def is_at(free: FreeBodies, point: tuple[str, float, float], at: tuple[float, float]) -> bool:
+    """Whether a point (body, x, y in its frame) is at a place."""
+    body, *where = point
+    return body in free.bodies and _near(free.bodies[body], (where[0], where[1]), at) < _SAME * extent(free)
+
+
+def pin(name: str) -> str:
+    """A hinge as a point; not ``the pin pin``."""
+    return name if "pin" in name.lower() else f"the pin {name}"
 
 
 def _near(body: Body, point: tuple[float, float], at: tuple[float, float]) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.equations.derivation.balancing import Stated, named_place, numbers
+from freebody.equations.derivation.balancing import Stated, named_place, numbers, pin
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.tree import ZERO, Sym, evaluate, is_zero
 
@@ -63,9 +63,7 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
     joint = _joint(subject, coordinate)
     if balance.turns:
         named = (
-            f"the pin {joint['name']}"
-            if joint["type"] == "hinge"
-            else named_place(subject, numbers(subject, balance), balance.bodies)
+            pin(joint["name"]) if joint["type"] == "hinge" else named_place(subject, numbers(subject, balance), balance.bodies)
         )
         return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
     if joint["type"] == "link":
@@ -75,7 +73,8 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
     x, y = balance.place.xy
     if is_zero(x) or is_zero(y):
         return _axis(*numbers(subject, balance)), "along"
-    return _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
+    line = subject.lines.get(joint["name"])
+    return line or _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
 
 
 def _axis(x: float, y: float) -> str:

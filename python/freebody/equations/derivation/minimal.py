@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
 from freebody.balances.show import fewest_words
 from freebody.equations.derivation import closing, rubbing, virtual
-from freebody.equations.derivation.balancing import Stated, blocks
+from freebody.equations.derivation.balancing import Stated, blocks, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Heading, Paragraph, Words
-from freebody.equations.tree import Sym, symbols
+from freebody.equations.tree import Sym, operations, symbols
 from freebody.naming import coefficient
 from freebody.tables import figure
+
+_POINTS = 2
+"""Points of bodies tried for one place."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +56,33 @@ def minimal(subject: Subject) -> Form:
 
 def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stated] | None:
     """Equations that a search found, in letters; None if one of them has no question."""
-    asked = [equation.question for equation in equations]
-    if None in asked:
+    asked = [_alike(subject, equation) for equation in equations]
+    if [] in asked:
         return None
-    found = subject.balances([question for question in asked if question])
-    return [_of_search(subject, balance, equation) for balance, equation in zip(found, equations, strict=True)]
+    found = iter(subject.balances([question for questions in asked for question in questions]))
+    told = [
+        [_of_search(subject, next(found), equation) for _ in questions]
+        for questions, equation in zip(asked, equations, strict=True)
+    ]
+    return [min(each, key=_length) for each in told]
+
+
+def _alike(subject: Subject, equation: BalanceEquation) -> list[Mapping[str, Any]]:
+    """The question for an equation, and others for the same: where a loop is closed a point of either body is the place of its load."""
+    question = equation.question
+    place = question and question.get("about")
+    if not question or not isinstance(place, Mapping) or "load" not in place:
+        return [question] if question else []
+    i = place["load"]
+    if all(row.name != subject.free.loads[i].name for row in subject.rows):
+        return [question]
+    within = [(name, point) for name, point in subject.points.items() if point[0] in equation.bodies]
+    there = [name for name, point in within if all(is_at(free, point, free.loads[i].on[-1].point) for free in subject.neighbours)]
+    return [question, *({**question, "about": {"point": name}} for name in there[:_POINTS])]
+
+
+def _length(stated: Stated) -> int:
+    return operations(stated.balance.left) + operations(stated.balance.right)
 
 
 def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) -> Stated:
@@ -65,7 +92,16 @@ def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) ->
     leading = {i for i, load in enumerate(loads) if load.symbol in gone}
     places = [i for i, load in enumerate(loads) if i in leading or (load.follows and load.follows[0] in leading)]
     where = "about" if balance.turns else "along"
-    return Stated(balance.without(places, gone), equation.about, where, "", equation.constructed)
+    return Stated(balance.without(places, gone), _place(subject, equation), where, "", equation.constructed)
+
+
+def _place(subject: Subject, equation: BalanceEquation) -> str:
+    """The point or direction of an equation, a line by its own name: ``the normal of the slope``."""
+    said = equation.about
+    if equation.kind == "AMB" or equation.constructed:
+        return said
+    joint = next((name for name in subject.lines if said == name or said.endswith(f" of {name}")), None)
+    return said.removesuffix(joint) + subject.lines[joint] if joint else said
 
 
 def _chosen(subject: Subject) -> _Chosen:

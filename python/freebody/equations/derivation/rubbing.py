@@ -19,7 +19,10 @@ def beside(subject: Subject, stated: Sequence[Stated]) -> list[Stated]:
     wanted = [(i, load) for i, load in enumerate(subject.free.loads) if load.unknown and load.symbol in needed]
     asked = [{"ask": "equation", "bodies": _carried(subject, load), "along": _along(i, load)} for i, load in wanted]
     found = zip(wanted, subject.balances(asked), strict=True) if asked else []
-    return [Stated(balance, load.component if _is_axis(load) else f"the line of {load.symbol}", "along") for (_, load), balance in found]
+    return [
+        Stated(balance, load.component if _is_axis(load) else f"the line of {load.symbol}", "along")
+        for (_, load), balance in found
+    ]
 
 
 def sentence(subject: Subject, added: Sequence[Stated]) -> str:

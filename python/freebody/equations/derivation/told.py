@@ -14,7 +14,7 @@ from freebody.balances.states import nearby
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
 from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
-from freebody.free_body import FreeBodies
+from freebody.free_body import GROUND, FreeBodies
 from freebody.instant import State
 from freebody.source import Source
 
@@ -266,7 +266,19 @@ class Subject:
         """Named points: body, x, y in its frame."""
         return json.loads(self.source.core.points(self.state.p))
 
+    @cached_property
+    def lines(self) -> Mapping[str, str]:
+        """The lines along which joints move, in the words of the model: joint → ``the slope``, ``the track of rod``."""
+        joints = json.loads(self.source.model).get("joints") or {}
+        along = {name: joint.get("along") for name, joint in joints.items()}
+        return {name: _line_words(*text.rpartition(".")[::2]) for name, text in along.items() if isinstance(text, str)}
+
     def _told(self, questions: Sequence[Question]) -> dict[str, Any]:
         setting = {"at_rest": self.at_rest, "numbers": dict(self.numbers or {})}
         s = self.state
         return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, json.dumps(setting), json.dumps(questions)))
+
+
+def _line_words(body: str, line: str) -> str:
+    name = f"the {line}" if len(line) > 1 else f"the line {line}"
+    return name if body in ("", GROUND) else f"{name} of {body}"

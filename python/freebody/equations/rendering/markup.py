@@ -26,7 +26,7 @@ from freebody.equations.document import (
     Written,
     pieces,
 )
-from freebody.equations.latex import LatexPrinter, aligned, latex, matrix_latex, sides_latex
+from freebody.equations.latex import ROW, LatexPrinter, aligned, latex, matrix_latex, sides_latex
 from freebody.equations.letters import Letters
 from freebody.equations.mathml import broken, mathml
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
@@ -37,6 +37,8 @@ _ACROSS = 80
 """Columns of text that an equation of matrices may take."""
 _SLACK = 2.5
 """Width, in em, that lists are indented, and that a line without a number beside it has more."""
+_TALL = 12
+"""Rows of an equation from which on it may go on over the next page."""
 _INLINE = 16.0
 """Width, in em, beyond which a formula in a list stands on lines of its own: TeX does not break it within brackets."""
 
@@ -201,6 +203,10 @@ class Latex(Markup):
 
     _SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
 
+    def render(self, blocks: Sequence[Block]) -> str:
+        # Formulas in sentences are hardly ever broken: spaces may be wide.
+        return "\\emergencystretch=3em\n\n" + super().render(blocks)
+
     def plain(self, text: str) -> str:
         return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
 
@@ -209,8 +215,10 @@ class Latex(Markup):
 
     def display(self, math: str, label: str) -> str:
         tag = rf"\tag{{{label}}}" if label else r"\notag"
-        if "matrix" in math or "{array}" in math or max(map(breaking.width, math.split(r"\\"))) > breaking.ROOM + _SLACK:
+        if "matrix" in math or "{array}" in math or max(map(breaking.width, math.split(ROW))) > breaking.ROOM + _SLACK:
             math = _fitted(rf"$\displaystyle {math}$")
+        elif math.startswith(r"\begin{aligned}") and math.count(ROW) >= _TALL:
+            return _over_pages(math, tag)
         return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
 
     def heading(self, title: str, level: int) -> str:
@@ -286,6 +294,12 @@ class Html(Markup):
 def _fitted(shown: str) -> str:
     """What is wider than the line made smaller."""
     return rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
+
+
+def _over_pages(math: str, tag: str) -> str:
+    """Aligned rows that a page may end between."""
+    rows = math.removeprefix("\\begin{aligned}\n").removesuffix("\n\\end{aligned}").replace(ROW, rf" \notag{ROW}")
+    return f"{{\\allowdisplaybreaks\n\\begin{{align}}\n{rows} {tag}\n\\end{{align}}}}"
 
 
 def _below(math: str) -> str:
