@@ -72,7 +72,7 @@ def _rows(columns: Array, rest: Sequence[int]) -> Array:
 
 def _within(held: Array, wanted: int, number: int) -> Iterator[Array]:
     """For every set of so many unknowns the equations (places) that hold no others, where these may be enough; ``held`` (n, nu)."""
-    n, unknowns = held.shape
+    unknowns = held.shape[1]
     sets = combinations(range(unknowns), number)
     few = np.flatnonzero(held.sum(axis=1) <= number)
     while chunk := list(islice(sets, _AT_ONCE)):

@@ -63,16 +63,6 @@ def written(tmp_path):
     return load
 
 
-@pytest.fixture(params=FILES, ids=named)
-def model(request):
-    mechanism, start = loaded(request.param)
-    try:
-        mechanism.solve()
-    except _core.MotionError:
-        pytest.skip("the model has no motion at all")
-    return Subject(mechanism.source(), start)
-
-
 def test_a_load_in_a_balance_is_told_for_a_body_of_it(model):
     for body in model.free.bodies:
         for load in model.free.on(body):
