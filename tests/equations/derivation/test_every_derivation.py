@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from conftest import numbers, other_parameters
 
-from freebody import _core
 from freebody.balances.states import RATES, others
 from freebody.equations.derivation import FORMS, conserved, derive
 from freebody.equations.derivation.told import Subject

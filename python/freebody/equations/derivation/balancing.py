@@ -14,7 +14,7 @@ from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative, symbols
+from freebody.equations.tree import Add, Sym, Tree, evaluate, is_negative, is_zero, negative, symbols
 from freebody.free_body import Body, FreeBodies, Load
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
@@ -72,7 +72,7 @@ def _all_negative(side: Tree) -> bool:
     """Whether all terms with accelerations are; where there are none, whether all terms are."""
     every = side.terms if isinstance(side, Add) else (side,)
     terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
-    return all(isinstance(t, Mul) and isinstance(t.factors[0], Num) and t.factors[0].value < 0 for t in terms)
+    return all(map(is_negative, terms))
 
 
 def blocks(subject: Subject, stated: Stated) -> list[Block]:

@@ -10,7 +10,7 @@ from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph
 from freebody.equations.linear import Linear, linear_in
-from freebody.equations.tree import ZERO, Add, Mul, Num, Sym, Tree, add, mul, symbols
+from freebody.equations.tree import ZERO, Add, Sym, add, is_negative, mul, symbols
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
@@ -61,13 +61,8 @@ def _reads_better_negative(row: Row) -> bool:
     tree = next(tree for tree in (row.value, row.rate, row.acceleration) if tree is not None)
     moving = {x.name for x in row.linear.coefficients}
     terms = tree.terms if isinstance(tree, Add) else (tree,)
-    signs = [_is_negative(term) for term in terms if moving & {x.name for x in symbols(term)}]
+    signs = [is_negative(term) for term in terms if moving & {x.name for x in symbols(term)}]
     return 2 * sum(signs) > len(signs)
-
-
-def _is_negative(term: Tree) -> bool:
-    number = term.factors[0] if isinstance(term, Mul) else term
-    return isinstance(number, Num) and number.value < 0
 
 
 def _title(rows: Sequence[Row]) -> str:

@@ -97,11 +97,7 @@ def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) ->
 
 def _place(subject: Subject, equation: BalanceEquation) -> str:
     """The point or direction of an equation, a line by its own name: ``the normal of the slope``."""
-    said = equation.about
-    if equation.kind == "AMB" or equation.constructed:
-        return said
-    joint = next((name for name in subject.lines if said == name or said.endswith(f" of {name}")), None)
-    return said.removesuffix(joint) + subject.lines[joint] if joint else said
+    return equation.about if equation.kind == "AMB" or equation.constructed else subject.line(equation.about)
 
 
 def _chosen(subject: Subject) -> _Chosen:

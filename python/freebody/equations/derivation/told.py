@@ -273,6 +273,11 @@ class Subject:
         along = {name: joint.get("along") for name, joint in joints.items()}
         return {name: _line_words(*text.rpartition(".")[::2]) for name, text in along.items() if isinstance(text, str)}
 
+    def line(self, direction: str) -> str:
+        """A direction that is named after a joint by the name of its line: ``the normal of the slope``."""
+        joint = next((name for name in self.lines if direction == name or direction.endswith(f" of {name}")), None)
+        return direction.removesuffix(joint) + self.lines[joint] if joint else direction
+
     def _told(self, questions: Sequence[Question]) -> dict[str, Any]:
         setting = {"at_rest": self.at_rest, "numbers": dict(self.numbers or {})}
         s = self.state

@@ -236,7 +236,7 @@ class Latex(Markup):
         )
 
     def bullets(self, items: Sequence[str]) -> str:
-        return "\n".join([r"\begin{itemize}", *(rf"\item {item}" for item in items), r"\end{itemize}"])
+        return "\n".join([r"\begin{itemize}\sloppy", *(rf"\item {item}" for item in items), r"\end{itemize}"])
 
     def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
         body = [" & ".join(row) + r" \\" for row in rows]
@@ -304,12 +304,12 @@ def _over_pages(math: str, tag: str) -> str:
 
 def _below(math: str) -> str:
     """A formula on lines below the words of a list."""
-    shown = breaking.lines(math, breaking.ROOM - _SLACK)
-    return (
-        "\n\\[\n"
-        + (shown[0] if len(shown) == 1 else aligned([f"&{shown[0]}", *(rf"&\quad {line}" for line in shown[1:])]))
-        + "\n\\]\n"
-    )
+    room = breaking.ROOM - _SLACK
+    shown = breaking.lines(math, room)
+    made = shown[0] if len(shown) == 1 else aligned([f"&{shown[0]}", *(rf"&\quad {line}" for line in shown[1:])])
+    if max(map(breaking.width, shown)) > room:
+        made = _fitted(rf"$\displaystyle {made}$")
+    return f"\n\\[\n{made}\n\\]\n"
 
 
 _SIGNS = {sign: rf"\{word}" for word, sign in GREEK.items()}
