@@ -16,6 +16,7 @@ _LETTER, _CAPITAL, _DIGIT, _SCRIPT = 0.52, 0.76, 0.5, 0.7
 _WIDTHS = {
     "+": 1.22, "-": 1.22, "=": 1.33, ",": 0.45, "(": 0.39, ")": 0.39, "m": 0.88, "w": 0.72, "l": 0.3, "i": 0.35, "t": 0.36,
     r"\cdot": 0.72, r"\,": 0.17, r"\ ": 0.25, r"\quad": 1.0, r"\sin": 1.5, r"\cos": 1.55, r"\tan": 1.65, r"\ln": 1.1, r"\exp": 1.75,
+    r"\bigl": 0.1, r"\bigr": 0.1, r"\Bigl": 0.1, r"\Bigr": 0.1,
 }  # fmt: skip
 _FRACTIONS = {r"\frac": 1.0, r"\tfrac": _SCRIPT}
 _WORDS = (r"\text", r"\mathrm", r"\operatorname")

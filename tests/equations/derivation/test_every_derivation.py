@@ -9,7 +9,8 @@ from conftest import numbers, other_parameters
 from freebody.balances.states import RATES, others
 from freebody.equations.derivation import FORMS, conserved, derive
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Add, Sym, evaluate
+from freebody.equations.document import Equation, is_tree
+from freebody.equations.tree import ZERO, Add, Sym, evaluate
 
 UNDETERMINED = re.compile(r"\b(nan|NaN|None|inf)\b")
 CLOSE = 1e-9
@@ -39,6 +40,19 @@ def test_what_drops_out_of_the_minimal_form_does_so_whatever_the_parameters_are(
     values = numbers(other)
     for part in derive(model, "minimal").parts:
         assert off(part, values, other.tables) < CLOSE, part.title
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_no_printed_equation_says_nothing(model, form):
+    sides = [(block.left, block.right) for block in derive(model, form).document.blocks if isinstance(block, Equation)]
+    assert not [left for left, right in sides if is_tree(left) and is_tree(right) and left == right]
+
+
+def test_the_inertia_of_a_coordinate_to_itself_is_positive_in_its_own_equation(model):
+    if model.rows or any(body.mass == ZERO for body in model.motions):
+        pytest.skip("for trees of bodies with mass")
+    matrix = derive(model, "minimal").mass_matrix
+    assert all(evaluate(matrix[i][i], model.values, model.tables) > 0 for i in range(len(matrix)))
 
 
 def elsewhere(source, start):

@@ -125,7 +125,7 @@ run: {until: 1 s}
 
 
 def test_a_disk_on_a_pin_through_its_centre_keeps_its_own_spin():
-    assert told(PINNED_DISK) == {("disk", "its mass centre")}
+    assert told(PINNED_DISK) == {("disk", "the mass centre of disk")}
 
 
 def test_friction_in_the_pin_takes_the_spin_away():

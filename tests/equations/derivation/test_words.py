@@ -12,7 +12,7 @@ from freebody.balances.states import nearby
 from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.opening import degrees, directions
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import evaluate, symbols
+from freebody.equations.tree import Sym, evaluate, minus, symbols
 from freebody.free_body import GROUND
 
 LADDER = """
@@ -157,3 +157,47 @@ def test_reasons_agree_in_number():
         == "they are couples, which have no part in a force balance"
     )
     assert agree("its sum with its friction is perpendicular to x", 2) == "their sums with their friction are perpendicular to x"
+
+
+def test_a_bearing_that_rubs_has_a_balance_for_every_force_of_its_law(written):
+    """As many equations and laws as unknowns, and all hold."""
+    mechanism, subject = written(BEARING)
+    found = mechanism.equations()
+    assert len(found.parts) + len(subject.laws) == len(found.unknowns) == 4
+    values = numbers(subject)
+    for tree in [*found.equations, *(minus(left, right) for left, right in subject.laws)]:
+        assert evaluate(tree, values) == pytest.approx(0, abs=1e-9)
+    assert "make" in found.text() and "no reaction of a joint" in found.text()
+
+
+def test_a_line_has_the_name_that_the_model_gives_it(written):
+    mechanism, _ = written(BLOCK)
+    titles = [part.title for part in mechanism.equations().parts]
+    assert titles == ["LMB along the normal of the slope for block", "LMB along the slope for block"]
+
+
+GEARS = """
+freebody: 1
+name: a pair of gears
+ground: {points: {B: [0.12 m, 0]}}
+bodies: {a: {shape: disk, radius: 3 cm, mass: 1 kg}, b: {shape: disk, radius: 9 cm, mass: 2 kg}}
+joints:
+  A: {type: hinge, of: [ground.O, a.centre], coordinate: phi}
+  B: {type: hinge, of: [ground.B, b.centre], coordinate: psi}
+  pair: {type: gear, of: [a.centre, b.centre], radii: [3 cm, 9 cm], pressure_angle: 20 deg}
+initial: {phi: 0, rates: {phi: 1}}
+"""
+
+
+def test_gears_turn_as_their_radii_whatever_the_angle_of_their_teeth(written):
+    mechanism, _ = written(GEARS)
+    for form in ("minimal", "brute"):
+        said = mechanism.equations(form).text()
+        assert "φ̇ + 3 ψ̇ = 0" in said and "φ̈ + 3 ψ̈ = 0" in said
+
+
+def test_a_joint_that_closes_a_loop_is_a_point_of_the_body_that_is_cut_free():
+    """The slider's pin as the end of the rod: no arm with the way of the slider."""
+    mechanism, _ = loaded(ROOT / "systems/GEN-SLIDER/model.yaml")
+    (rod,) = (part for part in mechanism.equations().parts if part.title == "AMB about C for rod")
+    assert Sym("x") not in symbols(rod.left, rod.right)

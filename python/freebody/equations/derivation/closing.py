@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+from freebody.equations.collect import common_number
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Printed
 from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph
 from freebody.equations.linear import Linear, linear_in
-from freebody.equations.tree import ZERO, Add, Sym, add, is_negative, mul, symbols
+from freebody.equations.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, symbols
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
@@ -52,8 +53,15 @@ def printed(rows: Sequence[Row]) -> list[Printed]:
 
 def written(rows: Sequence[Row]) -> list[Row]:
     """The rows as a person writes them: without those that say nothing, and with no more minus signs than need be."""
-    said = [row for row in rows if not row.says_nothing]
+    said = [_without_common_number(row) for row in rows if not row.says_nothing]
     return [row.negative if _reads_better_negative(row) else row for row in said]
+
+
+def _without_common_number(row: Row) -> Row:
+    """The row over what all its terms have in common and that has no letters: 0.03 cos(π/9) of the teeth of two gears."""
+    terms = [*row.linear.coefficients.values(), *([] if is_zero(row.linear.rest) else [row.linear.rest])]
+    common = common_number(terms)
+    return row if common == ONE else row.over(common)
 
 
 def _reads_better_negative(row: Row) -> bool:

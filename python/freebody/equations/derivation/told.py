@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from freebody.balances.states import nearby
+from freebody.equations.collect import divided
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
 from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
@@ -146,6 +147,13 @@ class Row:
         """The same with all signs changed."""
         value, rate = (None if tree is None else negative(tree) for tree in (self.value, self.rate))
         return replace(self, value=value, rate=rate, acceleration=negative(self.acceleration), linear=self.linear.negative())
+
+    def over(self, factor: Tree) -> Row:
+        """The same with everything divided by a number."""
+        value, rate = (None if tree is None else divided(tree, factor) for tree in (self.value, self.rate))
+        return replace(
+            self, value=value, rate=rate, acceleration=divided(self.acceleration, factor), linear=self.linear.over(factor)
+        )
 
     @property
     def says_nothing(self) -> bool:
