@@ -6,13 +6,14 @@ import math
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from freebody.equations.collect import factored
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
 from freebody.equations.document import Vector, Words, Written
 from freebody.equations.names import latex_name, subscript, unicode_name
-from freebody.equations.tree import Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
+from freebody.equations.tree import PI, Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,19 @@ class Direction:
     def sentence(self) -> Words:
         """What it is."""
         if self.link:
-            where = f" points along {self.link.name}, from {self.link.first} to {self.link.second}; "
-            return [unit(self.along), where, unit(self.across), " = k × ", unit(self.along), "."]
+            quarters = self.quarters - 4 * (self.quarters == 3)
+            ahead = add(self.angle, mul(number(Fraction(quarters, 2)), Sym(PI)))
+            where = f" points along {self.link.name}, from {self.link.first} to {self.link.second}, at the angle "
+            return [
+                unit(self.along),
+                where,
+                ahead,
+                " from i, counter-clockwise; ",
+                unit(self.across),
+                " = k × ",
+                unit(self.along),
+                ".",
+            ]
         at = ["at the angle ", self.angle, " from i, counter-clockwise"]
         where = [f"along the x axis of {joined(self.owners)}, "] if self.owners else []
         if self.turning and not self.owners:

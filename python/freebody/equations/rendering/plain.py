@@ -73,7 +73,7 @@ def _tied(math: str) -> str:
 
 def _component(tree: Tree, direction: str, letters: Letters, ascii: bool) -> str:
     inner = text(tree, letters, ascii=ascii)
-    if isinstance(tree, Add):
+    if isinstance(tree, Add) or re.search(r"/[^()]+$", inner):
         return f"({inner}) {direction}"
     return direction if inner == "1" else f"{inner[0]}{direction}" if inner in ("−1", "-1") else f"{inner} {direction}"
 
