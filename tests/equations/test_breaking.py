@@ -7,10 +7,12 @@ import matplotlib
 import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
 
+from freebody.check.language.glyphs import glyphs
 from freebody.equations import latex
 from freebody.equations.breaking import lines, width
+from freebody.equations.document import Document, Equation
 from freebody.equations.latex import sides_latex
-from freebody.equations.tree import add, minus, mul, power
+from freebody.equations.tree import ZERO, add, minus, mul, power
 
 TH1, TH2, X, M1, M2, L, G = map(sym, ("theta1", "theta2", "x", "m1", "m2", "l", "g"))
 A1, W1, W2 = sym("theta1", 2), sym("theta1", 1), sym("theta2", 1)
@@ -70,3 +72,10 @@ def test_widths_are_those_of_computer_modern(seed):
             math = latex(tree, LETTERS)
             set_in_type = parser.parse(f"${math.replace('tfrac', 'frac')}$", dpi=72).width / SIZE
             assert width(math) == pytest.approx(set_in_type, rel=0.1), math
+
+
+def test_an_equation_of_many_rows_may_go_on_over_the_page_and_can_be_read():
+    tree = add(*(product(M1, f"x{i}") for i in range(200)))
+    printed = Document((Equation(tree, ZERO),)).latex()
+    assert r"\begin{align}" in printed and printed.count(r"\notag") > 12
+    assert len(glyphs(printed)) > 400

@@ -205,7 +205,8 @@ class Latex(Markup):
 
     def render(self, blocks: Sequence[Block]) -> str:
         # Formulas in sentences are hardly ever broken: spaces may be wide.
-        return "\\emergencystretch=3em\n\n" + super().render(blocks)
+        lead = "\\emergencystretch=3em\n\n" if any(isinstance(block, Paragraph) for block in blocks) else ""
+        return lead + super().render(blocks)
 
     def plain(self, text: str) -> str:
         return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
@@ -215,7 +216,8 @@ class Latex(Markup):
 
     def display(self, math: str, label: str) -> str:
         tag = rf"\tag{{{label}}}" if label else r"\notag"
-        if "matrix" in math or "{array}" in math or max(map(breaking.width, math.split(ROW))) > breaking.ROOM + _SLACK:
+        rows = re.sub(r"\\(begin|end)\{aligned\}|&", "", math).split(ROW)
+        if "matrix" in math or "{array}" in math or max(map(breaking.width, rows)) > breaking.ROOM + _SLACK:
             math = _fitted(rf"$\displaystyle {math}$")
         elif math.startswith(r"\begin{aligned}") and math.count(ROW) >= _TALL:
             return _over_pages(math, tag)
