@@ -23,6 +23,8 @@ WRITTEN = [
     (mul(number("1/4"), M1), "¼ m₁", "m1/4", r"\tfrac{1}{4} m_1"),
     (half(M, square(L)), "½ m l²", "m l^2/2", r"\tfrac{1}{2} m l^2"),
     (mul(number("1/12"), M, square(L)), "m l²/12", "m l^2/12", r"\tfrac{1}{12} m l^2"),
+    (mul(number("3/2"), M, sin(THETA)), "(3/2) m sin θ", "(3/2) m sin(theta)", r"\tfrac{3}{2} m \sin\theta"),
+    (mul(number("9/20000"), M), "0.00045 m", "0.00045 m", "0.00045 m"),
     (mul(number("-3/7"), M), "−3 m/7", "-3 m/7", r"-\tfrac{3}{7} m"),
     (mul(L, sin(THETA), G, M), "m g l sin θ", "m g l sin(theta)", r"m g l \sin\theta"),
     (mul(sin(THETA), square(sym("theta", 1)), L, M), "m l θ̇² sin θ", "m l (theta')^2 sin(theta)", r"m l \dot\theta^2 \sin\theta"),

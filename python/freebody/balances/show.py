@@ -10,6 +10,8 @@ from freebody.balances.minimal import MinimalForm
 from freebody.balances.smallest import SmallestSet, VirtualPower
 from freebody.tables import figure
 
+ROUND_OFF = 1e-14
+"""Part of the largest coefficient of an equation below which one is 0 at this state."""
 COUNT = ("no", "one", "two", "three", "four", "five")
 
 
@@ -78,7 +80,8 @@ def _equation(number: int, equation: BalanceEquation) -> list[str]:
 
 def _sides(coefficients: Mapping[str, float], right: float) -> str:
     sign = -1 if all(value < 0 for value in coefficients.values()) else 1
-    terms = [_term(sign * value, name) for name, value in coefficients.items()]
+    least = ROUND_OFF * max(map(abs, coefficients.values()), default=0.0)
+    terms = [_term(sign * value if abs(value) > least else 0.0, name) for name, value in coefficients.items()]
     return f"{' '.join(terms).removeprefix('+ ')} = {figure(sign * right + 0.0)}"
 
 

@@ -104,7 +104,8 @@ def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
 def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[Twist, list[Pair]]]:
     """The turns about joints, mass centres and named points, with the place at every state."""
     joints: dict[str, int] = {}
-    for i, load in enumerate(problem.free.loads):
+    pins_first = sorted(enumerate(problem.free.loads), key=lambda each: each[1].component not in ("x", "y"))
+    for i, load in pins_first:
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
     rolling = touching(problem.free)

@@ -7,10 +7,12 @@ import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number, power, symbols
+from freebody.equations.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul, number, power, symbols
 
 Powers = dict[Tree, Fraction]
 Term = tuple[Fraction | float, Powers]
+_ROUND_OFF = 1e-14
+"""Part of a measured number by which it may be off a whole one."""
 _CIRCLES = ({("sin", 2), ("cos", -2)}, {("sin", -2), ("cos", 2)})
 
 
@@ -20,9 +22,17 @@ def factored(tree: Tree) -> Tree:
         return tree
     terms = [_split(term) for term in tree.terms]
     common, size = _common(terms), _size(terms)
-    rest = [(c / size, {f: e - common.get(f, 0) for f, e in p.items() if e != common.get(f, 0)}) for c, p in terms]
+    rest = [(_whole(c / size), {f: e - common.get(f, 0) for f, e in p.items() if e != common.get(f, 0)}) for c, p in terms]
     inner = _square(rest) or add(*map(_joined, rest))
     return mul(number(size), *(power(f, e) for f, e in common.items()), inner)
+
+
+def common_number(trees: Sequence[Tree]) -> Tree:
+    """What is without letters, but not a mere number, and a factor of all: cos(π/9) of x cos(π/9) and 3 cos(π/9), with the number that
+    is common besides; 1 where there is nothing of the kind."""
+    terms = [_split(term) for tree in trees for term in (tree.terms if isinstance(tree, Add) else (tree,))]
+    shared = {f: e for f, e in _common(terms).items() if all(x == Sym(PI) for x in symbols(f))} if terms else {}
+    return mul(number(abs(_size(terms))), *(power(f, e) for f, e in shared.items())) if shared else ONE
 
 
 def collected(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
@@ -59,11 +69,24 @@ def without_circles(tree: Tree) -> Tree:
 
 def quotient(above: Tree, below: Tree) -> Tree:
     """``above / below`` without the factors that both have: (m g l)/(m l²) is g/l. It holds where these factors are not 0."""
+    if is_zero(above):
+        return above
     (size, top), (divisor, bottom) = _split(factored(above)), _split(factored(below))
     powers = dict(top)
     for factor, exponent in bottom.items():
         powers[factor] = powers.get(factor, Fraction(0)) - exponent
-    return _joined((size / divisor, {factor: exponent for factor, exponent in powers.items() if exponent}))
+    return _joined((_whole(size / divisor), {factor: exponent for factor, exponent in powers.items() if exponent}))
+
+
+def divided(tree: Tree, factor: Tree) -> Tree:
+    """``tree / factor``, term by term."""
+    return add(*(quotient(term, factor) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
+
+
+def _whole(size: Fraction | float) -> Fraction | float:
+    """A measured number that is whole but for round-off as that number."""
+    near = isinstance(size, float) and size != 0 and abs(size - round(size)) < _ROUND_OFF * abs(size)
+    return Fraction(round(size)) if near else size
 
 
 def _is_circle(pair: tuple[Term, Term]) -> bool:
@@ -117,12 +140,14 @@ def _common(terms: Sequence[Term]) -> Powers:
     return {factor: exponent for factor, exponent in shared.items() if exponent > 0}
 
 
-def _size(terms: Sequence[Term]) -> Fraction:
+def _size(terms: Sequence[Term]) -> Fraction | float:
     """The number in front: the largest that leaves whole numbers, negative where all terms are."""
     sizes = [size for size, _ in terms]
     sign = -1 if all(size < 0 for size in sizes) else 1
     if any(isinstance(size, float) for size in sizes):
-        return Fraction(sign)
+        least = min(map(abs, sizes))
+        multiples = least > 0 and all(isinstance(_whole(float(size / least)), Fraction) for size in sizes)
+        return sign * _whole(least) if multiples else Fraction(sign)
     above = math.gcd(*(abs(size.numerator) for size in sizes))
     below = {size.denominator for size in sizes}
     return sign * Fraction(above, below.pop() if len(below) == 1 else 1)

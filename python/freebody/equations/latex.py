@@ -9,14 +9,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.equations import layout
+from freebody.equations import breaking, layout
+from freebody.equations.breaking import ROOM
 from freebody.equations.letters import Letters
 from freebody.equations.names import latex_name, upright
-from freebody.equations.printer import Printer, Term
-from freebody.equations.text import TextPrinter, columns
+from freebody.equations.printer import Printer
 from freebody.equations.tree import Entries, Fn, Sym, Tree
 
-WIDTH = 80
+ROW = " \\\\\n"
+"""Between two rows of an equation."""
 _MATRIX = 10  # columns of a matrix of amsmath
 _KNOWN = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "ln": r"\ln", "exp": r"\exp", "atan2": r"\operatorname{atan2}",
           "sign": r"\operatorname{sign}"}  # fmt: skip
@@ -27,29 +28,31 @@ def latex(tree: Tree, letters: Letters | None = None) -> str:
     return LatexPrinter(letters or Letters()).expression(tree)
 
 
-def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, width: int = WIDTH) -> str:
-    """``left = right`` for mathematics mode; what would print wider than ``width`` letters is ``aligned`` over lines."""
-    printer = LatexPrinter(letters or Letters())
-    plain = TextPrinter(printer.letters)
-    if columns(f"{plain.expression(left)} = {plain.expression(right)}") <= width:
-        return f"{printer.expression(left)} = {printer.expression(right)}"
-    first, second = (_lines(printer, plain, side, width) for side in (left, right))
-    return aligned(first, second, beside=columns(plain.expression(left)) <= width // 2)
+def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, room: float = ROOM) -> str:
+    """``left = right`` for mathematics mode; what would print wider than ``room`` em is ``aligned`` over lines."""
+    return sides_latex(latex(left, letters), latex(right, letters), room=room)
 
 
-def aligned(left: Sequence[str], right: Sequence[str], *, beside: bool) -> str:
-    """An equation over several lines, its sides being given line by line; ``beside``: ``= …`` may stand beside a left side."""
-    rows = ["&" + left[0], *(rf"&\quad {line}" for line in left[1:])]
-    rows += ["&= " + right[0], *(rf"&\quad {line}" for line in right[1:])]
-    if len(left) == 1 and beside:
-        rows = [f"{left[0]} {rows[1]}", *rows[2:]]
-    return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+def sides_latex(left: str, right: str, *, room: float = ROOM) -> str:
+    """Two sides as an equation, on one line or ``aligned`` over several: ``= …`` stands beside a left side that is short."""
+    whole = f"{left} = {right}"
+    if breaking.width(whole) <= room:
+        return whole
+    before = breaking.width(f"{left} =")
+    if before <= room / 3:
+        first, *more = breaking.lines(right, room - before)
+        return aligned([rf"{left} &= {first}", *(rf"&\quad {line}" for line in more)])
+    above, below = breaking.lines(left, room), breaking.lines(right, room - breaking.width("="))
+    return aligned([*_indented(above), *_indented([f"= {below[0]}", *below[1:]])])
 
 
-def latex_lines(tree: Tree, letters: Letters | None = None, *, width: int = WIDTH) -> list[str]:
-    """The expression over as many lines as it needs, each after the first beginning with its sign."""
-    printer = LatexPrinter(letters or Letters())
-    return _lines(printer, TextPrinter(printer.letters), tree, width)
+def _indented(lines: Sequence[str]) -> list[str]:
+    return [f"&{lines[0]}", *(rf"&\quad {line}" for line in lines[1:])]
+
+
+def aligned(rows: Sequence[str]) -> str:
+    """Rows of which each has one place to stand below the others."""
+    return "\\begin{aligned}\n" + ROW.join(rows) + "\n\\end{aligned}"
 
 
 def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
@@ -61,20 +64,6 @@ def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
     if across > _MATRIX:
         return f"\\left[\\begin{{array}}{{{'c' * across}}}\n{body}\n\\end{{array}}\\right]"
     return f"\\begin{{bmatrix}}\n{body}\n\\end{{bmatrix}}"
-
-
-def _lines(printer: LatexPrinter, plain: TextPrinter, side: Tree, width: int) -> list[str]:
-    lines: list[list[Term]] = []
-    room = 0
-    for term, shown in zip(printer.terms(side), plain.terms(side), strict=True):
-        room -= columns(shown.text) + 3
-        if not lines or room < 0:
-            lines.append([])
-            room = width - columns(shown.text)
-        lines[-1].append(term)
-    return [
-        printer.join(line) if place == 0 or line[0].negative else "+ " + printer.join(line) for place, line in enumerate(lines)
-    ]
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,8 @@ from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, power, sy
 
 SIMPLE_FUNCTIONS = ("sin", "cos", "tan", "ln")
 """Functions that a person writes without brackets when what they are of is one letter."""
+_TENTHS = 10
+"""The largest denominator with a 5 in it that stands as a fraction."""
 _PARAMETERS, _COORDINATES, _FUNCTIONS, _RATES, _BARE = range(1, 6)
 
 
@@ -38,6 +40,11 @@ def is_bare(tree: Tree) -> bool:
     return isinstance(node, Fn) and node.name in SIMPLE_FUNCTIONS and _is_plain(node.args[0])
 
 
+def is_function(tree: Tree) -> bool:
+    """Whether a factor is a function, or a power of one."""
+    return isinstance(tree.base if isinstance(tree, Pow) else tree, Fn)
+
+
 def product(tree: Tree, letters: Letters) -> Product:
     """The tree as one product."""
     factors = _factors(tree)
@@ -47,7 +54,14 @@ def product(tree: Tree, letters: Letters) -> Product:
     below = [power(f.base, -f.exponent) for f in rest if isinstance(f, Pow) and f.exponent < 0]
     above = _sorted((f for f in rest if not (isinstance(f, Pow) and f.exponent < 0)), letters)
     head = tuple(factor for factor in above if _class(factor, letters) == _PARAMETERS)
-    return Product(size < 0, abs(size), head, tuple(above[len(head) :]), tuple(_sorted(below, letters)))
+    return Product(size < 0, _as_measured(abs(size)), head, tuple(above[len(head) :]), tuple(_sorted(below, letters)))
+
+
+def _as_measured(size: Fraction | float) -> Fraction | float:
+    """A fraction that nobody calculates with, 9/20000, as the decimal that it is."""
+    if not isinstance(size, Fraction) or size.denominator <= _TENTHS or size.denominator % 5:
+        return size
+    return float(size) if Fraction(f"{float(size):.10g}") == size else size
 
 
 def stands_apart(laid: Product, letters: Letters) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from freebody.equations.collect import divided
 from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read, symbols
 
 
@@ -24,6 +25,10 @@ class Linear:
     def negative(self) -> Linear:
         """−1 times the expression."""
         return Linear({x: negative(tree) for x, tree in self.coefficients.items()}, negative(self.rest))
+
+    def over(self, factor: Tree) -> Linear:
+        """The expression divided by a number."""
+        return Linear({x: divided(tree, factor) for x, tree in self.coefficients.items()}, divided(self.rest, factor))
 
 
 def linear_in(tree: Tree, unknowns: Collection[Sym]) -> Linear:

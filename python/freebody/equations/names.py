@@ -105,6 +105,11 @@ def superscript(text: str) -> str:
     return text.translate(_SUPERSCRIPTS)
 
 
+def subscript(digits: str) -> str:
+    """Digits, lowered: ``₁₂``."""
+    return digits.translate(_SUBSCRIPTS)
+
+
 def _letter(stem: str) -> str:
     return f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else upright(stem.replace("_", " "))
 

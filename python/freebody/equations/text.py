@@ -97,10 +97,13 @@ class TextPrinter(Printer):
         return f"{mantissa}×10{superscript(str(int(exponent)))}" if exponent else mantissa
 
     def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
-        # One rule: in front where it is one sign, ½ m l²; else what is below stands behind, m l²/12, as it does in angles, π/2.
+        # In front where it is one sign, ½ m l²; else what is below stands behind, m l²/12, as it does in angles, π/2, but not behind
+        # functions: (3/2) m g l sin θ.
         vulgar = "" if list(factors) == [Sym("pi")] else self._vulgar(value)
         if vulgar or not factors:
             return self.juxtapose([vulgar or str(value), *map(self._factor, factors)])
+        if any(layout.is_function(factor) for factor in factors):
+            return self.juxtapose([self.bracket(str(value)), *map(self._factor, factors)])
         ends_bare = layout.is_bare(factors[-1])
         return self.fraction(self._factors(value.numerator, factors), str(value.denominator), ends_bare, False)
 

@@ -117,6 +117,12 @@ def is_zero(tree: Tree) -> bool:
     return _is(tree, 0)
 
 
+def is_negative(term: Tree) -> bool:
+    """Whether a term has a minus sign: a number below 0 is its first factor."""
+    first = term.factors[0] if isinstance(term, Mul) else term
+    return isinstance(first, Num) and first.value < 0
+
+
 def children(tree: Tree) -> tuple[Tree, ...]:
     """The trees directly below."""
     match tree:

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import freebody as fb
 from freebody import _core
@@ -19,6 +20,22 @@ TRIES = 8
 
 def named(path):
     return str(path.relative_to(ROOT))
+
+
+def loaded(path):
+    mechanism = fb.load(path)
+    return mechanism, mechanism.start()[0]
+
+
+@pytest.fixture(params=FILES, ids=named)
+def model(request):
+    """A model of the catalogue at its start."""
+    mechanism, start = loaded(request.param)
+    try:
+        mechanism.solve()
+    except _core.MotionError:
+        pytest.skip("the model has no motion at all")
+    return Subject(mechanism.source(), start)
 
 
 def states(source, start, count=2):
@@ -59,6 +76,16 @@ def numbers(subject):
     return found
 
 
-def loaded(path):
-    mechanism = fb.load(path)
-    return mechanism, mechanism.start()[0]
+def other_parameters(subject):
+    """The same mechanism with no parameter as it was, loops closed; None where the same things do not act then."""
+    source, start = subject.source, subject.state
+    names = [c["name"] for c in source.about["coordinates"]]
+    given = zip(source.about["parameters"], start.p, np.random.default_rng(4).uniform(0.05, 0.15, len(start.p)), strict=True)
+    p = source.core.bind({each["name"]: float(x) * (1 + part) + part * (x == 0) for each, x, part in given})
+    try:
+        q, u, _ = source.core.assemble(p, start.t, guess=dict(zip(names, start.q, strict=True)))
+        other = Subject(source, State(p, start.t, q, u))
+        alike = [load.symbol for load in other.free.loads] == [load.symbol for load in subject.free.loads]
+        return other if alike else None
+    except _core.MotionError:
+        return None

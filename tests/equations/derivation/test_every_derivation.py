@@ -4,32 +4,22 @@ import re
 
 import numpy as np
 import pytest
-from conftest import FILES, loaded, named, numbers
+from conftest import numbers, other_parameters
 
-from freebody import _core
 from freebody.balances.states import RATES, others
 from freebody.equations.derivation import FORMS, conserved, derive
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Add, Sym, evaluate
+from freebody.equations.document import Equation, is_tree
+from freebody.equations.tree import ZERO, Add, Sym, evaluate
 
 UNDETERMINED = re.compile(r"\b(nan|NaN|None|inf)\b")
 CLOSE = 1e-9
 
 
-@pytest.fixture(params=FILES, ids=named)
-def model(request):
-    mechanism, start = loaded(request.param)
-    try:
-        mechanism.solve()
-    except _core.MotionError:
-        pytest.skip("the model has no motion at all")
-    return mechanism.source(), start
-
-
 @pytest.mark.parametrize("form", FORMS)
 def test_every_equation_holds_elsewhere_and_in_motion(model, form):
     """At other places where the same things touch, are taut and slide the same way, at rates and times of their own."""
-    source, start = model
+    source, start = model.source, model.state
     found = derive(Subject(source, start), form)
     assert not UNDETERMINED.search(found.text())
     assert "<math" in found.html()  # raises for a formula that MathML lacks
@@ -40,6 +30,29 @@ def test_every_equation_holds_elsewhere_and_in_motion(model, form):
         same_signs(found, dict.fromkeys(found.unknowns, 1.0), values, subject.tables)
     if found.content.system.is_square and found.unknowns:
         agrees(found, values, subject.tables)
+
+
+def test_what_drops_out_of_the_minimal_form_does_so_whatever_the_parameters_are(model):
+    """A slope that is level, or two lengths that are equal, at the numbers of the model, are no reason."""
+    other = other_parameters(model)
+    if other is None:
+        pytest.skip("with other parameters other things act")
+    values = numbers(other)
+    for part in derive(model, "minimal").parts:
+        assert off(part, values, other.tables) < CLOSE, part.title
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_no_printed_equation_says_nothing(model, form):
+    sides = [(block.left, block.right) for block in derive(model, form).document.blocks if isinstance(block, Equation)]
+    assert not [left for left, right in sides if is_tree(left) and is_tree(right) and left == right]
+
+
+def test_the_inertia_of_a_coordinate_to_itself_is_positive_in_its_own_equation(model):
+    if model.rows or any(body.mass == ZERO for body in model.motions):
+        pytest.skip("for trees of bodies with mass")
+    matrix = derive(model, "minimal").mass_matrix
+    assert all(evaluate(matrix[i][i], model.values, model.tables) > 0 for i in range(len(matrix)))
 
 
 def elsewhere(source, start):
@@ -54,7 +67,7 @@ LOST = 1e-6
 def test_energy_is_constant_or_lost_as_is_said(model):
     """Its rate, by a central difference along the true motion, is 0 where it is said to be conserved, and below it where all that is
     said is that something rubs."""
-    source, start = model
+    source, start = model.source, model.state
     kinetic, potential, why = conserved.energy(Subject(source, start))
     rubs_only = re.fullmatch(r"[^;]* rubs?", why)
     if why and not rubs_only:

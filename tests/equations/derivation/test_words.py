@@ -12,7 +12,7 @@ from freebody.balances.states import nearby
 from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.opening import degrees, directions
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import evaluate, symbols
+from freebody.equations.tree import Sym, evaluate, minus, symbols
 from freebody.free_body import GROUND
 
 LADDER = """
@@ -61,16 +61,6 @@ def written(tmp_path):
         return mechanism, Subject(mechanism.source(), mechanism.start()[0])
 
     return load
-
-
-@pytest.fixture(params=FILES, ids=named)
-def model(request):
-    mechanism, start = loaded(request.param)
-    try:
-        mechanism.solve()
-    except _core.MotionError:
-        pytest.skip("the model has no motion at all")
-    return Subject(mechanism.source(), start)
 
 
 def test_a_load_in_a_balance_is_told_for_a_body_of_it(model):
@@ -137,7 +127,10 @@ def of(path):
 def test_what_slides_has_a_balance_for_its_normal_force(written):
     """N = m g cos α; m s̈ = m g sin α − μ N."""
     found = written(BLOCK)[0].equations()
-    assert [part.title for part in found.parts] == ["LMB along the normal of guide for block", "LMB along guide for block"]
+    assert [part.title for part in found.parts] == [
+        "LMB along the normal of the slope for block",
+        "LMB along the slope for block",
+    ]
     assert "the friction of guide is μ N_guide, against the sliding" in found.text()
     g, alpha, mu = 9.81, np.radians(30), 0.2
     subject = written(BLOCK)[1]
@@ -167,3 +160,41 @@ def test_reasons_agree_in_number():
         == "they are couples, which have no part in a force balance"
     )
     assert agree("its sum with its friction is perpendicular to x", 2) == "their sums with their friction are perpendicular to x"
+
+
+def test_a_bearing_that_rubs_has_a_balance_for_every_force_of_its_law(written):
+    """As many equations and laws as unknowns, and all hold."""
+    mechanism, subject = written(BEARING)
+    found = mechanism.equations()
+    assert len(found.parts) + len(subject.laws) == len(found.unknowns) == 4
+    values = numbers(subject)
+    for tree in [*found.equations, *(minus(left, right) for left, right in subject.laws)]:
+        assert evaluate(tree, values) == pytest.approx(0, abs=1e-9)
+    assert "make" in found.text() and "no reaction of a joint" in found.text()
+
+
+GEARS = """
+freebody: 1
+name: a pair of gears
+ground: {points: {B: [0.12 m, 0]}}
+bodies: {a: {shape: disk, radius: 3 cm, mass: 1 kg}, b: {shape: disk, radius: 9 cm, mass: 2 kg}}
+joints:
+  A: {type: hinge, of: [ground.O, a.centre], coordinate: phi}
+  B: {type: hinge, of: [ground.B, b.centre], coordinate: psi}
+  pair: {type: gear, of: [a.centre, b.centre], radii: [3 cm, 9 cm], pressure_angle: 20 deg}
+initial: {phi: 0, rates: {phi: 1}}
+"""
+
+
+def test_gears_turn_as_their_radii_whatever_the_angle_of_their_teeth(written):
+    mechanism, _ = written(GEARS)
+    for form in ("minimal", "brute"):
+        said = mechanism.equations(form).text()
+        assert "φ̇ + 3 ψ̇ = 0" in said and "φ̈ + 3 ψ̈ = 0" in said
+
+
+def test_a_joint_that_closes_a_loop_is_a_point_of_the_body_that_is_cut_free():
+    """The slider's pin as the end of the rod: no arm with the way of the slider."""
+    mechanism, _ = loaded(ROOT / "systems/GEN-SLIDER/model.yaml")
+    (rod,) = (part for part in mechanism.equations().parts if part.title == "AMB about C for rod")
+    assert Sym("x") not in symbols(rod.left, rod.right)

@@ -89,6 +89,7 @@ _NOTHING = {
     "Bigl",
     "Bigr",
     "displaystyle",
+    "allowdisplaybreaks",
     "notag",
     "nonumber",
     "limits",

@@ -14,8 +14,8 @@ from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Add, Mul, Num, Sym, Tree, evaluate, is_zero, negative
-from freebody.free_body import Body, Load
+from freebody.equations.tree import Add, Sym, Tree, evaluate, is_negative, is_zero, negative, symbols
+from freebody.free_body import Body, FreeBodies, Load
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
 """Points that bodies have without being told; the names of others are better known to a person."""
@@ -26,13 +26,15 @@ _SAME = 1e-9
 @dataclass(frozen=True)
 class Stated:
     """A balance with its name: ``AMB about the pin elbow for forearm``. ``where`` is the point or direction in words, ``word``
-    about, along or across; a ``constructed`` one is only described."""
+    about, along or across; a ``constructed`` one is only described. ``own``: the sign of the acceleration that it is for, 0 where
+    it is for none."""
 
     balance: Balance
     where: str
     word: str
     label: str = ""
     constructed: bool = False
+    own: int = 0
 
     @property
     def kind(self) -> str:
@@ -46,14 +48,14 @@ class Stated:
 
     @property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts, each unknown with one factor; without a minus sign before every term."""
+        """What is moved = what acts, each unknown with one factor; ``is_turned`` where that reads better."""
         left, right = self._collected
-        return (negative(left), negative(right)) if self._is_turned else (left, right)
+        return (negative(left), negative(right)) if self.is_turned else (left, right)
 
     @property
     def linear(self) -> Linear:
         """The equation as linear in what is unknown, with the sign of its sides."""
-        return self.balance.linear.negative() if self._is_turned else self.balance.linear
+        return self.balance.linear.negative() if self.is_turned else self.balance.linear
 
     @cached_property
     def _collected(self) -> tuple[Tree, Tree]:
@@ -61,14 +63,16 @@ class Stated:
         return collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
 
     @property
-    def _is_turned(self) -> bool:
-        left, right = self._collected
-        return _all_negative(left) and (_all_negative(right) or is_zero(right))
+    def is_turned(self) -> bool:
+        """Whether all signs are changed: so that its own acceleration is positive, or some acceleration."""
+        return self.own < 0 or (self.own == 0 and _all_negative(self._collected[0]))
 
 
 def _all_negative(side: Tree) -> bool:
-    terms = side.terms if isinstance(side, Add) else (side,)
-    return all(isinstance(t, Mul) and isinstance(t.factors[0], Num) and t.factors[0].value < 0 for t in terms)
+    """Whether all terms with accelerations are; where there are none, whether all terms are."""
+    every = side.terms if isinstance(side, Add) else (side,)
+    terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
+    return all(map(is_negative, terms))
 
 
 def blocks(subject: Subject, stated: Stated) -> list[Block]:
@@ -94,7 +98,8 @@ def blocks(subject: Subject, stated: Stated) -> list[Block]:
     if inertia:
         rate = "angular momentum" if balance.turns else "momentum"
         made += [Paragraph(f"The rate of {rate}:"), Bullets(inertia)]
-    made.append(Equation(*stated.sides, f"So {sign} is", stated.label))
+    turned = ", with all signs changed," if stated.is_turned else ""
+    made.append(Equation(*stated.sides, f"So {sign}{turned} is", stated.label))
     return made
 
 
@@ -142,7 +147,12 @@ def numbers(subject: Subject, balance: Balance) -> tuple[float, float]:
 
 def size(subject: Subject) -> float:
     """The size of the mechanism, m."""
-    points = np.array([part.point for load in subject.free.loads for part in load.on] or [(0.0, 0.0)])
+    return extent(subject.free)
+
+
+def extent(free: FreeBodies) -> float:
+    """How far apart loads act, m."""
+    points = np.array([part.point for load in free.loads for part in load.on] or [(0.0, 0.0)])
     return float(np.hypot(*np.ptp(points, axis=0))) or 1.0
 
 
@@ -153,7 +163,7 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     for load in free.loads:
         pinned = load.kind == "joint" and load.component in ("x", "y")
         if pinned and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
-            return f"the pin {load.name}"
+            return pin(load.name)
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"
@@ -162,6 +172,17 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     ]
     own = sorted(there, key=lambda name: name.rpartition(".")[2] in _GIVEN)
     return _short(subject, own[0]) if own else ""
+
+
+def is_at(free: FreeBodies, point: tuple[str, float, float], at: tuple[float, float]) -> bool:
+    """Whether a point (body, x, y in its frame) is at a place."""
+    body, *where = point
+    return body in free.bodies and _near(free.bodies[body], (where[0], where[1]), at) < _SAME * extent(free)
+
+
+def pin(name: str) -> str:
+    """A hinge as a point; not ``the pin pin``."""
+    return name if "pin" in name.lower() else f"the pin {name}"
 
 
 def _near(body: Body, point: tuple[float, float], at: tuple[float, float]) -> float:

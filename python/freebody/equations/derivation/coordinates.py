@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from freebody.equations.derivation.balancing import Stated, named_place, numbers
+import numpy as np
+
+from freebody.equations.derivation.balancing import Stated, named_place, numbers, pin
 from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.tree import is_zero
+from freebody.equations.tree import ZERO, Sym, evaluate, is_zero
 
 _ALONG = {
     "slider": "the slider {}", "slot": "the slot {}", "rollers": "the way of {}", "curved_slot": "the tangent of {}",
@@ -20,9 +22,15 @@ def stated(subject: Subject) -> list[Stated]:
     asked = [_question(subject, coordinate) for coordinate in subject.coordinates]
     found = subject.balances(asked)
     return [
-        Stated(balance, *_place(subject, coordinate, balance))
+        Stated(balance, *_place(subject, coordinate, balance), own=_sense(subject, coordinate["name"], balance))
         for coordinate, balance in zip(subject.coordinates, found, strict=True)
     ]
+
+
+def _sense(subject: Subject, name: str, balance: Balance) -> int:
+    """The sign with which the acceleration of a coordinate stands in its balance: 0 where nothing is moved."""
+    inertia = balance.linear.coefficients.get(Sym(name, 2), ZERO)
+    return int(np.sign(evaluate(inertia, subject.values, subject.tables)))
 
 
 def _question(subject: Subject, coordinate: Mapping[str, Any]) -> dict[str, Any]:
@@ -55,9 +63,7 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
     joint = _joint(subject, coordinate)
     if balance.turns:
         named = (
-            f"the pin {joint['name']}"
-            if joint["type"] == "hinge"
-            else named_place(subject, numbers(subject, balance), balance.bodies)
+            pin(joint["name"]) if joint["type"] == "hinge" else named_place(subject, numbers(subject, balance), balance.bodies)
         )
         return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
     if joint["type"] == "link":
@@ -67,7 +73,8 @@ def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) ->
     x, y = balance.place.xy
     if is_zero(x) or is_zero(y):
         return _axis(*numbers(subject, balance)), "along"
-    return _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
+    line = subject.lines.get(joint["name"])
+    return line or _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
 
 
 def _axis(x: float, y: float) -> str:

@@ -160,7 +160,7 @@ class _Writer:
             Equation(*law, "The law of friction, as the joint slides now" if not i else "")
             for i, law in enumerate(self.subject.laws)
         ]
-        return [*kinematics, *self.content.blocks, *laws, *matrices.section(self.form, self.content, self.letters)]
+        return [*kinematics, *self.content.blocks, *laws, *matrices.section(self.form, self.content, self.subject)]
 
 
 def used(blocks: Any) -> set[str]:

@@ -6,13 +6,14 @@ import math
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from freebody.equations.collect import factored
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
 from freebody.equations.document import Vector, Words, Written
-from freebody.equations.names import latex_name, unicode_name
-from freebody.equations.tree import Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
+from freebody.equations.names import latex_name, subscript, unicode_name
+from freebody.equations.tree import PI, Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,19 @@ class Direction:
     def sentence(self) -> Words:
         """What it is."""
         if self.link:
-            where = f" points along {self.link.name}, from {self.link.first} to {self.link.second}; "
-            return [unit(self.along), where, unit(self.across), " = k × ", unit(self.along), "."]
+            quarters = self.quarters - 4 * (self.quarters == 3)
+            ahead = add(self.angle, mul(number(Fraction(quarters, 2)), Sym(PI)))
+            where = f" points along {self.link.name}, from {self.link.first} to {self.link.second}, at the angle "
+            return [
+                unit(self.along),
+                where,
+                ahead,
+                " from i, counter-clockwise; ",
+                unit(self.across),
+                " = k × ",
+                unit(self.along),
+                ".",
+            ]
         at = ["at the angle ", self.angle, " from i, counter-clockwise"]
         where = [f"along the x axis of {joined(self.owners)}, "] if self.owners else []
         if self.turning and not self.owners:
@@ -110,9 +122,9 @@ class Directions:
     def vector(self, arrow: Arrow) -> Vector:
         """A vector in these directions and i, j."""
         parts: list[tuple[Tree, str]] = [(arrow.i, "i"), (arrow.j, "j")]
-        for part in arrow.parts:
-            pair = next(pair for pair in self.pairs if pair.angle == part.angle)
-            x, y = part.along, part.across
+        told = {part.angle: part for part in arrow.parts}
+        for pair in (pair for pair in self.pairs if pair.angle in told):
+            x, y = told[pair.angle].along, told[pair.angle].across
             for _ in range(pair.quarters):
                 x, y = y, negative(x)
             parts += [(x, pair.along), (y, pair.across)]
@@ -160,7 +172,7 @@ def _term_rate(term: Tree, moving: Collection[str]) -> Tree | None:
 
 
 def _word(name: str) -> str:
-    return re.sub(r"\W+", "", name) or "1"
+    return re.sub(r"\W+", "", re.sub(r"\[(\d+)\]", lambda found: subscript(found[1]), name)) or "1"
 
 
 def _rate(name: str) -> Written:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
 
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
 from freebody.balances.show import fewest_words
-from freebody.balances.states import nearby
-from freebody.equations.derivation import closing, virtual
-from freebody.equations.derivation.balancing import Stated, blocks
+from freebody.equations.derivation import closing, rubbing, virtual
+from freebody.equations.derivation.balancing import Stated, blocks, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Heading, Paragraph, Words
-from freebody.equations.tree import Sym
+from freebody.equations.tree import Sym, operations, symbols
 from freebody.naming import coefficient
 from freebody.tables import figure
+
+_POINTS = 2
+"""Points of bodies tried for one place."""
 
 
 @dataclass(frozen=True)
@@ -35,11 +39,14 @@ def minimal(subject: Subject) -> Form:
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows = subject.rows
     chosen = _chosen(subject)
-    stated = [Stated(s.balance, s.where, s.word, str(i), s.constructed) for i, s in enumerate(chosen.stated, 1)]
+    added = rubbing.beside(subject, chosen.stated)
+    stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen.stated, *added], 1)]
     equations = [_printed(s) for s in stated]
     form = Form.of(subject.letters, equations + closing.printed(rows), [])
     made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, chosen)), *_friction(subject)]
+    if added:
+        made.append(Paragraph(rubbing.sentence(subject, added)))
     for s in stated:
         made += blocks(subject, s)
     if chosen.search and (chosen.search.stays or not chosen.search.equations) and stated:
@@ -49,11 +56,33 @@ def minimal(subject: Subject) -> Form:
 
 def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stated] | None:
     """Equations that a search found, in letters; None if one of them has no question."""
-    asked = [equation.question for equation in equations]
-    if None in asked:
+    asked = [_alike(subject, equation) for equation in equations]
+    if [] in asked:
         return None
-    found = subject.balances([question for question in asked if question])
-    return [_of_search(subject, balance, equation) for balance, equation in zip(found, equations, strict=True)]
+    found = iter(subject.balances([question for questions in asked for question in questions]))
+    told = [
+        [_of_search(subject, next(found), equation) for _ in questions]
+        for questions, equation in zip(asked, equations, strict=True)
+    ]
+    return [min(each, key=_length) for each in told]
+
+
+def _alike(subject: Subject, equation: BalanceEquation) -> list[Mapping[str, Any]]:
+    """The question for an equation, and others for the same: where a loop is closed a point of either body is the place of its load."""
+    question = equation.question
+    place = question and question.get("about")
+    if not question or not isinstance(place, Mapping) or "load" not in place:
+        return [question] if question else []
+    i = place["load"]
+    if all(row.name != subject.free.loads[i].name for row in subject.rows):
+        return [question]
+    within = [(name, point) for name, point in subject.points.items() if point[0] in equation.bodies]
+    there = [name for name, point in within if all(is_at(free, point, free.loads[i].on[-1].point) for free in subject.neighbours)]
+    return [question, *({**question, "about": {"point": name}} for name in there[:_POINTS])]
+
+
+def _length(stated: Stated) -> int:
+    return operations(stated.balance.left) + operations(stated.balance.right)
 
 
 def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) -> Stated:
@@ -63,14 +92,19 @@ def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) ->
     leading = {i for i, load in enumerate(loads) if load.symbol in gone}
     places = [i for i, load in enumerate(loads) if i in leading or (load.follows and load.follows[0] in leading)]
     where = "about" if balance.turns else "along"
-    return Stated(balance.without(places, gone), equation.about, where, "", equation.constructed)
+    return Stated(balance.without(places, gone), _place(subject, equation), where, "", equation.constructed)
+
+
+def _place(subject: Subject, equation: BalanceEquation) -> str:
+    """The point or direction of an equation, a line by its own name: ``the normal of the slope``."""
+    return equation.about if equation.kind == "AMB" or equation.constructed else subject.line(equation.about)
 
 
 def _chosen(subject: Subject) -> _Chosen:
     rubs = any(load.follows for load in subject.free.loads)
     if all(row.kind == "motion" for row in subject.rows) and not rubs:
         return _Chosen(of_coordinates(subject), None)
-    search = minimal_form(nearby(subject.source, subject.state), subject.points, forces=True)
+    search = minimal_form(subject.neighbours, subject.points, forces=True)
     found = from_search(subject, list(search.equations))
     return _Chosen(found if found or not search.wanted else of_coordinates(subject), search)
 
@@ -82,8 +116,9 @@ def _printed(stated: Stated) -> Printed:
 def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
     number, search = len(chosen.stated), chosen.search
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
-    rubbing = [name for name in form.reactions if search and name in search.rubbing]
-    others = [name for name in form.reactions if name not in (*prescribed, *rubbing)]
+    leading = [name for name in form.reactions if search and name in search.rubbing]
+    by_law = {letter.name for letter, law in subject.laws for letter in (letter, *symbols(law))}
+    others = [name for name in form.reactions if name not in (*prescribed, *leading, *by_law)]
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
         return "Nothing is free to move: no equation of motion is left. What holds it is found by brute force."
@@ -94,12 +129,12 @@ def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
         said.append(
             f"Here {joined(others)} {'stays' if len(others) == 1 else 'stay'}, so there {'is' if number == 1 else 'are'} {number}."
             if search.equations
-            else f"So the balances of the coordinates stand, and in them {joined(others)}."
+            else f"{'Just as many' if search.exact and len(others) == search.least else 'Some'} are in the balances of the coordinates: {joined(others)}."
         )
-    elif rubbing:
-        each = "" if number == 1 else f", one for each degree of freedom and one for {joined(rubbing)},"
+    elif leading:
+        each = "" if number == 1 else f", one for each degree of freedom and one for {joined(leading)},"
         said = [f"{count}{each} in which no other reaction stands."]
-    elif prescribed:
+    elif prescribed or by_law:
         said = [f"{count}{each} in which no reaction of a joint stands."]
     if prescribed:
         verb = "is" if len(prescribed) == 1 else "are"

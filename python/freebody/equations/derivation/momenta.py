@@ -10,13 +10,13 @@ import numpy as np
 from freebody.balances.lasting import Lasting, independent, lasting
 from freebody.balances.reasons import Place, agree, why_absent
 from freebody.balances.states import wandering
-from freebody.equations.collect import factored
+from freebody.equations.collect import factored, quotient
 from freebody.equations.derivation.balancing import size
 from freebody.equations.derivation.meaning import joined, load_words
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Equation, Paragraph, Written
 from freebody.equations.names import upright
-from freebody.equations.tree import Mul, Tree, is_zero, mul, symbols
+from freebody.equations.tree import Add, Tree, add, evaluate, is_negative, is_zero, negative, power, symbols
 from freebody.free_body import Load
 
 _ABSENT = 1e-9
@@ -32,11 +32,6 @@ class Momentum:
     found: Lasting
     momentum: Tree
 
-    @property
-    def where(self) -> str:
-        """``about ground.O``, ``along x``."""
-        return f"{'about' if self.found.turns else 'along'} {_name(self.found)}"
-
 
 def momenta(subject: Subject) -> list[Momentum]:
     """All that do not follow from each other. Numbers say which may be constant, letters whether they are."""
@@ -46,7 +41,7 @@ def momenta(subject: Subject) -> list[Momentum]:
         questions = [{"ask": "equation", "bodies": list(each.bodies), **(each.twist.question or {})} for each in asked]
         told |= {id(each): balance for each, balance in zip(asked, subject.balances(questions), strict=True)}
         may_be = [each for each in may_be if id(each) not in told or _holds(subject, each, told[id(each)])]
-    return [Momentum(each, _written(subject, each, told[id(each)])) for each in independent(may_be)]
+    return [Momentum(each, _written(subject, told[id(each)])) for each in independent(may_be)]
 
 
 def _holds(subject: Subject, found: Lasting, balance: Balance) -> bool:
@@ -81,15 +76,15 @@ def _letter(subject: Subject, found: Lasting) -> Written:
     return Written(plain, plain)
 
 
-def _written(subject: Subject, found: Lasting, balance: Balance) -> Tree:
-    """The momentum; along a direction that is that of a load, without the constant factors that this has."""
-    if balance.turns or isinstance((found.twist.question or {}).get("along"), str):
+def _written(subject: Subject, balance: Balance) -> Tree:
+    """The momentum; of a direction that is told by a load of another size than 1, over that size."""
+    if balance.turns:
         return balance.momentum
-    moving = {c["name"] for c in subject.coordinates}
+    x, y = balance.place.xy
+    size = float(np.hypot(*(evaluate(tree, subject.values, subject.tables) for tree in (x, y))))
     made = factored(balance.momentum)
-    if not isinstance(made, Mul):
-        return made
-    return mul(*(f for f in made.factors if any(x.name in moving for x in symbols(f))))
+    made = made if abs(size - 1) < _ABSENT else quotient(made, power(add(power(x, 2), power(y, 2)), "1/2"))
+    return negative(made) if not isinstance(made, Add) and is_negative(made) else made
 
 
 def _sentence(subject: Subject, each: Momentum) -> str:
@@ -97,16 +92,18 @@ def _sentence(subject: Subject, each: Momentum) -> str:
     whole = 1 < len(bodies) == len(subject.free.bodies)
     of = "" if whole else f" of {' + '.join(bodies)}"
     what = "angular momentum" if each.found.turns else "momentum"
-    return f"The {what}{of} {each.where} is conserved: {_reason(subject, each.found)}."
+    where = f"{'about' if each.found.turns else 'along'} {_name(subject, each.found)}"
+    return f"The {what}{of} {where} is conserved: {_reason(subject, each.found)}."
 
 
-def _name(found: Lasting) -> str:
-    alone = len(found.bodies) == 1 and found.twist.question == {"about": "centre"}
-    return "its mass centre" if alone else found.twist.name
+def _name(subject: Subject, found: Lasting) -> str:
+    if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
+        return "its mass centre"
+    return found.twist.name if found.turns else subject.line(found.twist.name)
 
 
 def _reason(subject: Subject, found: Lasting) -> str:
-    place = Place("AMB" if found.turns else "LMB", _name(found), found.at, False)
+    place = Place("AMB" if found.turns else "LMB", _name(subject, found), found.at, False)
     said: dict[str, list[str]] = {}
     for i, load in enumerate(subject.free.loads):
         if load.follows or load.inside(found.bodies) or not np.any(load.unit(found.bodies)):
@@ -116,7 +113,8 @@ def _reason(subject: Subject, found: Lasting) -> str:
         said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load, found.bodies))
     if not said:
         return "nothing acts from outside"
-    return f"from outside act {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"
+    verb = "acts" if sum(map(len, said.values())) == 1 else "act"
+    return f"from outside {verb} {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"
 
 
 def _works(load: Load, found: Lasting) -> bool:

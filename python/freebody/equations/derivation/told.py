@@ -8,14 +8,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
+from freebody.balances.states import nearby
+from freebody.equations.collect import divided
 from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
-from freebody.free_body import FreeBodies
+from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
+from freebody.free_body import GROUND, FreeBodies
 from freebody.instant import State
 from freebody.source import Source
 
 Question = Mapping[str, Any]
+_SEED, _OTHERS = 5, 3
+_NEAR = 0.15
+"""Part by which parameters of other states differ from those of a state, or what they are where they are 0 there."""
 
 
 @dataclass(frozen=True)
@@ -135,6 +142,24 @@ class Row:
     acceleration: Tree
     linear: Linear
 
+    @property
+    def negative(self) -> Row:
+        """The same with all signs changed."""
+        value, rate = (None if tree is None else negative(tree) for tree in (self.value, self.rate))
+        return replace(self, value=value, rate=rate, acceleration=negative(self.acceleration), linear=self.linear.negative())
+
+    def over(self, factor: Tree) -> Row:
+        """The same with everything divided by a number."""
+        value, rate = (None if tree is None else divided(tree, factor) for tree in (self.value, self.rate))
+        return replace(
+            self, value=value, rate=rate, acceleration=divided(self.acceleration, factor), linear=self.linear.over(factor)
+        )
+
+    @property
+    def says_nothing(self) -> bool:
+        """Whether it holds wherever the coordinates are, and however they move."""
+        return all(tree is None or is_zero(tree) for tree in (self.value, self.rate, self.acceleration))
+
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> Row:
         """From an answer."""
@@ -175,6 +200,21 @@ class Subject:
         """All loads at the state, in numbers; they are counted as in contributions."""
         s = self.state
         return FreeBodies.read(self.source.core.free_bodies(s.p, s.t, s.q, s.u))
+
+    @cached_property
+    def neighbours(self) -> list[FreeBodies]:
+        """The free bodies at the state and at others near by, with other parameters, as far as these are letters: so what drops out
+        of a balance there does so whatever the letters are."""
+        rng, fixed = np.random.default_rng(_SEED), self.numbers or {}
+        given = [(p["name"], float(x)) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)]
+        parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
+        changed = [
+            self.source.core.bind(
+                {name: x if name in fixed else part * (x or _NEAR) for (name, x), part in zip(given, row, strict=True)}
+            )
+            for row in parts
+        ]
+        return nearby(self.source, self.state, changed)
 
     @cached_property
     def rows(self) -> list[Row]:
@@ -234,7 +274,24 @@ class Subject:
         """Named points: body, x, y in its frame."""
         return json.loads(self.source.core.points(self.state.p))
 
+    @cached_property
+    def lines(self) -> Mapping[str, str]:
+        """The lines along which joints move, in the words of the model: joint → ``the slope``, ``the track of rod``."""
+        joints = json.loads(self.source.model).get("joints") or {}
+        along = {name: joint.get("along") for name, joint in joints.items()}
+        return {name: _line_words(*text.rpartition(".")[::2]) for name, text in along.items() if isinstance(text, str)}
+
+    def line(self, direction: str) -> str:
+        """A direction that is named after a joint by the name of its line: ``the normal of the slope``."""
+        joint = next((name for name in self.lines if direction == name or direction.endswith(f" of {name}")), None)
+        return direction.removesuffix(joint) + self.lines[joint] if joint else direction
+
     def _told(self, questions: Sequence[Question]) -> dict[str, Any]:
         setting = {"at_rest": self.at_rest, "numbers": dict(self.numbers or {})}
         s = self.state
         return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, json.dumps(setting), json.dumps(questions)))
+
+
+def _line_words(body: str, line: str) -> str:
+    name = f"the {line}" if len(line) > 1 else f"the line {line}"
+    return name if body in ("", GROUND) else f"{name} of {body}"

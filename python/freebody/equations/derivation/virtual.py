@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody import _core
-from freebody.balances.states import nearby
 from freebody.balances.system import DEPENDENT
+from freebody.equations.collect import common_number, divided
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.linear import Linear
 from freebody.equations.names import latex_name, unicode_name
-from freebody.equations.tree import Tree, is_zero, minus, read
+from freebody.equations.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
 from freebody.results import Array
 
 
@@ -28,6 +28,13 @@ class VirtualPower:
     left: Tree
     right: Tree
     linear: Linear
+
+    def over(self, factor: Tree) -> VirtualPower:
+        """The same with all rates divided by a number."""
+        if factor == ONE:
+            return self
+        rates = {name: divided(tree, factor) for name, tree in self.rates.items()}
+        return VirtualPower(rates, divided(self.left, factor), divided(self.right, factor), self.linear.over(factor))
 
     @property
     def residual(self) -> Tree:
@@ -44,7 +51,7 @@ def virtual_power(subject: Subject) -> list[VirtualPower]:
     """One equation for each degree of freedom, prescribed ones among them. Raises ``_core.MotionError`` where they grow too large."""
     names = [c["name"] for c in subject.coordinates]
     rows = [i for i, row in enumerate(subject.rows) if row.kind != "motion"]
-    told = nearby(subject.source, subject.state)[-1].rows
+    told = subject.neighbours[-1].rows
     table = np.array([[told[i].coefficients[name] for name in names] for i in rows]).reshape(len(rows), len(names))
     bound = [len(names) - 1 - place for place in _independent(table[:, ::-1].T)]
     kept = _independent(table[:, bound])
@@ -79,7 +86,11 @@ def section(subject: Subject, wanted: int) -> list[Block]:
 
 def _read(data: dict, names: Sequence[str]) -> VirtualPower:
     rates = {name: read(data["rates"][name]) for name in names}
-    return VirtualPower(rates, read(data["left"]), read(data["right"]), Linear.read(data["linear"]))
+    found = VirtualPower(rates, read(data["left"]), read(data["right"]), Linear.read(data["linear"]))
+    moved = [tree for tree in rates.values() if not is_zero(tree)]
+    size = common_number(moved)
+    signs = [-1 if is_negative(tree) else 1 for tree in moved]
+    return found.over(negative(size) if (sum(signs) or signs[0]) < 0 else size)
 
 
 def _independent(rows: Array) -> list[int]:

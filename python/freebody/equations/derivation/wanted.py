@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from freebody.balances.show import show
 from freebody.balances.smallest import SmallestSet, smallest_set
-from freebody.balances.states import nearby
 from freebody.equations.derivation import closing
 from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.minimal import from_search
@@ -23,7 +22,7 @@ def wanted(subject: Subject, name: str) -> Form:
     """The smallest set for a coordinate's acceleration, a component of a reaction, or a motion's force or torque.
 
     Raises ``KeyError`` for what is not unknown, ``Indeterminate``."""
-    found = smallest_set(name, nearby(subject.source, subject.state), subject.points)
+    found = smallest_set(name, subject.neighbours, subject.points)
     stated = from_search(subject, list(found.equations)) if found.equations else None
     if stated is None:
         return Form.of(subject.letters, [], [*_numeric(found), *_numbers(found)])

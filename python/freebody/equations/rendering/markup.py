@@ -6,9 +6,10 @@ import html
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from unicodedata import normalize
 
+from freebody.equations import breaking
 from freebody.equations.document import (
     Block,
     Bullets,
@@ -23,20 +24,23 @@ from freebody.equations.document import (
     Vector,
     Words,
     Written,
-    is_tree,
     pieces,
 )
-from freebody.equations.latex import WIDTH, LatexPrinter, aligned, equation_latex, latex, latex_lines, matrix_latex
+from freebody.equations.latex import ROW, LatexPrinter, aligned, latex, matrix_latex, sides_latex
 from freebody.equations.letters import Letters
 from freebody.equations.mathml import broken, mathml
 from freebody.equations.names import GREEK, SPELT, escaped, latex_name
-from freebody.equations.rendering.matrices import fitted, has_matrices
-from freebody.equations.rendering.plain import side_text
-from freebody.equations.text import columns
+from freebody.equations.rendering.matrices import Named, fitted, has_matrices
 from freebody.equations.tree import Add, Tree, is_zero
 
-_LINE = 75
-"""Signs of a formula that may be wider than a line: it is measured by TeX."""
+_ACROSS = 80
+"""Columns of text that an equation of matrices may take."""
+_SLACK = 2.5
+"""Width, in em, that lists are indented, and that a line without a number beside it has more."""
+_TALL = 12
+"""Rows of an equation from which on it may go on over the next page."""
+_INLINE = 16.0
+"""Width, in em, beyond which a formula in a list stands on lines of its own: TeX does not break it within brackets."""
 
 
 def side_latex(side: Side, letters: Letters) -> str:
@@ -49,16 +53,6 @@ def side_latex(side: Side, letters: Letters) -> str:
         parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
         return " + ".join(parts).replace("+ -", "- ") or "0"
     return latex(side, letters)
-
-
-def side_lines(side: Side, letters: Letters) -> list[str]:
-    """One side over as many lines as it needs: a vector that is long, a component a line."""
-    if is_tree(side):
-        return latex_lines(side, letters)
-    if isinstance(side, Vector) and columns(side_text(side, letters)) > WIDTH:
-        parts = [_component(tree, direction, letters) for tree, direction in side.components if not is_zero(tree)]
-        return [parts[0], *(part if part.startswith("-") else f"+ {part}" for part in parts[1:])]
-    return [side_latex(side, letters)]
 
 
 def _component(tree: Tree, direction: str, letters: Letters) -> str:
@@ -82,6 +76,7 @@ class Markup(ABC):
 
     letters: Letters
     beside: str = ""
+    named: Named = field(default_factory=Named)
 
     def render(self, blocks: Sequence[Block]) -> str:
         """All blocks."""
@@ -99,7 +94,7 @@ class Markup(ABC):
             case Equation():
                 return self.stated(block, self.equation(block))
             case Bullets(items):
-                return self.bullets([self.words(item) for item in items])
+                return self.bullets([self.item(item) for item in items])
             case Table():
                 rows = [[self.words(cell) for cell in row] for row in (block.heads, *block.rows)]
                 return self.table(rows[0], rows[1:], self.words(block.caption))
@@ -113,11 +108,15 @@ class Markup(ABC):
             for piece in pieces(words)
         )
 
+    def item(self, words: Words) -> str:
+        """A sentence of a list."""
+        return self.words(words)
+
     def matrices(self, block: Equation | MatrixEquation) -> str:
         """An equation of matrices, and below it the entries that have names."""
-        made, letters = fitted(block, self.letters, WIDTH)
+        made, letters = fitted(block, self.letters, _ACROSS)
         writer = replace(self, letters=letters)
-        parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in made]
+        parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in self.named.news(made)]
         return "\n\n".join(parts)
 
     def whole(self, block: Equation) -> str:
@@ -126,13 +125,7 @@ class Markup(ABC):
 
     def equation(self, block: Equation) -> str:
         """LaTeX of an equation."""
-        left, right = block.left, block.right
-        if is_tree(left) and is_tree(right):
-            return equation_latex(left, right, self.letters)
-        sides = [side_lines(side, self.letters) for side in (left, right)]
-        if all(len(lines) == 1 for lines in sides):
-            return f"{sides[0][0]} = {sides[1][0]}"
-        return aligned(*sides, beside=isinstance(left, Written))
+        return sides_latex(*(side_latex(side, self.letters) for side in (block.left, block.right)))
 
     def stated(self, block: Equation, body: str) -> str:
         """An equation between its name and its note."""
@@ -210,6 +203,11 @@ class Latex(Markup):
 
     _SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
 
+    def render(self, blocks: Sequence[Block]) -> str:
+        # Formulas in sentences are hardly ever broken: spaces may be wide.
+        lead = "\\emergencystretch=3em\n\n" if any(isinstance(block, Paragraph) for block in blocks) else ""
+        return lead + super().render(blocks)
+
     def plain(self, text: str) -> str:
         return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
 
@@ -218,8 +216,11 @@ class Latex(Markup):
 
     def display(self, math: str, label: str) -> str:
         tag = rf"\tag{{{label}}}" if label else r"\notag"
-        if max(map(_signs_of, math.split(r"\\"))) > _LINE:
+        rows = re.sub(r"\\(begin|end)\{aligned\}|&", "", math).split(ROW)
+        if "matrix" in math or "{array}" in math or max(map(breaking.width, rows)) > breaking.ROOM + _SLACK:
             math = _fitted(rf"$\displaystyle {math}$")
+        elif math.startswith(r"\begin{aligned}") and math.count(ROW) >= _TALL:
+            return _over_pages(math, tag)
         return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
 
     def heading(self, title: str, level: int) -> str:
@@ -228,8 +229,16 @@ class Latex(Markup):
     def paragraph(self, words: str) -> str:
         return words
 
+    def item(self, words: Words) -> str:
+        """A sentence of which a long formula stands below."""
+        shown = [p if isinstance(p, str) else side_latex(p, self.letters) for p in pieces(words)]
+        return "".join(
+            self.plain(made) if isinstance(piece, str) else self.inline(made) if breaking.width(made) <= _INLINE else _below(made)
+            for piece, made in zip(pieces(words), shown, strict=True)
+        )
+
     def bullets(self, items: Sequence[str]) -> str:
-        return "\n".join([r"\begin{itemize}", *(rf"\item {item}" for item in items), r"\end{itemize}"])
+        return "\n".join([r"\begin{itemize}\sloppy", *(rf"\item {item}" for item in items), r"\end{itemize}"])
 
     def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
         body = [" & ".join(row) + r" \\" for row in rows]
@@ -289,9 +298,20 @@ def _fitted(shown: str) -> str:
     return rf"\resizebox{{\ifdim\width>\linewidth\linewidth\else\width\fi}}{{!}}{{{shown}}}"
 
 
-def _signs_of(line: str) -> int:
-    """How many signs a line of a formula has, about."""
-    return len(re.sub(r"\\[a-zA-Z]+|[{}_^&\\\s]", "", line))
+def _over_pages(math: str, tag: str) -> str:
+    """Aligned rows that a page may end between."""
+    rows = math.removeprefix("\\begin{aligned}\n").removesuffix("\n\\end{aligned}").replace(ROW, rf" \notag{ROW}")
+    return f"{{\\allowdisplaybreaks\n\\begin{{align}}\n{rows} {tag}\n\\end{{align}}}}"
+
+
+def _below(math: str) -> str:
+    """A formula on lines below the words of a list."""
+    room = breaking.ROOM - _SLACK
+    shown = breaking.lines(math, room)
+    made = shown[0] if len(shown) == 1 else aligned([f"&{shown[0]}", *(rf"&\quad {line}" for line in shown[1:])])
+    if max(map(breaking.width, shown)) > room:
+        made = _fitted(rf"$\displaystyle {made}$")
+    return f"\n\\[\n{made}\n\\]\n"
 
 
 _SIGNS = {sign: rf"\{word}" for word, sign in GREEK.items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from freebody.equations.document import (
@@ -50,6 +50,24 @@ def fitted(block: Equation | MatrixEquation, letters: Letters, room: int) -> tup
             told = [Equation(letter, tree) for tree, letter in named.found.values()]
             return [replace(whole, left=sides[0], right=sides[1]), *told], known
     return [Paragraph(_absent(whole)), *_entries(left), *_entries(right)], letters
+
+
+@dataclass(frozen=True)
+class Named:
+    """What names of entries mean so far in a document."""
+
+    meanings: dict[Sym, Tree] = field(default_factory=dict)
+
+    def news(self, blocks: Sequence[Block]) -> list[Block]:
+        """The blocks without those that say again what a name means."""
+        return [block for block in blocks if not self._is_known(block)]
+
+    def _is_known(self, block: Block) -> bool:
+        if not isinstance(block, Equation) or not isinstance(block.left, Sym) or block.name:
+            return False
+        known = self.meanings.get(block.left) == block.right
+        self.meanings[block.left] = block.right
+        return known
 
 
 def has_matrices(block: Block) -> bool:

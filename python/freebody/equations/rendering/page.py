@@ -11,8 +11,8 @@ _FORMULAS = """\
 .derivation math { font-size: 1.06em; text-indent: 0; }
 .derivation mover > mo { padding-bottom: .07em; }
 .derivation table { border-collapse: collapse; margin: .7em 0; }
-.derivation :is(th, td) { text-align: left; vertical-align: baseline; padding: .2em 1.2em .2em 0; border-bottom: 1px solid #8886; }
-.derivation :is(th, caption) { font-weight: 600; text-align: left; }
+.derivation table :is(th, td) { text-align: left; vertical-align: baseline; padding: .2em 1.2em .2em 0; border-bottom: 1px solid #8886; }
+.derivation table :is(th, caption) { font-weight: 600; text-align: left; }
 .derivation figure { margin: 1em 0; }
 .derivation figure svg { max-width: 100%; height: auto; background: #fff; }
 .derivation figcaption { opacity: .75; }

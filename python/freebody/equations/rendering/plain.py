@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from freebody.equations.document import (
     Block,
@@ -26,7 +26,7 @@ from freebody.equations.document import (
     pieces,
 )  # fmt: skip
 from freebody.equations.letters import Letters
-from freebody.equations.rendering.matrices import fitted, has_matrices
+from freebody.equations.rendering.matrices import Named, fitted, has_matrices
 from freebody.equations.text import columns, equation_text, folded, text
 from freebody.equations.tree import Add, Tree, is_zero
 
@@ -73,7 +73,7 @@ def _tied(math: str) -> str:
 
 def _component(tree: Tree, direction: str, letters: Letters, ascii: bool) -> str:
     inner = text(tree, letters, ascii=ascii)
-    if isinstance(tree, Add):
+    if isinstance(tree, Add) or re.search(r"/[^()]+$", inner):
         return f"({inner}) {direction}"
     return direction if inner == "1" else f"{inner[0]}{direction}" if inner in ("−1", "-1") else f"{inner} {direction}"
 
@@ -83,6 +83,7 @@ class _Writer:
     letters: Letters
     ascii: bool
     width: int
+    named: Named = field(default_factory=Named)
 
     def block(self, block: Block) -> str:
         match block:
@@ -135,7 +136,7 @@ class _Writer:
         """An equation of matrices, and below it the entries that have names."""
         made, letters = fitted(block, self.letters, self.width - len(_INDENT) - 8)
         writer = replace(self, letters=letters)
-        return "\n".join(writer.spread(each) if has_matrices(each) else writer.block(each) for each in made)
+        return "\n".join(writer.spread(e) if has_matrices(e) else writer.block(e) for e in self.named.news(made))
 
     def spread(self, block: Equation) -> str:
         """Matrices side by side, over several lines."""

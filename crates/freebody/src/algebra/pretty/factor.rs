@@ -234,24 +234,42 @@ fn collected(poly: &Poly, keys: &BTreeSet<AtomId>) -> Option<Collected> {
         let (key, rest): (Vec<Factor>, Vec<Factor>) = factors.iter().partition(|f| keys.contains(&f.0));
         by_key.entry(key).or_default().push((rest, *c));
     }
-    let mut by_rest: BTreeMap<Vec<Vec<Factor>>, Collected> = BTreeMap::new();
+    let mut by_rest: BTreeMap<Vec<Vec<Factor>>, Vec<Alike>> = BTreeMap::new();
     let mut count = 0;
     for (mut key, mut rest) in by_key {
         rest.sort_by(|a, b| a.0.cmp(&b.0));
         let common = if rest.len() > 1 { common_factors(&rest) } else { vec![] };
         let lead = rest[0].1;
-        rest = divided(&rest, &common, lead);
+        let whole = divided(&rest, &common, Coefficient::ONE);
+        rest = divided(&whole, &[], lead);
         key = joined(&key, &common)?;
         let same = by_rest.entry(rest.iter().map(|term| term.0.clone()).collect()).or_default();
-        match same.iter_mut().find(|(_, other)| proportional(other, &rest)) {
-            Some((sum, _)) => sum.push((key, lead)),
+        match same.iter_mut().find(|other| proportional(&other.rest, &rest)) {
+            Some(other) => other.sum.push((key, lead)),
             None => {
                 count += 1;
-                same.push((vec![(key, lead)], rest));
+                same.push(Alike { sum: vec![(key, lead)], rest, whole });
             }
         }
     }
-    (count < poly.len()).then(|| by_rest.into_values().flatten().collect())
+    (count < poly.len()).then(|| by_rest.into_values().flatten().map(Alike::written).collect())
+}
+
+/// Products with one `rest`, compared without the number of its first term; `whole` is that of the first product.
+struct Alike {
+    sum: Poly,
+    rest: Poly,
+    whole: Poly,
+}
+
+impl Alike {
+    /// What stands alone keeps its numbers.
+    fn written(self) -> (Poly, Poly) {
+        match &self.sum[..] {
+            [(key, _)] => (vec![(key.clone(), Coefficient::ONE)], self.whole),
+            _ => (self.sum, self.rest),
+        }
+    }
 }
 
 fn common_factors(poly: &Poly) -> Vec<Factor> {

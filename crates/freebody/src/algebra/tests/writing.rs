@@ -118,6 +118,20 @@ fn a_double_pendulum_looks_as_in_a_textbook() {
 }
 
 #[test]
+fn what_is_gathered_alone_keeps_its_sign_and_numbers() {
+    session(|| {
+        let [m, l, b, a, w, i] = letters(["m", "l", "b", "a''", "w'", "I"]);
+        let [x, y] = letters(["x", "y"]);
+        let inertia = i * a + m * l * (b * (cos(x - y) * a - sin(x - y) * w * w) + l * a);
+        assert!(!written(inertia).contains("(-"), "{}", written(inertia));
+        let [p, q, r] = letters(["p'", "q'", "r'"]);
+        let (n, c) = (|a: f64, b: f64| Symbol::of(a / b), cos(x - y));
+        let energy = n(7.0, 6.0) * p * p + n(2.0, 3.0) * q * q + n(3.0, 2.0) * c * p * q + n(1.0, 6.0) * r * r;
+        assert!(!written(energy).contains("/9"), "{}", written(energy));
+    });
+}
+
+#[test]
 fn a_tree_can_be_grouped_by_unknowns() {
     session(|| {
         let [_, lower] = double_pendulum();

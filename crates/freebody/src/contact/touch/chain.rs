@@ -245,7 +245,7 @@ impl Chain {
 
     /// Whether a side is not what keeps a corner off, for the corner's polygon reaches behind it.
     pub(super) fn is_sunk(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, piece: usize) -> bool {
-        piece % 2 == 0 && behind(m, poses, disk, self.seen(m, poses, disk, piece / 2).along) > FLAT
+        piece % 2 == 0 && behind(m, poses, disk, self.seen(m, poses, disk, piece / 2).along) > 0.0
     }
 
     /// The height of this chain over the one of the corner's own sides that is farther from it, those left out on which the
@@ -285,12 +285,13 @@ impl Chain {
     }
 }
 
-/// How far the polygon of a corner reaches behind a side through the corner: 0, or the sine of the angle of its own side.
+/// How far the polygon of a corner reaches behind a side through the corner: 0, or the sine of the angle of its own side, where
+/// that does not lie flat.
 fn behind<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, along: Vec2<T>) -> f64 {
     let Some(beside) = disk.beside else { return 0.0 };
     let axes = turn(m, poses, m.body_of(disk.centre));
     let rise = |next: usize| along.cross(axes.apply(way(poses, disk.centre, next))).value();
-    beside.into_iter().map(|next| -rise(next)).fold(0.0, f64::max)
+    beside.into_iter().map(|next| -rise(next)).filter(|&sine| sine > FLAT).fold(0.0, f64::max)
 }
 
 /// Direction, in their body's axes, from one site to another of the same body.
