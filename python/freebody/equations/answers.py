@@ -20,11 +20,11 @@ from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
 from freebody.equations.measured import shown
-from freebody.equations.simplify import PATIENCE
+from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.still import held_still
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power
+from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power, symbols
 from freebody.instant import Instant
 
 if TYPE_CHECKING:
@@ -40,6 +40,8 @@ MOST_OPERATIONS_MEASURED = 250
 """The same there."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
+_BRIEF = 1.0
+"""Seconds for the shortest form of what is told beside an answer."""
 _OTHERS = 3
 _SEED = 5
 
@@ -89,7 +91,7 @@ def solve_in_letters(
     parameters as other parameters, ``{"m2": "m1"}``. ``limits``: letters and what they go to, ``{"m2": "inf", "m1": 0}``.
     What switches (contacts, arms of laws) is as it is at that start. Every answer is held against numbers at the start and at
     states near by. Raises ``TooLarge``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
-    chosen = given(mechanism, set or {})
+    chosen = given(mechanism, set or {}, limits or {})
     state = chosen.start(mechanism, at_rest, initial)
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
@@ -98,7 +100,7 @@ def solve_in_letters(
     try:
         return _answers(subject, chosen, names, limits or {}, patience)
     except TooLarge:
-        lengths = [n for n in subject.letters.geometric() if n not in chosen.trees and n not in (limits or {})]
+        lengths = [n for n in subject.letters.geometric() if n not in {*chosen.trees, *chosen.defined, *(limits or {})}]
         if not lengths:
             raise
         return _answers(subject, chosen.and_numbers(subject.with_numbers(lengths).numbers or {}), names, limits or {}, patience)
@@ -114,9 +116,9 @@ def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapp
     made, labels = _held(subject, held), dict[str, str]()
     for x in wanted.values():
         if x not in found:
-            system = Search(subject, chosen, held, states).enough(x, found, labels)
+            system = Search(subject, chosen, replace(held, follow={}), states).enough(x, found, labels)
             solution = _solved(subject, system, chosen, patience)
-            made += [*_told(subject, system, labels), *_asked(system.rows), *_shown(system, solution)]
+            made += [*_told(subject, system, labels), *_asked(system.rows), *_where(system, chosen), *_shown(system, solution)]
             found |= solution
     values = {name: found[x] for name, x in wanted.items()}
     checked = _check(subject, chosen, {x: found[x] for x in wanted.values()})
@@ -181,6 +183,15 @@ def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
 def _asked(rows: Sequence[Row]) -> list[Block]:
     names = joined(list(dict.fromkeys(row.name for row in rows))) if rows else ""
     return [Equation(row.acceleration, ZERO, f"With {names}" if i == 0 else "") for i, row in enumerate(rows)]
+
+
+def _where(system: Enough, chosen: Given) -> list[Block]:
+    """What letters of the equations are by others: parameters that are defined so, and what follows from what is closed."""
+    stated = (each.balance.residual for each in system.stated)
+    there = symbols(*stated, *(row.acceleration for row in system.rows))
+    known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
+    used = [(x, shortest(to_sympy(chosen.put(known[x])), patience=_BRIEF)) for x in sorted(there & known.keys(), key=lambda x: (x.dots, x.name))]
+    return [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(used)]
 
 
 def _shown(system: Enough, solution: Mapping[Sym, Tree]) -> list[Block]:
