@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.balances.states import nearby
+from freebody.balances.states import nearby, others
 from freebody.balances.system import NotUnknown
+from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.sentences import lettered
@@ -20,6 +21,7 @@ from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
 from freebody.equations.measured import shown
+from freebody.equations.roots import distances, with_plain_roots
 from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.still import held_still
@@ -40,6 +42,7 @@ MOST_OPERATIONS_MEASURED = 250
 """The same there."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
+_INERTIAS = ("kg", "kg*m^2")
 _BRIEF = 1.0
 """Seconds for the shortest form of what is told beside an answer."""
 _OTHERS = 3
@@ -97,13 +100,28 @@ def solve_in_letters(
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = Subject(mechanism.source(), state, at_rest)
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
-    try:
-        return _answers(subject, chosen, names, limits or {}, patience)
-    except TooLarge:
-        lengths = [n for n in subject.letters.geometric() if n not in {*chosen.trees, *chosen.defined, *(limits or {})}]
-        if not lengths:
-            raise
-        return _answers(subject, chosen.and_numbers(subject.with_numbers(lengths).numbers or {}), names, limits or {}, patience)
+    for given_more in _ways(subject, chosen, limits or {}):
+        try:
+            return _answers(subject, given_more, names, limits or {}, patience)
+        except TooLarge as error:
+            refusal = error
+    raise refusal
+
+
+def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[Given]:
+    """What is set; where that is too long the places of the start that are so whatever the lengths are; then all lengths and
+    angles; then masses as well."""
+    yield chosen
+    settled = {*chosen.trees, *chosen.defined, *limits}
+    natural = {n: place for n, place in place_of(subject).items() if is_natural(place) and n not in settled}
+    if natural:
+        yield replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural))
+    lengths = [n for n in subject.letters.geometric() if n not in settled]
+    if lengths:
+        measured = chosen.and_numbers(subject.with_numbers(lengths).numbers or {})
+        yield measured
+        masses = {n: x["value"] for n, x in subject.table.items() if x["unit"] in _INERTIAS and n not in settled}
+        yield measured.and_numbers(masses)
 
 
 def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float) -> Answers:
@@ -156,6 +174,10 @@ def _solved(subject: Subject, system: Enough, chosen: Given, patience: float) ->
     matrix = [[each.coefficients.get(x, ZERO) for x in unknowns] for each in system.linear]
     right = [negative(each.rest) for each in system.linear]
     _require_short(matrix, right, chosen.measured)
+    if not chosen.measured:
+        known = distances(chosen.put(row.value) for row in subject.rows if row.value is not None and row.kind != "motion")
+        matrix = [[with_plain_roots(entry, known, subject.values) for entry in row] for row in matrix]
+        right = [with_plain_roots(entry, known, subject.values) for entry in right]
     solution = zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True)
     return {x: with_positive_divisors(tree, subject.values) for x, tree in solution if x in system.gives}
 
@@ -218,7 +240,7 @@ def _letter(subject: Subject, name: str) -> Sym:
 def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
     """Holds the answers against numbers at the state and at others; says at how many."""
     rng, compared = np.random.default_rng(_SEED), 0
-    for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS))]:
+    for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS)), *_closed(subject, chosen)]:
         there = state and _like(subject, Subject(subject.source, state, subject.at_rest))
         if not there:
             continue
@@ -231,12 +253,22 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
     return compared
 
 
+def _closed(subject: Subject, chosen: Given) -> list[State]:
+    """States near by at which contacts and strings stay closed; none where a coordinate is set that could move."""
+    if not subject.source.about["limits"] or any(c["name"] in chosen.trees.keys() - chosen.still for c in subject.coordinates):
+        return []
+    found = others(subject.source, subject.state)
+    places = {tuple(state.q): replace(state, u=np.zeros_like(state.u)) for state in found}
+    return list(places.values() if subject.at_rest else found)[:_OTHERS]
+
+
 def _like(subject: Subject, there: Subject) -> Subject | None:
-    """Another state of a subject, if the same loads act there."""
+    """Another state of a subject, if the same loads act there, and what is closed is so."""
     from freebody import _core
 
     try:
-        same = _acting(there) == _acting(subject)
+        gaps = [evaluate(row.value, there.values, there.tables) for row in there.rows if row.value is not None]
+        same = _acting(there) == _acting(subject) and np.abs(gaps).max(initial=0.0) < AGREES
     except _core.MotionError:  # what touches here would be pressed in
         return None
     return there if same else None
@@ -264,8 +296,10 @@ def _title(subject: Subject, chosen: Given) -> list[Block]:
     made: list[Block] = [Heading(f"{subject.source.name}: answers in letters", 1)]
     if chosen.measured:
         made.append(
-            Paragraph("In letters alone this would fill pages: lengths, angles and plain numbers are those of the model, in SI.")
+            Paragraph("In letters alone this would fill pages: what has a number here has that of the model, in SI.")
         )
+    if chosen.at_start:
+        made.append(Paragraph("In letters for every place this would fill pages: it stands as at the start."))
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])
 
 

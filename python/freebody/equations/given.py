@@ -33,13 +33,14 @@ _NEAR = 0.15
 class Given:
     """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages.
     ``still``: coordinates whose rates and accelerations are 0. ``defined``: parameters by those that define them. ``follow``:
-    coordinates and rates by the others on which they depend."""
+    coordinates and rates by the others on which they depend. ``at_start``: letters set to where they start."""
 
     trees: Mapping[str, Tree]
     measured: bool = False
     still: frozenset[str] = frozenset()
     defined: Mapping[str, Tree] = field(default_factory=dict)
     follow: Mapping[Sym, Tree] = field(default_factory=dict)
+    at_start: frozenset[str] = frozenset()
 
     def is_still(self, letter: Sym) -> bool:
         """Whether a letter is the rate or acceleration of a coordinate that stands still."""
