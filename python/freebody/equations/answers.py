@@ -51,10 +51,11 @@ _SEED = 5
 
 @dataclass(frozen=True)
 class Answers:
-    """What was wanted as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``print`` shows the
+    """What was ``wanted``, by name the letters, as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``print`` shows the
     equations that give it. ``checked``: at how many states it was held against the numbers."""
 
     values: Mapping[str, Tree]
+    wanted: Mapping[str, Sym]
     limits: Mapping[tuple[str, str], Tree]
     letters: Letters
     document: Document = field(repr=False)
@@ -143,7 +144,7 @@ def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapp
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
     told = (*said, *made, *_limits(subject, at, limits))
     document = Document(tuple(lettered(block, letters) for block in told), letters)
-    return Answers(values, at, letters, document, checked)
+    return Answers(values, wanted, at, letters, document, checked)
 
 
 def _held(subject: Subject, held: Given) -> list[Block]:

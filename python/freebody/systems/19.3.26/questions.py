@@ -39,6 +39,14 @@ def rates(law):
     return f
 
 
+@ask("(a) In letters, the hand driven by its law")
+def in_letters(case):
+    law = "(a0 + Kx*s + Kv*rate(s) + Kp*theta + Kd*rate(theta))"
+    for file, length in [("model.yaml", "(2*l/3)"), ("particle.yaml", "l")]:
+        closed = {"s": law, "theta": f"(g*sin(theta) - {law}*cos(theta))/{length}"}
+        yield from case.in_letters(closed, "closed form: moment about the hand", file, file)
+
+
 @ask("(a) θ̈ from a, θ, θ̇")
 def instant(case):
     """θ̇ does not enter."""

@@ -63,6 +63,15 @@ def start(values):
     return dict(zip(("R", "L", "phi0", "omega0"), values, strict=True))
 
 
+@ask("(a) In letters: angle = π/2 − φ")
+def in_letters(case):
+    d = "(L/2 - R)"
+    closed = (
+        f"-{d}*cos(rocker.angle)*(g + R*rate(rocker.angle)^2)/(L^2/12 + R^2 + {d}^2 + 2*R*{d}*sin(rocker.angle))"
+    )
+    yield from case.in_letters({"rocker.angle": closed}, "closed form: moments about the point of contact")
+
+
 @ask("(a) Angular acceleration, large angles and small; force of the floor")
 def instants(case):
     for values in SETS:
