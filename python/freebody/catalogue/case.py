@@ -64,8 +64,22 @@ class Case:
         found = self.mechanism(file).solve_in_letters(wanted, limits=limits, **asked)
         for key, (name, what) in pairs.items():
             tree = found.limits[name, what.split(" → ")[0]] if what else found[name]
-            label = text(found.wanted[name], found.letters) + (f", {what}".replace("inf", "∞") if what else "") + (f", {of}" if of else "")
+            label = (
+                text(found.wanted[name], found.letters)
+                + (f", {what}".replace("inf", "∞") if what else "")
+                + (f", {of}" if of else "")
+            )
             yield formula(label, tree, closed[key], against, found.letters)
+
+    def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
+        """The characteristic polynomial, in s, of small departures from rest, beside a closed form."""
+        from freebody.catalogue.formulas import formula
+        from freebody.equations.document import Equation
+        from freebody.equations.topics import topic
+
+        document = topic(self.mechanism(file), "linear", **at)
+        told = next(block for block in document.blocks if isinstance(block, Equation) and "characteristic" in str(block.name))
+        return formula("0", told.left, closed, against, document.letters)
 
 
 def _name(file: str, *overruled: Mapping[str, Any] | None) -> str:

@@ -27,7 +27,7 @@ from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.still import held_still
 from freebody.equations.to_sympy import to_sympy
 from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power, symbols
-from freebody.instant import Instant
+from freebody.instant import Instant, State
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -213,7 +213,10 @@ def _where(system: Enough, chosen: Given) -> list[Block]:
     stated = (each.balance.residual for each in system.stated)
     there = symbols(*stated, *(row.acceleration for row in system.rows))
     known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
-    used = [(x, shortest(to_sympy(chosen.put(known[x])), patience=_BRIEF)) for x in sorted(there & known.keys(), key=lambda x: (x.dots, x.name))]
+    used = [
+        (x, shortest(to_sympy(chosen.put(known[x])), patience=_BRIEF))
+        for x in sorted(there & known.keys(), key=lambda x: (x.dots, x.name))
+    ]
     return [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(used)]
 
 
@@ -296,9 +299,7 @@ def _title(subject: Subject, chosen: Given) -> list[Block]:
     said = ["all rates are 0"] * subject.at_rest + chosen.said()
     made: list[Block] = [Heading(f"{subject.source.name}: answers in letters", 1)]
     if chosen.measured:
-        made.append(
-            Paragraph("In letters alone this would fill pages: what has a number here has that of the model, in SI.")
-        )
+        made.append(Paragraph("In letters alone this would fill pages: what has a number here has that of the model, in SI."))
     if chosen.at_start:
         made.append(Paragraph("In letters for every place this would fill pages: it stands as at the start."))
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])

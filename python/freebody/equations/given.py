@@ -57,6 +57,11 @@ class Given:
         made = replace(given, {Sym(name): value for name, value in self.defined.items()})
         return from_sympy(to_sympy(replace(made, new))) if made != given or symbols(made) & new.keys() else made
 
+    def settled(self) -> dict[str, Tree]:
+        """What is set, and what is defined, by letters that are neither."""
+        set_to = {Sym(name): tree for name, tree in self.trees.items()}
+        return dict(self.trees) | {name: replace(tree, set_to) for name, tree in self.defined.items()}
+
     def and_numbers(self, numbers: Mapping[str, float]) -> Given:
         """With more letters set, to measured numbers."""
         return replaced(self, trees={name: exact(value) for name, value in numbers.items()} | dict(self.trees), measured=True)

@@ -109,7 +109,9 @@ def shown(tree: Tree) -> Tree:
 
 
 def _in_figures(value: float | Fraction) -> Tree:
-    plain = isinstance(value, Fraction) and (value.denominator <= _PLAIN or (_MOST >= value.denominator and not _is_decimal(value)))
+    plain = isinstance(value, Fraction) and (
+        value.denominator <= _PLAIN or (value.denominator <= _MOST and not _is_decimal(value))
+    )
     return Num(value if plain else float(f"{float(value):.{_FIGURES}g}"))
 
 

@@ -29,7 +29,9 @@ def swinging(t, y):
 @ask("(a) In letters, just after release")
 def in_letters(case):
     closed = {"hoop.y": "-g/2", "hoop.x": "0", "hoop.angle": "-g/(2*R)"}
-    yield from case.in_letters(closed, "closed form: moments about the point where the string leaves", at_rest=True, set={"tilt": 0})
+    yield from case.in_letters(
+        closed, "closed form: moments about the point where the string leaves", at_rest=True, set={"tilt": 0}
+    )
 
 
 @ask("(a) y_G at time t")

@@ -74,7 +74,9 @@ def determinant(rows):
 
 def solved(matrix, right):
     """x of A x = b for three unknowns, by Cramer's rule."""
-    swapped = [[[b if k == col else x for k, x in enumerate(row)] for row, b in zip(matrix, right, strict=True)] for col in range(3)]
+    swapped = [
+        [[b if k == col else x for k, x in enumerate(row)] for row, b in zip(matrix, right, strict=True)] for col in range(3)
+    ]
     return [determinant(rows) / determinant(matrix) for rows in swapped]
 
 
