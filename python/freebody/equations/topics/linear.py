@@ -158,12 +158,12 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     """How the other coordinates follow, and the equations of those that are free."""
     letters = _letters_of(subject)
     free = [Sym(letters[name].name) for name in left.equations.coordinates]
-    names = joined(list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws)))
+    names = list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws))
     made: list[Block] = [Heading("What is left free")]
     if numbers:
         made.append(Paragraph(["In letters this fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
-        made.append(Paragraph(f"To first order {names} make these follow:"))
+        made.append(Paragraph(f"To first order {joined(names)} make these follow:"))
     made += [
         Equation(Sym(letters[name].name), shown(add(*(mul(entry, x) for entry, x in zip(ways, free, strict=True)))))
         for name, ways in left.follow.items()
