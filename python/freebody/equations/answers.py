@@ -21,6 +21,8 @@ from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
 from freebody.equations.measured import shown
+from freebody.equations.ratios import Ratios, ratios
+from freebody.equations.ratios import blocks as of_ratios
 from freebody.equations.roots import distances, with_plain_roots
 from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, limit, solve
@@ -51,11 +53,13 @@ _SEED = 5
 
 @dataclass(frozen=True)
 class Answers:
-    """What was ``wanted``, by name the letters, as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``print`` shows the
+    """What was ``wanted``, by name the letters, as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``named`` letters of theirs,
+    each by those before; ``print`` shows the
     equations that give it. ``checked``: at how many states it was held against the numbers."""
 
     values: Mapping[str, Tree]
     wanted: Mapping[str, Sym]
+    named: Mapping[Sym, Tree]
     limits: Mapping[tuple[str, str], Tree]
     letters: Letters
     document: Document = field(repr=False)
@@ -101,31 +105,35 @@ def solve_in_letters(
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = Subject(mechanism.source(), state, at_rest)
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
-    for given_more in _ways(subject, chosen, limits or {}):
+    for given_more, named in _ways(subject, chosen, limits or {}):
         try:
-            return _answers(subject, given_more, names, limits or {}, patience)
+            return _answers(subject, given_more, names, limits or {}, patience, named)
         except TooLarge as error:
             refusal = error
     raise refusal
 
 
-def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[Given]:
-    """What is set; where that is too long the places of the start that are so whatever the lengths are; then all lengths and
-    angles; then masses as well."""
-    yield chosen
+def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[tuple[Given, bool]]:
+    """What is set; where that is too long the places of the start that are so whatever the lengths are; then, in loops, with ratios
+    of rates that are named; with all lengths and angles as numbers; with masses as well."""
+    yield chosen, False
     settled = {*chosen.trees, *chosen.defined, *limits}
     natural = {n: place for n, place in place_of(subject).items() if is_natural(place) and n not in settled}
     if natural:
-        yield replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural))
+        yield replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural)), False
+    if subject.rows and not limits:
+        yield chosen, True
     lengths = [n for n in subject.letters.geometric() if n not in settled]
     if lengths:
         measured = chosen.and_numbers(subject.with_numbers(lengths).numbers or {})
-        yield measured
+        yield measured, False
         masses = {n: x["value"] for n, x in subject.table.items() if x["unit"] in _INERTIAS and n not in settled}
-        yield measured.and_numbers(masses)
+        yield measured.and_numbers(masses), False
 
 
-def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float) -> Answers:
+def _answers(
+    subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float, with_ratios: bool
+) -> Answers:
     letters, wanted = subject.letters, {name: _letter(subject, name) for name in names}
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
     states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
@@ -133,18 +141,30 @@ def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapp
     said, chosen = _title(subject, chosen), chosen.and_held(held)
     found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_still(x)}
     made, labels = _held(subject, held), dict[str, str]()
+    ratio = _ratios(subject, chosen, wanted.values()) if with_ratios else None
+    if ratio:
+        made += of_ratios(ratio, [x.name for x in wanted.values() if x.dots], shown)
+        found |= {Sym(name, 2): Sym(name, 2) for name in ratio.rates}
     for x in wanted.values():
         if x not in found:
             system = Search(subject, chosen, replace(held, follow={}), states).enough(x, found, labels)
             solution = _solved(subject, system, chosen, patience)
             made += [*_told(subject, system, labels), *_asked(system.rows), *_where(system, chosen), *_shown(system, solution)]
             found |= solution
-    values = {name: found[x] for name, x in wanted.items()}
-    checked = _check(subject, chosen, {x: found[x] for x in wanted.values()})
+    values = {name: ratio.acceleration(x.name) if ratio and x.dots else found[x] for name, x in wanted.items()}
+    named = ratio.letters() if ratio else {}
+    checked = _check(subject, chosen, {x: values[name] for name, x in wanted.items()}, named)
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
     told = (*said, *made, *_limits(subject, at, limits))
     document = Document(tuple(lettered(block, letters) for block in told), letters)
-    return Answers(values, wanted, at, letters, document, checked)
+    return Answers(values, wanted, named, at, letters, document, checked)
+
+
+def _ratios(subject: Subject, chosen: Given, wanted: Collection[Sym]) -> Ratios:
+    """By the first acceleration that is wanted, or else by the first coordinate."""
+    first = next((x.name for x in wanted if x.dots), subject.coordinates[0]["name"])
+    places = replace(chosen, follow={x: tree for x, tree in chosen.follow.items() if not x.dots})
+    return ratios(subject, places.put, first)
 
 
 def _held(subject: Subject, held: Given) -> list[Block]:
@@ -241,14 +261,16 @@ def _letter(subject: Subject, name: str) -> Sym:
     return Sym(exact[0].symbol)
 
 
-def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
+def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree], named: Mapping[Sym, Tree]) -> int:
     """Holds the answers against numbers at the state and at others; says at how many."""
     rng, compared = np.random.default_rng(_SEED), 0
     for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS)), *_closed(subject, chosen)]:
         there = state and _like(subject, Subject(subject.source, state, subject.at_rest))
         if not there:
             continue
-        numbers = there.values
+        numbers = dict(there.values)
+        for x, tree in named.items():
+            numbers[x] = float(evaluate(tree, numbers, there.tables))
         for x, tree in values.items():
             found, true = float(evaluate(tree, numbers, there.tables)), numbers[x]
             if abs(found - true) > AGREES * max(abs(true), _scale(there, x)):

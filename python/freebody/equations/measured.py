@@ -18,7 +18,7 @@ _ROUND_OFF = 1e-12
 _FIGURES = 5
 _PLAIN = 12
 """Denominators that a person reads as fractions."""
-_MOST = 100
+_MOST = 1000
 """The same of what is no decimal number."""
 
 
