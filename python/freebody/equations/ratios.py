@@ -19,7 +19,7 @@ from freebody.equations.measured import measured
 from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, coefficients, solve
 from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ONE, ZERO, Sym, Tree, add, evaluate, mul, negative, operations, over, replace
+from freebody.equations.tree import ONE, ZERO, Sym, Tree, add, evaluate, mul, negative, operations, over, replace, symbols
 
 Put = Callable[[Tree], Tree]
 MOST_TOGETHER = 3
@@ -41,6 +41,11 @@ class Ratios:
     rests: dict[str, Tree] = field(default_factory=dict)
     inertia: Tree = ZERO
     load: Tree = ZERO
+
+    def moving(self, tree: Tree) -> Tree:
+        """An expression with the rates that have no letter of their own by that of the free coordinate."""
+        plain = {Sym(n, 1): mul(k, Sym(self.free, 1)) for n, k in self.rates.items() if k not in self.named}
+        return from_sympy(to_sympy(replace(tree, plain))) if symbols(tree) & plain.keys() else tree
 
     def letters(self) -> dict[Sym, Tree]:
         """The named letters and all accelerations, each by those before."""
@@ -82,7 +87,7 @@ def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, 
 def _told(found: Ratios, subject: Subject, block: Sequence[Linear], of: Sequence[str]) -> None:
     matrix = [[_plain(row.coefficients.get(Sym(name, 2), ZERO)) for name in of] for row in block]
     for stem, told, own in (("k", found.rates, False), ("c", found.rests, True)):
-        right = [negative(_plain(add(*_known(row, told), *([row.rest] if own else [])))) for row in block]
+        right = [negative(_plain(add(*_known(row, told), *([found.moving(row.rest)] if own else [])))) for row in block]
         for name, tree in zip(of, solve(matrix, right, subject.letters, patience=PATIENCE / 5), strict=True):
             letter = _letter(subject, stem, name)
             told[name] = tree if operations(tree) <= _SHORT else letter
@@ -115,7 +120,7 @@ def _sum_up(found: Ratios, subject: Subject, put: Put, names: Sequence[str]) -> 
 
     loads = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown}
     accelerations = [Sym(name, 2) for name in names]
-    rows = [coefficients(replace(put(each.residual), loads), accelerations) for each in equations(subject)[2]]
+    rows = [coefficients(found.moving(replace(put(each.residual), loads)), accelerations) for each in equations(subject)[2]]
     k, c = ([part[name] for name in names] for part in (found.rates, found.rests))
     inertia = [mul(k[i], entry, k[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
     moved = [mul(k[i], entry, c[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
