@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from dataclasses import replace as replaced
 from itertools import combinations
 from typing import Any
 
@@ -118,9 +119,11 @@ def _sum_up(found: Ratios, subject: Subject, put: Put, names: Sequence[str]) -> 
     """The inertia felt and the load."""
     from freebody.equations.topics.lagrange import equations
 
-    loads = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown}
+    gone = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown}
+    gone |= {Sym(name, 1): ZERO for name in names if subject.at_rest}
     accelerations = [Sym(name, 2) for name in names]
-    rows = [coefficients(found.moving(replace(put(each.residual), loads)), accelerations) for each in equations(subject)[2]]
+    told = equations(replaced(subject, at_rest=False))[2]  # the rates are letters of the kinetic energy
+    rows = [coefficients(found.moving(replace(put(each.residual), gone)), accelerations) for each in told]
     k, c = ([part[name] for name in names] for part in (found.rates, found.rests))
     inertia = [mul(k[i], entry, k[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
     moved = [mul(k[i], entry, c[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
