@@ -104,6 +104,7 @@ def solve_in_letters(
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = Subject(mechanism.source(), state, at_rest)
+    _require_limits(subject, chosen, limits or {})
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
     for given_more, named in _ways(subject, chosen, limits or {}):
         try:
@@ -111,6 +112,22 @@ def solve_in_letters(
         except TooLarge as error:
             refusal = error
     raise refusal
+
+
+def _require_limits(subject: Subject, chosen: Given, limits: Mapping[str, Any]) -> None:
+    """Raises ``ValueError`` for a limit of what is no letter or set, or to what is negative."""
+    known = subject.letters.of_kind("parameter", "constant", "coordinate", "time")
+    for name, to in limits.items():
+        if name not in known:
+            raise ValueError(f"{name!r} has no limit, as it is no letter; there are {', '.join(known)}")
+        if name in chosen.trees:
+            raise ValueError(f"{name} is set, so it has no limit; leave one of the two out")
+        try:
+            below = _target(to) < 0
+        except ValueError:
+            raise ValueError(f"{name} cannot go to {to!r}; give 0, a positive number in SI, or inf") from None
+        if below:
+            raise ValueError(f"{name} cannot go to {to}: letters are taken to be positive; give 0, a positive number, or inf")
 
 
 def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[tuple[Given, bool]]:

@@ -112,7 +112,14 @@ def held(subject: Subject, found: Linearised, put: Mapping[str, Tree]) -> Held:
     matrices = ([*above, *below] for above, below in zip(balances, lawful, strict=True))
     undecided = len(acting) < len(loads)
     equations = Linearised(tuple(names[i] for i in chosen), *matrices, [ZERO] * len(chosen))
-    return Held([slopes[i] for i in asked], {names[i]: ways[i] for i in follows}, reactions, undecided, equations, tuple(law.name for law in laws))
+    return Held(
+        [slopes[i] for i in asked],
+        {names[i]: ways[i] for i in follows},
+        reactions,
+        undecided,
+        equations,
+        tuple(law.name for law in laws),
+    )
 
 
 def _is_law(row: Row, coordinates: Collection[str]) -> bool:
