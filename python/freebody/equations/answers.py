@@ -21,7 +21,7 @@ from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
 from freebody.equations.measured import shown
-from freebody.equations.ratios import Ratios, ratios
+from freebody.equations.ratios import Ratios, driven, ratios
 from freebody.equations.ratios import blocks as of_ratios
 from freebody.equations.roots import distances, with_plain_roots
 from freebody.equations.simplify import PATIENCE, shortest
@@ -131,15 +131,15 @@ def _require_limits(subject: Subject, chosen: Given, limits: Mapping[str, Any]) 
 
 
 def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[tuple[Given, bool]]:
-    """What is set; where that is too long the places of the start that are so whatever the lengths are; then, in loops, with ratios
-    of rates that are named; with all lengths and angles as numbers; with masses as well."""
+    """What is set; where that is too long, in loops with ratios of rates that are named, or at the places of the start that are so
+    whatever the lengths are, first where strings and contacts are told that way; with all lengths and angles as numbers; with
+    masses as well."""
     yield chosen, False
     settled = {*chosen.trees, *chosen.defined, *limits}
     natural = {n: place for n, place in place_of(subject).items() if is_natural(place) and n not in settled}
-    if natural:
-        yield replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural)), False
-    if subject.rows and not limits:
-        yield chosen, True
+    ratios_too = [(chosen, True)] if subject.rows and not limits else []
+    at_start = [(replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural)), False)] if natural else []
+    yield from at_start + ratios_too if subject.source.about["limits"] else ratios_too + at_start
     lengths = [n for n in subject.letters.geometric() if n not in settled]
     if lengths:
         measured = chosen.and_numbers(subject.with_numbers(lengths).numbers or {})
@@ -161,7 +161,8 @@ def _answers(
     ratio = _ratios(subject, chosen, wanted.values()) if with_ratios else None
     if ratio:
         made += of_ratios(ratio, [x.name for x in wanted.values() if x.dots], shown)
-        found |= {Sym(name, 2): Sym(name, 2) for name in ratio.rates}
+        found |= {Sym(name, 2): Sym(name, 2) for name in ratio.rates} | ratio.driving
+        made += [Equation(x, shown(tree), "So") for x, tree in ratio.driving.items() if x in wanted.values()]
     for x in wanted.values():
         if x not in found:
             system = Search(subject, chosen, replace(held, follow={}), states).enough(x, found, labels)
@@ -178,8 +179,8 @@ def _answers(
 
 
 def _ratios(subject: Subject, chosen: Given, wanted: Collection[Sym]) -> Ratios:
-    """By the first acceleration that is wanted, or else by the first coordinate."""
-    first = next((x.name for x in wanted if x.dots), subject.coordinates[0]["name"])
+    """By what is driven, else by the first acceleration that is wanted, or by the first coordinate."""
+    first = driven(subject) or next((x.name for x in wanted if x.dots), subject.coordinates[0]["name"])
     places = replace(chosen, follow={x: tree for x, tree in chosen.follow.items() if not x.dots})
     return ratios(subject, places.put, first)
 

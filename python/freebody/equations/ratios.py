@@ -34,7 +34,8 @@ _NOTHING = 1e-9
 @dataclass
 class Ratios:
     """By the coordinate ``free``: ``named`` letters, k of rates and c of accelerations, each by those before; ``rates`` and ``rests``
-    of every coordinate by them; the ``inertia`` that is felt at it, and its ``load``."""
+    of every coordinate by them; the ``inertia`` that is felt at it, and its ``load``. Where a motion has ``prescribed`` its
+    acceleration, what it takes is ``driving``."""
 
     free: str
     named: dict[Sym, Tree] = field(default_factory=dict)
@@ -42,6 +43,8 @@ class Ratios:
     rests: dict[str, Tree] = field(default_factory=dict)
     inertia: Tree = ZERO
     load: Tree = ZERO
+    prescribed: Tree | None = None
+    driving: dict[Sym, Tree] = field(default_factory=dict)
 
     def moving(self, tree: Tree) -> Tree:
         """An expression with the rates that have no letter of their own by that of the free coordinate."""
@@ -56,22 +59,42 @@ class Ratios:
     def acceleration(self, name: str) -> Tree:
         """Of a coordinate; others by that of the free one."""
         if name == self.free:
-            return over(self.load, self.inertia)
+            return over(self.load, self.inertia) if self.prescribed is None else self.prescribed
         return add(mul(self.rates[name], Sym(self.free, 2)), self.rests[name])
 
 
 def ratios(subject: Subject, put: Put, free: str) -> Ratios:
-    """The ratios where loops leave one coordinate. Raises ``TooLarge`` where they leave more, or where a motion is prescribed."""
+    """The ratios where loops leave one coordinate, which a motion may drive. Raises ``TooLarge`` where they leave more."""
     names = [c["name"] for c in subject.coordinates]
-    if any(row.kind == "motion" for row in subject.rows):
-        raise TooLarge("a motion is prescribed; ask for numbers")
     found = Ratios(free, rates={free: ONE}, rests={free: ZERO})
-    rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest)) for row in subject.rows]
+    rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest))
+            for row in subject.rows if row.kind != "motion"]  # fmt: skip
     while unknown := [name for name in names if name not in found.rates]:
         block, of = _block(rows, unknown, subject.values)
         _told(found, subject, block, of)
     _sum_up(found, subject, put, names)
+    _drive(found, subject, put)
     return found
+
+
+def driven(subject: Subject) -> str | None:
+    """The coordinate whose acceleration a motion prescribes. Raises ``TooLarge`` where it prescribes anything else."""
+    motions = [row for row in subject.rows if row.kind == "motion"]
+    if len(motions) > 1 or any(len(row.linear.coefficients) != 1 for row in motions):
+        raise TooLarge("motions prescribe more than one coordinate; ask for numbers")
+    return next(iter(motions[0].linear.coefficients)).name if motions else None
+
+
+def _drive(found: Ratios, subject: Subject, put: Put) -> None:
+    """What the motion takes: J z̈ less the other loads."""
+    for row in subject.rows:
+        if row.kind == "motion":
+            [factor] = row.linear.coefficients.values()
+            found.prescribed = negative(over(put(row.linear.rest), put(factor)))
+            force = next(Sym(load.symbol) for load in subject.free.loads if load.kind == "motion" and load.unknown)
+            [[own], rest] = coefficients(found.load, [force])
+            whole = add(mul(found.inertia, Sym(found.free, 2)), negative(rest))
+            found.driving = {force: whole if own == ONE else over(whole, own)}
 
 
 def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, float]) -> tuple[list[Linear], list[str]]:
@@ -119,7 +142,7 @@ def _sum_up(found: Ratios, subject: Subject, put: Put, names: Sequence[str]) -> 
     """The inertia felt and the load."""
     from freebody.equations.topics.lagrange import equations
 
-    gone = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown}
+    gone = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown and load.kind != "motion"}
     gone |= {Sym(name, 1): ZERO for name in names if subject.at_rest}
     accelerations = [Sym(name, 2) for name in names]
     told = equations(replaced(subject, at_rest=False))[2]  # the rates are letters of the kinetic energy
