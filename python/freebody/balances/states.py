@@ -48,7 +48,7 @@ def nearby(source: Source, state: State, parameters: Sequence[Array] = ()) -> li
     changes = [p - state.p for p in parameters] or [np.zeros_like(state.p)]
     part = 1.0
     for _ in range(TRIES):
-        closing = _Closing(source, replace(state, p=state.p + part * changes[len(found) % len(changes)]), first)
+        closing = Closing(source, replace(state, p=state.p + part * changes[len(found) % len(changes)]), first)
         other = closing.near(state.q + steps * part * rng.uniform(-1, 1, len(steps)))
         if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
             found.append(other)
@@ -70,7 +70,7 @@ def others(source: Source, state: State) -> list[State]:
     first = _free(source.core, state)
     rng = np.random.default_rng(SEED)
     scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.about["coordinates"]])
-    closing, found = _Closing(source, state, first), []
+    closing, found = Closing(source, state, first), []
     steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
     for q in (closing.place(state.q + step) for step in steps):
         for _ in range(RATES if q is not None else 0):
@@ -96,8 +96,8 @@ def _senses(free: FreeBodies) -> list[bool]:
     return sliding + [load.value > 0 for load in free.loads if load.component == "tooth force"]
 
 
-class _Closing:
-    """Brings coordinates onto closed loops, and what touches or is taut back to a gap of 0."""
+class Closing:
+    """Brings coordinates onto closed loops, and what touches or is taut in a state back to a gap of 0."""
 
     def __init__(self, source: Source, state: State, first: FreeBodies) -> None:
         self.core, self.state = source.core, state

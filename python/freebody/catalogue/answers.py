@@ -22,7 +22,8 @@ class Answer:
     """A figure, or a row of figures of one kind, that freebody computed, and the same from an independent source.
 
     ``against`` says where ``check`` comes from. ``tolerance`` is relative to the largest figure of the row, or to
-    ``scale`` where that is larger: give it where the true value may be 0.
+    ``scale`` where that is larger: give it where the true value may be 0. ``said``: the answer in letters, of which the figures
+    are values.
     """
 
     label: str
@@ -32,6 +33,7 @@ class Answer:
     against: str = ""
     tolerance: float = 1e-10
     scale: float = 0.0
+    said: str = ""
 
     @property
     def error(self) -> float:
@@ -63,6 +65,7 @@ class Answer:
             "digits": _plain(round(self.digits, 1)),
             "tolerance": self.tolerance,
             "ok": self.ok,
+            **({"letters": self.said} if self.said else {}),
         }
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from freebody.catalogue.answers import Answer
     from freebody.instant import Instant
     from freebody.model import Mechanism
     from freebody.run import Run
@@ -48,6 +49,37 @@ class Case:
         if name not in self.instants:
             self.instants[name] = self.mechanism(file, **(parameters or {})).solve(**state)
         return self.instants[name]
+
+    def in_letters(
+        self, closed: Mapping[str, str], against: str, file: str = "model.yaml", of: str = "", **asked: Any
+    ) -> Iterator[Answer]:
+        """Accelerations, reactions and motors in letters, beside closed forms; ``asked`` is what ``solve_in_letters`` takes. With
+        ``"theta, M → inf"`` a limit is asked for."""
+        from freebody.catalogue.formulas import formula
+        from freebody.equations.text import text
+
+        pairs = {key: key.partition(", ")[::2] for key in closed}
+        limits = {letter: to for _, what in pairs.values() if what for letter, to in [what.split(" → ")]}
+        wanted = list(dict.fromkeys(name for name, _ in pairs.values()))
+        found = self.mechanism(file).solve_in_letters(wanted, limits=limits, **asked)
+        for key, (name, what) in pairs.items():
+            tree = found.limits[name, what.split(" → ")[0]] if what else found[name]
+            label = (
+                text(found.wanted[name], found.letters)
+                + (f", {what}".replace("inf", "∞") if what else "")
+                + (f", {of}" if of else "")
+            )
+            yield formula(label, tree, closed[key], against, found.letters)
+
+    def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
+        """The characteristic polynomial, in s, of small departures from rest, beside a closed form."""
+        from freebody.catalogue.formulas import formula
+        from freebody.equations.document import Equation
+        from freebody.equations.topics import topic
+
+        document = topic(self.mechanism(file), "linear", **at)
+        told = next(block for block in document.blocks if isinstance(block, Equation) and "characteristic" in str(block.name))
+        return formula("0", told.left, closed, against, document.letters)
 
 
 def _name(file: str, *overruled: Mapping[str, Any] | None) -> str:

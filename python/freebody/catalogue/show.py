@@ -40,7 +40,7 @@ def show_asked(asked: Asked, console: Console | None = None) -> None:
     table.add_column("agrees with")
     for answer in asked.answers:
         style = "" if answer.ok else "bold red"
-        cells = [answer.label, figures(answer.value), answer.unit, _digits(answer), _source(answer)]
+        cells = [answer.label, answer.said or figures(answer.value), answer.unit, _digits(answer), _source(answer)]
         table.add_row(*(Text(cell, style) for cell in cells))
     console.print(table)
     if asked.failure:

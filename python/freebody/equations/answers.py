@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.balances.states import nearby
+from freebody.balances.states import nearby, others
 from freebody.balances.system import NotUnknown
+from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.sentences import lettered
@@ -20,12 +21,15 @@ from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
 from freebody.equations.letters import Letters
 from freebody.equations.measured import shown
-from freebody.equations.simplify import PATIENCE
+from freebody.equations.ratios import Ratios, driven, ratios
+from freebody.equations.ratios import blocks as of_ratios
+from freebody.equations.roots import distances, with_plain_roots
+from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.still import held_still
 from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power
-from freebody.instant import Instant
+from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power, symbols
+from freebody.instant import Instant, State
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -40,16 +44,22 @@ MOST_OPERATIONS_MEASURED = 250
 """The same there."""
 AGREES = 1e-7
 """Difference from the numbers, relative to the largest acceleration or load of its kind."""
+_INERTIAS = ("kg", "kg*m^2")
+_BRIEF = 1.0
+"""Seconds for the shortest form of what is told beside an answer."""
 _OTHERS = 3
 _SEED = 5
 
 
 @dataclass(frozen=True)
 class Answers:
-    """What was wanted as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``print`` shows the
+    """What was ``wanted``, by name the letters, as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``named`` letters of theirs,
+    each by those before; ``print`` shows the
     equations that give it. ``checked``: at how many states it was held against the numbers."""
 
     values: Mapping[str, Tree]
+    wanted: Mapping[str, Sym]
+    named: Mapping[Sym, Tree]
     limits: Mapping[tuple[str, str], Tree]
     letters: Letters
     document: Document = field(repr=False)
@@ -89,22 +99,58 @@ def solve_in_letters(
     parameters as other parameters, ``{"m2": "m1"}``. ``limits``: letters and what they go to, ``{"m2": "inf", "m1": 0}``.
     What switches (contacts, arms of laws) is as it is at that start. Every answer is held against numbers at the start and at
     states near by. Raises ``TooLarge``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
-    chosen = given(mechanism, set or {})
+    chosen = given(mechanism, set or {}, limits or {})
     state = chosen.start(mechanism, at_rest, initial)
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = Subject(mechanism.source(), state, at_rest)
+    _require_limits(subject, chosen, limits or {})
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
-    try:
-        return _answers(subject, chosen, names, limits or {}, patience)
-    except TooLarge:
-        lengths = [n for n in subject.letters.geometric() if n not in chosen.trees and n not in (limits or {})]
-        if not lengths:
-            raise
-        return _answers(subject, chosen.and_numbers(subject.with_numbers(lengths).numbers or {}), names, limits or {}, patience)
+    for given_more, named in _ways(subject, chosen, limits or {}):
+        try:
+            return _answers(subject, given_more, names, limits or {}, patience, named)
+        except TooLarge as error:
+            refusal = error
+    raise refusal
 
 
-def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float) -> Answers:
+def _require_limits(subject: Subject, chosen: Given, limits: Mapping[str, Any]) -> None:
+    """Raises ``ValueError`` for a limit of what is no letter or set, or to what is negative."""
+    known = subject.letters.of_kind("parameter", "constant", "coordinate", "time")
+    for name, to in limits.items():
+        if name not in known:
+            raise ValueError(f"{name!r} has no limit, as it is no letter; there are {', '.join(known)}")
+        if name in chosen.trees:
+            raise ValueError(f"{name} is set, so it has no limit; leave one of the two out")
+        try:
+            below = _target(to) < 0
+        except ValueError:
+            raise ValueError(f"{name} cannot go to {to!r}; give 0, a positive number in SI, or inf") from None
+        if below:
+            raise ValueError(f"{name} cannot go to {to}: letters are taken to be positive; give 0, a positive number, or inf")
+
+
+def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[tuple[Given, bool]]:
+    """What is set; where that is too long, in loops with ratios of rates that are named, or at the places of the start that are so
+    whatever the lengths are, first where strings and contacts are told that way; with all lengths and angles as numbers; with
+    masses as well."""
+    yield chosen, False
+    settled = {*chosen.trees, *chosen.defined, *limits}
+    natural = {n: place for n, place in place_of(subject).items() if is_natural(place) and n not in settled}
+    ratios_too = [(chosen, True)] if subject.rows and not limits else []
+    at_start = [(replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural)), False)] if natural else []
+    yield from at_start + ratios_too if subject.source.about["limits"] else ratios_too + at_start
+    lengths = [n for n in subject.letters.geometric() if n not in settled]
+    if lengths:
+        measured = chosen.and_numbers(subject.with_numbers(lengths).numbers or {})
+        yield measured, False
+        masses = {n: x["value"] for n, x in subject.table.items() if x["unit"] in _INERTIAS and n not in settled}
+        yield measured.and_numbers(masses), False
+
+
+def _answers(
+    subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float, with_ratios: bool
+) -> Answers:
     letters, wanted = subject.letters, {name: _letter(subject, name) for name in names}
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
     states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
@@ -112,18 +158,31 @@ def _answers(subject: Subject, chosen: Given, names: Sequence[str], limits: Mapp
     said, chosen = _title(subject, chosen), chosen.and_held(held)
     found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_still(x)}
     made, labels = _held(subject, held), dict[str, str]()
+    ratio = _ratios(subject, chosen, wanted.values()) if with_ratios else None
+    if ratio:
+        made += of_ratios(ratio, [x.name for x in wanted.values() if x.dots], shown)
+        found |= {Sym(name, 2): Sym(name, 2) for name in ratio.rates} | ratio.driving
+        made += [Equation(x, shown(tree), "So") for x, tree in ratio.driving.items() if x in wanted.values()]
     for x in wanted.values():
         if x not in found:
-            system = Search(subject, chosen, held, states).enough(x, found, labels)
+            system = Search(subject, chosen, replace(held, follow={}), states).enough(x, found, labels)
             solution = _solved(subject, system, chosen, patience)
-            made += [*_told(subject, system, labels), *_asked(system.rows), *_shown(system, solution)]
+            made += [*_told(subject, system, labels), *_asked(system.rows), *_where(system, chosen), *_shown(system, solution)]
             found |= solution
-    values = {name: found[x] for name, x in wanted.items()}
-    checked = _check(subject, chosen, {x: found[x] for x in wanted.values()})
+    values = {name: ratio.acceleration(x.name) if ratio and x.dots else found[x] for name, x in wanted.items()}
+    named = ratio.letters() if ratio else {}
+    checked = _check(subject, chosen, {x: values[name] for name, x in wanted.items()}, named)
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
     told = (*said, *made, *_limits(subject, at, limits))
     document = Document(tuple(lettered(block, letters) for block in told), letters)
-    return Answers(values, at, letters, document, checked)
+    return Answers(values, wanted, named, at, letters, document, checked)
+
+
+def _ratios(subject: Subject, chosen: Given, wanted: Collection[Sym]) -> Ratios:
+    """By what is driven, else by the first acceleration that is wanted, or by the first coordinate."""
+    first = driven(subject) or next((x.name for x in wanted if x.dots), subject.coordinates[0]["name"])
+    places = replace(chosen, follow={x: tree for x, tree in chosen.follow.items() if not x.dots})
+    return ratios(subject, places.put, first)
 
 
 def _held(subject: Subject, held: Given) -> list[Block]:
@@ -154,6 +213,10 @@ def _solved(subject: Subject, system: Enough, chosen: Given, patience: float) ->
     matrix = [[each.coefficients.get(x, ZERO) for x in unknowns] for each in system.linear]
     right = [negative(each.rest) for each in system.linear]
     _require_short(matrix, right, chosen.measured)
+    if not chosen.measured:
+        known = distances(chosen.put(row.value) for row in subject.rows if row.value is not None and row.kind != "motion")
+        matrix = [[with_plain_roots(entry, known, subject.values) for entry in row] for row in matrix]
+        right = [with_plain_roots(entry, known, subject.values) for entry in right]
     solution = zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True)
     return {x: with_positive_divisors(tree, subject.values) for x, tree in solution if x in system.gives}
 
@@ -183,6 +246,18 @@ def _asked(rows: Sequence[Row]) -> list[Block]:
     return [Equation(row.acceleration, ZERO, f"With {names}" if i == 0 else "") for i, row in enumerate(rows)]
 
 
+def _where(system: Enough, chosen: Given) -> list[Block]:
+    """What letters of the equations are by others: parameters that are defined so, and what follows from what is closed."""
+    stated = (each.balance.residual for each in system.stated)
+    there = symbols(*stated, *(row.acceleration for row in system.rows))
+    known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
+    used = [
+        (x, shortest(to_sympy(chosen.put(known[x])), patience=_BRIEF))
+        for x in sorted(there & known.keys(), key=lambda x: (x.dots, x.name))
+    ]
+    return [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(used)]
+
+
 def _shown(system: Enough, solution: Mapping[Sym, Tree]) -> list[Block]:
     name: Words = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
     if system.known:
@@ -204,14 +279,16 @@ def _letter(subject: Subject, name: str) -> Sym:
     return Sym(exact[0].symbol)
 
 
-def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
+def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree], named: Mapping[Sym, Tree]) -> int:
     """Holds the answers against numbers at the state and at others; says at how many."""
     rng, compared = np.random.default_rng(_SEED), 0
-    for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS))]:
+    for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS)), *_closed(subject, chosen)]:
         there = state and _like(subject, Subject(subject.source, state, subject.at_rest))
         if not there:
             continue
-        numbers = there.values
+        numbers = dict(there.values)
+        for x, tree in named.items():
+            numbers[x] = float(evaluate(tree, numbers, there.tables))
         for x, tree in values.items():
             found, true = float(evaluate(tree, numbers, there.tables)), numbers[x]
             if abs(found - true) > AGREES * max(abs(true), _scale(there, x)):
@@ -220,12 +297,22 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree]) -> int:
     return compared
 
 
+def _closed(subject: Subject, chosen: Given) -> list[State]:
+    """States near by at which contacts and strings stay closed; none where a coordinate is set that could move."""
+    if not subject.source.about["limits"] or any(c["name"] in chosen.trees.keys() - chosen.still for c in subject.coordinates):
+        return []
+    found = others(subject.source, subject.state)
+    places = {tuple(state.q): replace(state, u=np.zeros_like(state.u)) for state in found}
+    return list(places.values() if subject.at_rest else found)[:_OTHERS]
+
+
 def _like(subject: Subject, there: Subject) -> Subject | None:
-    """Another state of a subject, if the same loads act there."""
+    """Another state of a subject, if the same loads act there, and what is closed is so."""
     from freebody import _core
 
     try:
-        same = _acting(there) == _acting(subject)
+        gaps = [evaluate(row.value, there.values, there.tables) for row in there.rows if row.value is not None]
+        same = _acting(there) == _acting(subject) and np.abs(gaps).max(initial=0.0) < AGREES
     except _core.MotionError:  # what touches here would be pressed in
         return None
     return there if same else None
@@ -252,9 +339,9 @@ def _title(subject: Subject, chosen: Given) -> list[Block]:
     said = ["all rates are 0"] * subject.at_rest + chosen.said()
     made: list[Block] = [Heading(f"{subject.source.name}: answers in letters", 1)]
     if chosen.measured:
-        made.append(
-            Paragraph("In letters alone this would fill pages: lengths, angles and plain numbers are those of the model, in SI.")
-        )
+        made.append(Paragraph("In letters alone this would fill pages: what has a number here has that of the model, in SI."))
+    if chosen.at_start:
+        made.append(Paragraph("In letters for every place this would fill pages: it stands as at the start."))
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])
 
 

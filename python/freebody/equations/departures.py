@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.linear import linear_in
 from freebody.equations.measured import exact, exact_angle, is_measured, measured, with_exact_numbers
 from freebody.equations.simplify import shortest
@@ -49,12 +49,15 @@ class Linearised:
 @dataclass(frozen=True)
 class Held:
     """Departures of coordinates that depend on each other, J x = 0 (``jacobian``): ``follow`` gives those that follow by the free
-    ones. ``reactions`` are the loads of what holds, as they are at rest; ``equations`` those of the free ones."""
+    ones. ``reactions`` are the loads of what holds, as they are at rest, ``undecided`` if not all of them are determined;
+    ``equations`` those of the free ones, last those of ``laws`` of motions that prescribe an acceleration by places and rates."""
 
     jacobian: Matrix
     follow: Mapping[str, Sequence[Tree]]
     reactions: Mapping[Sym, Tree]
+    undecided: bool
     equations: Linearised
+    laws: tuple[str, ...]
 
 
 def linearised(subject: Subject, put: Mapping[str, Tree]) -> Linearised:
@@ -77,31 +80,66 @@ def held(subject: Subject, found: Linearised, put: Mapping[str, Tree]) -> Held:
     stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where
     they do no work) the equations are Lᵀ (M N z̈ + C N ż + K N z) = 0. Raises ``TooLarge``, ``Singular``."""
     names, letters = found.coordinates, subject.letters
-    slopes = [[_put(row.linear.coefficients.get(Sym(name, 2), ZERO), put) for name in names] for row in subject.rows]
+    laws = [row for row in replace(subject, at_rest=False).rows if _is_law(row, names)]
+    holding = [row for row in subject.rows if row.name not in {law.name for law in laws}]
+    slopes = [[_put(row.linear.coefficients.get(Sym(name, 2), ZERO), put) for name in names] for row in holding]
     loads = [Sym(load.symbol) for load in subject.free.loads if load.unknown]
     parts = [linear_in(left, loads) for left in found.left]
     loads = [x for x in loads if any(x in part.coefficients for part in parts)]
     loading = [[negative(part.coefficients.get(x, ZERO)) for x in loads] for part in parts]
-    asked = independent(numbers(subject, slopes))
-    follows = independent(numbers(subject, [slopes[i] for i in asked]).T, last_first=True)
-    acting = independent(numbers(subject, [loading[i] for i in follows]).T)
-    chosen = [i for i in range(len(names)) if i not in follows]
+    asked = independent(numbers(subject, slopes).reshape(len(slopes), len(names)))
+    follows = independent(numbers(subject, [slopes[i] for i in asked]).reshape(len(asked), len(names)).T, last_first=True)
+    bearing = independent(numbers(subject, loading), last_first=True) if laws else follows
+    acting = independent(numbers(subject, [loading[i] for i in bearing]).T)
+    chosen, bare = ([i for i in range(len(names)) if i not in places] for places in (follows, bearing))
 
-    def departures(inner: Matrix, outer: Matrix) -> Matrix:
+    def departures(inner: Matrix, outer: Matrix, follows: Sequence[int], chosen: Sequence[int]) -> Matrix:
         """N of J N = 0, a row for each coordinate, from the columns of J that follow and those chosen."""
-        solved = [solve(inner, [negative(row[c]) for row in outer], letters, patience=PATIENCE) for c in range(len(chosen))]
+        columns = [[negative(row[c]) for row in outer] for c in range(len(chosen))]
+        solved = [solve(inner, column, letters, patience=PATIENCE) if inner else [] for column in columns]
         return [[column[follows.index(i)] if i in follows else ONE if chosen[c] == i else ZERO for c, column in enumerate(solved)]
                 for i in range(len(names))]  # fmt: skip
 
-    ways = departures(_part(slopes, asked, follows), _part(slopes, asked, chosen))
-    inner = _part(loading, follows, acting)
-    tests = departures(_turned(inner), _turned(_part(loading, chosen, acting)))
-    rests = solve(inner, [parts[i].rest for i in follows], letters, patience=PATIENCE)
+    ways = departures(_part(slopes, asked, follows), _part(slopes, asked, chosen), follows, chosen)
+    inner = _part(loading, bearing, acting)
+    tests = departures(_turned(inner), _turned(_part(loading, bare, acting)), bearing, bare)
+    rests = solve(inner, [parts[i].rest for i in bearing], letters, patience=PATIENCE)
     reactions = dict.fromkeys(loads, ZERO) | dict(zip([loads[i] for i in acting], rests, strict=True))
     stiffness = [[_put(entry, {x.name: tree for x, tree in reactions.items()}) for entry in row] for row in found.stiffness]
-    matrices = (_between(tests, matrix, ways, subject) for matrix in (found.mass, found.damping, stiffness))
+    balances = [_between(tests, matrix, ways, subject) if bare else [] for matrix in (found.mass, found.damping, stiffness)]
+    lawful = [_between(_identity(len(laws)), [[_slope(law, Sym(name, dots), put) for name in names] for law in laws], ways, subject)
+              if laws else [] for dots in (2, 1, 0)]  # fmt: skip
+    matrices = ([*above, *below] for above, below in zip(balances, lawful, strict=True))
+    undecided = len(acting) < len(loads)
     equations = Linearised(tuple(names[i] for i in chosen), *matrices, [ZERO] * len(chosen))
-    return Held([slopes[i] for i in asked], {names[i]: ways[i] for i in follows}, reactions, equations)
+    return Held(
+        [slopes[i] for i in asked],
+        {names[i]: ways[i] for i in follows},
+        reactions,
+        undecided,
+        equations,
+        tuple(law.name for law in laws),
+    )
+
+
+def _is_law(row: Row, coordinates: Collection[str]) -> bool:
+    """Whether a motion prescribes an acceleration by a law of places and rates, and so leaves them free."""
+    accelerated = row.kind == "motion" and row.value is None and row.rate is None
+    return accelerated and any(x.name in coordinates for x in symbols(row.linear.rest))
+
+
+def _slope(row: Row, letter: Sym, put: Mapping[str, Tree]) -> Tree:
+    """How what a row asks changes by a letter, at rest."""
+    import sympy
+
+    expression = to_sympy(with_exact_numbers(row.acceleration))
+    slope = expression.diff(sympy.Symbol(letter.name + "'" * letter.dots))
+    still = {x: 0 for x in slope.free_symbols if x.name.endswith("'")}
+    return _put(from_sympy(slope.subs(still)), put)
+
+
+def _identity(n: int) -> Matrix:
+    return [[ONE if i == j else ZERO for j in range(n)] for i in range(n)]
 
 
 def place_of(subject: Subject) -> dict[str, Tree]:

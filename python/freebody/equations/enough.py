@@ -99,7 +99,8 @@ class Search:
         """As many unknowns as equations: others, of which the one wanted does not depend, are left out."""
         unknowns = [wanted, *(x for x in _unknowns(made) if x != wanted)]
         numbers = self._numbers(made, unknowns)
-        kept = independent((numbers / np.linalg.norm(numbers, axis=0)).T)
+        norms = np.linalg.norm(numbers, axis=0)
+        kept = independent((numbers / np.where(norms > 0, norms, 1.0)).T)
         gives = [x for i, x in enumerate(unknowns) if i in kept and holds(numbers, i)]
         stated, rows = ([of for of, _ in made if isinstance(of, kind)] for kind in (Stated, Row))
         used = [x for x in known if any(x in each.balance.linear.coefficients for each in stated)]
@@ -126,7 +127,8 @@ class Search:
         )
         sizes = np.abs(table).max(axis=1, keepdims=True, initial=0.0)
         table = table / np.where(sizes > 0, sizes, 1.0)  # nothing unknown is left in an equation of what is known
-        return table / np.abs(table).max(axis=0)
+        largest = np.abs(table).max(axis=0)
+        return table / np.where(largest > 0, largest, 1.0)
 
 
 def _unknowns(made: Sequence[tuple[Stated | Row, Linear]]) -> list[Sym]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody import _core
+from freebody.balances.states import Closing
 from freebody.free_body import FreeBodies
 from freebody.instant import Instant, State
 
@@ -24,19 +25,23 @@ _SMALL = 1e-9
 """Part of the largest slope below which nothing holds a departure."""
 
 
-def rest_near(source: Source, state: State) -> State | None:
-    """The place of rest that Newton's method comes to on closed loops; None if to none."""
-    return _Search(source, state).found()
+def rest_near(source: Source, state: State, touching: State | None = None) -> State | None:
+    """The place of rest that Newton's method comes to on closed loops, from a state, and with closed what touches in it, or in
+    another; None if to none."""
+    return _Search(source, state, touching or state).found()
 
 
 class _Search:
-    def __init__(self, source: Source, state: State) -> None:
+    def __init__(self, source: Source, state: State, touching: State) -> None:
         self.core, self.about, self.state = source.core, source.about, state
         self.names = [c["name"] for c in source.about["coordinates"]]
+        free = FreeBodies.read(self.core.free_bodies(touching.p, touching.t, touching.q, touching.u))
+        closing = Closing(source, touching, free)
+        self.closing = closing if closing.closed and not source.about["motions"] else None
 
     def found(self) -> State | None:
-        q = np.array(self.state.q, dtype=float)
         try:
+            q = self._closed(np.array(self.state.q, dtype=float)) if self.closing else np.array(self.state.q, dtype=float)
             for _ in range(_STEPS):
                 step = self._step(q)
                 longest = float(np.abs(step).max(initial=0.0))
@@ -49,6 +54,10 @@ class _Search:
         return None
 
     def _closed(self, q: Array) -> Array:
+        if self.closing:
+            if (found := self.closing.place(q)) is None:
+                raise np.linalg.LinAlgError("what touches does not close there")
+            return found
         s, guess = self.state, dict(zip(self.names, q.tolist(), strict=True))
         return self.core.assemble(s.p, s.t, guess=guess)[0]
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 from dataclasses import replace as replaced
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.balances.system import alike
+from freebody.equations.defined import definitions
 from freebody.equations.derivation.told import Subject
+from freebody.equations.letters import is_heavy
 from freebody.equations.measured import exact, shown, with_exact_numbers
 from freebody.equations.tree import PI, ZERO, Sym, Tree, evaluate, mul, number, replace, symbols
 from freebody.instant import State
@@ -29,11 +32,15 @@ _NEAR = 0.15
 @dataclass(frozen=True)
 class Given:
     """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages.
-    ``still``: coordinates whose rates and accelerations are 0."""
+    ``still``: coordinates whose rates and accelerations are 0. ``defined``: parameters by those that define them. ``follow``:
+    coordinates and rates by the others on which they depend. ``at_start``: letters set to where they start."""
 
     trees: Mapping[str, Tree]
     measured: bool = False
     still: frozenset[str] = frozenset()
+    defined: Mapping[str, Tree] = field(default_factory=dict)
+    follow: Mapping[Sym, Tree] = field(default_factory=dict)
+    at_start: frozenset[str] = frozenset()
 
     def is_still(self, letter: Sym) -> bool:
         """Whether a letter is the rate or acceleration of a coordinate that stands still."""
@@ -45,16 +52,23 @@ class Given:
 
         new = {Sym(name): value for name, value in self.trees.items()}
         new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
-        made = with_exact_numbers(tree)
-        return from_sympy(to_sympy(replace(made, new))) if symbols(made) & new.keys() else made
+        new |= self.follow
+        given = with_exact_numbers(tree)
+        made = replace(given, {Sym(name): value for name, value in self.defined.items()})
+        return from_sympy(to_sympy(replace(made, new))) if made != given or symbols(made) & new.keys() else made
+
+    def settled(self) -> dict[str, Tree]:
+        """What is set, and what is defined, by letters that are neither."""
+        set_to = {Sym(name): tree for name, tree in self.trees.items()}
+        return dict(self.trees) | {name: replace(tree, set_to) for name, tree in self.defined.items()}
 
     def and_numbers(self, numbers: Mapping[str, float]) -> Given:
         """With more letters set, to measured numbers."""
         return replaced(self, trees={name: exact(value) for name, value in numbers.items()} | dict(self.trees), measured=True)
 
     def and_held(self, held: Given) -> Given:
-        """With what cannot move."""
-        return replaced(self, trees={**self.trees, **held.trees}, still=held.still)
+        """With what cannot move, and what follows."""
+        return replaced(self, trees={**self.trees, **held.trees}, still=held.still, follow=held.follow)
 
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
         """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
@@ -73,7 +87,7 @@ class Given:
 
         source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
         p = self.parameters_near(subject, state, rng)
-        set_to = self._numbers(_parameters(source.about, p))
+        set_to = self._consistent(_parameters(source.about, p))
         q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}
         fixed = {name: x for name, x in set_to.items() if name in q}
         parts = rng.uniform(-1, 1, len(names))
@@ -89,7 +103,7 @@ class Given:
     def parameters_near(self, subject: Subject, state: State, rng: np.random.Generator) -> Array:
         """Parameters beside those of a state, with which it may not close; what is set stays so."""
         values = _parameters(subject.source.about, state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p)))
-        set_to = self._numbers(values)
+        set_to = self._consistent(values)
         return subject.source.core.bind({name: set_to.get(name, value) for name, value in values.items()})
 
     def generic(self, subject: Subject) -> State:
@@ -98,14 +112,16 @@ class Given:
 
         source, state = subject.source, subject.state
         values = _parameters(source.about, state.p)
-        moved = {name: value or _NEAR for name, value in values.items()} | self._numbers(values)
+        moved = {name: value or _NEAR for name, value in values.items()}
+        moved |= self._consistent(moved)
         names = [c["name"] for c in source.about["coordinates"]]
         p = source.core.bind({name: moved[name] for name in values})
         try:
             q, _, _ = source.core.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
         except _core.MotionError:
             return state
-        return State(p, state.t, q, state.u)
+        found = State(p, state.t, q, state.u)
+        return found if alike(replaced(subject, state=found).free, subject.free) else state
 
     def said(self) -> list[str]:
         """As words: ``theta = π/4``."""
@@ -113,20 +129,30 @@ class Given:
 
         return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
 
+    def _consistent(self, parameters: Mapping[str, float]) -> dict[str, Any]:
+        """What is set, and what is defined, where the other parameters are as given."""
+        set_to = self._numbers(parameters)
+        values = {Sym(name): value for name, value in (dict(parameters) | set_to).items()}
+        return set_to | {name: float(evaluate(tree, values)) for name, tree in self.defined.items() if name in parameters}
+
     def _numbers(self, parameters: Mapping[str, float]) -> dict[str, Any]:
         values = {Sym(name): value for name, value in parameters.items()}
         return {name: float(evaluate(tree, values)) for name, tree in self.trees.items()}
 
 
-def given(mechanism: Builder, set: Mapping[str, Any]) -> Given:
-    """What is set, exactly. Raises ``ValueError`` where it is no quantity and no letter."""
+def given(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()) -> Given:
+    """What is set, exactly, and lengths and angles that the model defines by others, but what is ``free``. Raises ``ValueError`` where it is no
+    quantity and no letter."""
     about = mechanism.source().about
     letters = [p["name"] for p in about["parameters"]]
     known = [*letters, *(c["name"] for c in about["coordinates"])]
     for name in set:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
-    return Given({name: _exact(value, letters) for name, value in set.items()})
+    sizes = [p["name"] for p in about["parameters"] if not is_heavy(p["unit"])]
+    defined = {name: tree for name, tree in definitions(mechanism.source(), {*set, *free}).items() if name in sizes}
+    named = {Sym(name): tree for name, tree in defined.items()}
+    return Given({name: replace(_exact(value, letters), named) for name, value in set.items()}, defined=defined)
 
 
 def _exact(value: Any, letters: list[str]) -> Tree:

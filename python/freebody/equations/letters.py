@@ -67,10 +67,7 @@ class Letters(Mapping[str, Letter]):
 
     def geometric(self) -> list[str]:
         """Coordinates and parameters that are lengths, angles or plain numbers: neither masses, loads, stiffnesses nor g."""
-        heavy = (_HEAVY, _GRAVITY)
-        return [
-            x.name for x in self.values() if x.kind == "coordinate" or (x.kind == "parameter" and _weight(x.unit) not in heavy)
-        ]
+        return [x.name for x in self.values() if x.kind == "coordinate" or (x.kind == "parameter" and not is_heavy(x.unit))]
 
     def rank(self, symbol: Sym) -> tuple[int, int]:
         """Where a letter stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
@@ -84,6 +81,11 @@ class Letters(Mapping[str, Letter]):
     @cached_property
     def _places(self) -> dict[str, int]:
         return {name: place for place, name in enumerate(self.table)}
+
+
+def is_heavy(unit: str) -> bool:
+    """Whether a unit is that of a mass, a load, a stiffness or an acceleration, and not of a length, an angle or a plain number."""
+    return _weight(unit) in (_HEAVY, _GRAVITY)
 
 
 _PURE, _HEAVY, _GRAVITY, _OTHER = range(4)

@@ -18,6 +18,8 @@ _ROUND_OFF = 1e-12
 _FIGURES = 5
 _PLAIN = 12
 """Denominators that a person reads as fractions."""
+_MOST = 1000
+"""The same of what is no decimal number."""
 
 
 def is_measured(expression: Any) -> bool:
@@ -107,5 +109,12 @@ def shown(tree: Tree) -> Tree:
 
 
 def _in_figures(value: float | Fraction) -> Tree:
-    plain = isinstance(value, Fraction) and value.denominator <= _PLAIN
+    plain = isinstance(value, Fraction) and (
+        value.denominator <= _PLAIN or (value.denominator <= _MOST and not _is_decimal(value))
+    )
     return Num(value if plain else float(f"{float(value):.{_FIGURES}g}"))
+
+
+def _is_decimal(value: Fraction) -> bool:
+    """Whether its decimals end."""
+    return 10**6 % value.denominator == 0

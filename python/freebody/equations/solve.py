@@ -94,7 +94,9 @@ def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | 
     expression = to_sympy(tree, positive=names, real=True)
     target = sympy.oo if to == float("inf") else -sympy.oo if to == -float("inf") else sympy.nsimplify(to)
     found = sympy.limit(expression, sympy.Symbol(letter, positive=True), target, "+")
-    if isinstance(found, sympy.Limit | sympy.AccumBounds) or found.has(sympy.nan):
+    if found.has(sympy.AccumBounds):
+        raise ValueError(f"there is no limit for {letter} to {to}: it goes to and fro without end; put a number for {letter}")
+    if isinstance(found, sympy.Limit) or found.has(sympy.nan):
         raise ValueError(f"no limit in letters was found for {letter} to {to}; put numbers for some letters")
     return from_sympy(found) if found.is_infinite else shortest(found, letters)
 

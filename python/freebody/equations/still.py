@@ -9,8 +9,9 @@ import numpy as np
 
 from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.told import Row, Subject
+from freebody.equations.following import followed, solved, vanishing
 from freebody.equations.given import Given
-from freebody.equations.tree import Tree, is_zero, symbols
+from freebody.equations.tree import Sym, Tree, is_zero, symbols
 from freebody.free_body import FreeBodies
 
 _HELD = 1e-7
@@ -19,7 +20,7 @@ _HELD = 1e-7
 
 def held_still(subject: Subject, chosen: Given, states: Sequence[FreeBodies]) -> Given:
     """The coordinates that nothing lets move, at all ``states``, as ``still``, and their places where these do not depend on any
-    letter but those ``chosen``."""
+    letter but those ``chosen``; and what ``follow`` from others."""
     names = [c["name"] for c in subject.coordinates]
     fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Given({}, still=frozenset(names)))]
     free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
@@ -28,8 +29,11 @@ def held_still(subject: Subject, chosen: Given, states: Sequence[FreeBodies]) ->
     natural = {
         name: place for name, place in place_of(subject).items() if is_natural(place) and name in still - chosen.trees.keys()
     }
+    moving = [name for name in names if name not in still and name not in chosen.trees]
     closed = [held.put(chosen.put(value)) for i in fixed if (value := subject.rows[i].value) is not None]
-    return replace(held, trees=_closing(closed, natural))
+    places = Given(_closing(closed, natural, moving, subject.values), still=still)
+    rows = [row for row in subject.rows if row.kind != "motion"]
+    return replace(places, follow=followed(rows, lambda tree: places.put(chosen.put(tree)), moving, subject.values))
 
 
 def holds(rows: np.ndarray, place: int) -> bool:
@@ -44,8 +48,14 @@ def _is_fixed(row: Row, rest: Given) -> bool:
     return not (row.rate is None and row.kind == "motion") and all(is_zero(rest.put(tree)) for tree in asked)
 
 
-def _closing(closed: Sequence[Tree], places: Mapping[str, Tree]) -> Mapping[str, Tree]:
-    """Of these places those with which everything that they are in vanishes, whatever the letters are."""
+def _closing(
+    closed: Sequence[Tree], places: Mapping[str, Tree], moving: Sequence[str], numbers: Mapping[Sym, float]
+) -> Mapping[str, Tree]:
+    """Of these places those with which everything that they are in vanishes, whatever the letters are, or tells what is moving."""
     there = Given(places)
-    open_by = {x.name for value in closed if not is_zero(there.put(value)) for x in symbols(value)}
-    return _closing(closed, {n: place for n, place in places.items() if n not in open_by}) if open_by & places.keys() else places
+    values = [there.put(value) for value in closed]
+    met = vanishing(values, solved(values, moving, 0, numbers))
+    open_by = {x.name for value, vanishes in zip(closed, met, strict=True) if not vanishes for x in symbols(value)}
+    if not open_by & places.keys():
+        return places
+    return _closing(closed, {n: place for n, place in places.items() if n not in open_by}, moving, numbers)

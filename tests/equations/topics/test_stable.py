@@ -100,3 +100,28 @@ def test_two_equal_rods_hang_from_each_other() -> None:
     for sign in (1, -1):
         assert f"± {np.sqrt((3 + sign * 6 / np.sqrt(7)) * 9.81 / l):.5g} i" in told
     assert told.count("± √(") == 2 and "stay small and oscillate for all values" in " ".join(told.split())
+
+
+HAND = """
+freebody: 1
+name: a broom on a hand that is driven
+parameters: {l: 1.5 m, p: 30 m/s^2, d: 7 m/s, x: 1, v: 1.5, g: 9.81 m/s^2}
+gravity: g
+bodies: {hand: {mass: 0}, broom: {shape: rod, length: l, mass: 1 kg, points: {A: start}}}
+joints:
+  rail: {type: slider, along: {through: ground.O, angle: 0}, line: {through: hand.origin, angle: 0}, coordinate: s}
+  grip: {type: hinge, of: [hand.origin, broom.A], coordinate: {name: theta, zero: up, sense: clockwise}}
+motions: {hold: {of: s, is: p*theta + d*rate(theta) + x*s + v*rate(s), level: acceleration}}
+initial: {s: 0, theta: 0, at_rest: true}
+"""
+
+
+def test_a_hand_that_follows_a_law_is_part_of_what_is_left() -> None:
+    """λ⁴ + (κd − v) λ³ + (κp − κg − x) λ² + κg v λ + κg x with κ = 3/2l: s̈ is prescribed by places and rates, so s is not held."""
+    l, p, d, x, v, g = 1.5, 30.0, 7.0, 1.0, 1.5, 9.81
+    kappa = 3 / (2 * l)
+    roots = np.roots([1, kappa * d - v, kappa * (p - g) - x, kappa * g * v, kappa * g * x])
+    told = said(HAND)
+    for root in roots:
+        assert f"{abs(root.imag):.5g} i 1/s" in told, (root, told[-300:])
+    assert "the law of hold last" in told

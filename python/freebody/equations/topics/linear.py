@@ -45,9 +45,13 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     Where loops, motions or contacts hold, of the departures that they leave free. Raises ``NotHere`` where no equilibrium is found."""
     chosen = given(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
-    rest = _rest(mechanism, first)
+    names = [c["name"] for c in mechanism.source().about["coordinates"]]
+    others = {name: value for name, value in at.items() if name not in names}
+    touching = given(mechanism, others).start(mechanism, True, None) if others else replace(state, u=np.zeros_like(state.u))
+    rest = _rest(mechanism, first, touching)
     if rest is not first:
-        chosen = Given({name: tree for name, tree in chosen.trees.items() if name not in place_of(subject_of(mechanism, first))})
+        places = place_of(subject_of(mechanism, first))
+        chosen = replace(chosen, trees={name: tree for name, tree in chosen.trees.items() if name not in places})
     subject = subject_of(mechanism, rest, at_rest=True)
     _require_stillness(subject)
     _require_regular(subject)
@@ -58,11 +62,11 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     return document(subject, title, where + made + character(subject, found, _letters_of(subject)), more)
 
 
-def _rest(mechanism: Builder, state: State) -> State:
-    """The state, or the place of rest that is found near it."""
+def _rest(mechanism: Builder, state: State, touching: State) -> State:
+    """The state, or the place of rest that is found near it, where what is ``touching`` in another does so."""
     source = mechanism.source()
     unrest = Instant(source.core, state, about=source.about).unrest()
-    found = rest_near(source, state) if unrest else state
+    found = rest_near(source, state, touching) if unrest else state
     if found is None:
         told = "; ".join(f"{name} {how}" for name, how in unrest.items())
         raise NotHere(
@@ -97,7 +101,7 @@ def _require_regular(subject: Subject) -> None:
 def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
     """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
     place = place_of(subject)
-    put = {name: tree for name, tree in place.items() if is_natural(tree)} | dict(chosen.trees)
+    put = {name: tree for name, tree in place.items() if is_natural(tree)} | chosen.settled()
     whole = linearised(subject, put)
     made = _equations(subject, whole)
     if not subject.rows:
@@ -154,12 +158,12 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     """How the other coordinates follow, and the equations of those that are free."""
     letters = _letters_of(subject)
     free = [Sym(letters[name].name) for name in left.equations.coordinates]
-    names = joined(list(dict.fromkeys(row.name for row in subject.rows)))
+    names = list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws))
     made: list[Block] = [Heading("What is left free")]
     if numbers:
         made.append(Paragraph(["In letters this fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
-        made.append(Paragraph(f"To first order {names} make these follow:"))
+        made.append(Paragraph(f"To first order {joined(names)} make these follow:"))
     made += [
         Equation(Sym(letters[name].name), shown(add(*(mul(entry, x) for entry, x in zip(ways, free, strict=True)))))
         for name, ways in left.follow.items()
@@ -167,12 +171,12 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     if not free:
         return [*made, Paragraph("Nothing is left free to move.")]
     if left.reactions:
-        undecided = len(left.reactions) > len(left.follow)
-        made.append(Paragraph(f"The loads at rest{', of which some are not determined and taken to be 0' * undecided}:"))
+        undecided = ", of which some are not determined and taken to be 0" * left.undecided
+        made.append(Paragraph(f"The loads at rest{undecided}:"))
     made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
-    return made + _stated(
-        left.equations, letters, ["What they change by does no work there. What is left of ", *listed(free), " is"]
-    )
+    last = f", the law of {joined(list(left.laws))} last," if left.laws else ""
+    said = ["What they change by does no work there. What is left of ", *listed(free), f"{last} is"]
+    return made + _stated(left.equations, letters, said)
 
 
 def _place(subject: Subject, chosen: Given, near: bool) -> Words:

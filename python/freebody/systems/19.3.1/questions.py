@@ -47,6 +47,11 @@ def path(case, name, file="model.yaml"):
     return case.run(file, {"vx": vx, "vy": vy})
 
 
+@ask("In letters: the equations in x and y")
+def in_letters(case):
+    yield from case.in_letters({"x": "-k*x/m", "y": "-k*y/m"}, "Newton's law")
+
+
 @ask("Motion from three starts; the second goes through the hole")
 def motion(case):
     for name in STARTS:

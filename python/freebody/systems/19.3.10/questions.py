@@ -19,6 +19,16 @@ M, A, W = 1.0, 1.0, 1.0
 INERTIAS = (2.0, 0.0, 1.0)
 
 
+@ask("(b) In letters: the equations, and the force between rod and bead")
+def in_letters(case):
+    closed = {
+        "theta": "-2*m*R*rate(R)*rate(theta)/(I_O + m*R^2)",
+        "R": "R*rate(theta)^2",
+        "track.Fn": "2*I_O*m*rate(R)*rate(theta)/(I_O + m*R^2)",
+    }
+    yield from case.in_letters(closed, "closed form: (I_O + m R²) θ̇ is constant, no force along the slot")
+
+
 @ask("State and force between rod and bead at R = 2")
 def at_two(case):
     for inertia in INERTIAS:

@@ -31,6 +31,21 @@ def accelerations(mc, mp, theta, omega=0.0):
     return xdd, -(G * sin(theta) + xdd * cos(theta)) / L
 
 
+@ask("In letters, just after release")
+def in_letters(case):
+    below = "(mc + mp*sin(theta)^2)"
+    closed = {
+        "x": f"mp*g*sin(theta)*cos(theta)/{below}",
+        "theta": f"-(mc + mp)*g*sin(theta)/(l*{below})",
+        "rod.tension": f"mc*mp*g*cos(theta)/{below}",
+        "theta, mc → inf": "-g*sin(theta)/l",
+    }
+    against = "closed form: three balances"
+    yield from case.in_letters(closed, against, at_rest=True)
+    alike = {"theta": "45 deg", "mp": "mc"}
+    yield from case.in_letters({"x": "g/3"}, against, of="m_c = m_p, θ 45°", at_rest=True, set=alike)
+
+
 @ask("Just after release")
 def release(case):
     against = "closed form: three balances"

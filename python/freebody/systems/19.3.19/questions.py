@@ -78,6 +78,11 @@ class Pumped:
         return min(min(values), minimize_scalar(self.tension, bounds=near, method="bounded", options={"xatol": 1e-9}).fun)
 
 
+@ask("In letters: what the hand does to the angle")
+def in_letters(case):
+    yield from case.in_letters({"theta": "xsdd*sin(theta)/l"}, "closed form: balance across the string", "push.yaml")
+
+
 @ask("One instant")
 def instant(case):
     length, mass, theta, omega, push = 1.2, 0.5, 0.9, 2.5, 7.0

@@ -48,6 +48,14 @@ def tension(y, theta, omega, k):
     return m * (L * omega**2 - relative(y, theta, omega, k) * cos(theta))
 
 
+@ask("In letters: the two equations, with the spring and without")
+def in_letters(case):
+    below = "(M + m*cos(theta)^2)"
+    for file, spring in [("model.yaml", " - k*y"), ("free_fall.yaml", "")]:
+        down = f"(m*l*rate(theta)^2*cos(theta){spring})/{below}"
+        yield from case.in_letters({"y": f"g + {down}", "theta": f"{down}*sin(theta)/l"}, EQUATIONS, file)
+
+
 @ask("One instant, with the forces of guide and rod")
 def instant(case):
     y, theta, _, omega = START

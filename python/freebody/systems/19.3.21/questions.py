@@ -34,6 +34,15 @@ def on(degrees):
     return G * sin(degrees * pi / 180)
 
 
+@ask("Over a pulley, in letters")
+def in_letters(case):
+    closed = {
+        "x1": "g*(m1*sin(alpha1) - m2*sin(alpha2))/(m1 + m2)",
+        "cable.tension": "m1*m2*g*(sin(alpha1) + sin(alpha2))/(m1 + m2)",
+    }
+    yield from case.in_letters(closed, "closed form: one balance a block")
+
+
 @ask("Over a pulley: acceleration; tension (a) after release, (b) at 5 s")
 def pulley(case):
     for m1, m2, left, right in CASES:

@@ -42,6 +42,16 @@ def reference(times, g, reduced):
     return motion(lambda t, s: (s[1], swing(t, s[0], g, reduced)), START, times)
 
 
+@ask("In letters: θ̈ from θ and r(t)")
+def in_letters(case):
+    pull = "b*nu^2*sin(nu*t)*cos(theta)"
+    against = "closed form: moments about the support, r̈ = −b ν² sin νt"
+    bob = "model.yaml"
+    yield from case.in_letters({"theta": f"-{pull}/l"}, against, bob, "(a) particle, no gravity", set={"g": 0})
+    yield from case.in_letters({"theta": f"-(g*sin(theta) + {pull})/l"}, against, bob, "(b) particle")
+    yield from case.in_letters({"theta": f"-3*(g*sin(theta) + {pull})/(2*l)"}, against, "rod.yaml", "(c) rod")
+
+
 @ask("θ̈ from θ and r(t)")
 def acceleration(case):
     """At t = 0.4, with θ from the run."""

@@ -27,6 +27,14 @@ def speeds(t):
     return V0 * cos(W * t) - W * R0 * sin(W * t)
 
 
+@ask("(a, b) In letters, Cartesian and polar")
+def in_letters(case):
+    against = "Newton's law; a_r = r̈ − r φ̇², a_φ = r φ̈ + 2 ṙ φ̇"
+    yield from case.in_letters({"x": "-k*x/m", "y": "-k*y/m"}, against)
+    polar = {"r": "r*rate(phi)^2 - k*r/m", "phi": "-2*rate(r)*rate(phi)/r"}
+    yield from case.in_letters(polar, against, "polar.yaml")
+
+
 @ask("(a, b) Accelerations at the start, Cartesian and polar")
 def accelerations(case):
     """Polar: r̈ − rφ̇² = −kr/m and rφ̈ + 2ṙφ̇ = 0, with r, ṙ, φ̇ from the start."""

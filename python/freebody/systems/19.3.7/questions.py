@@ -26,6 +26,14 @@ def swinging(t, y):
     return [speed, turning, R * bend + (length * turning**2 + G * cos(tilt)) / 2, bend]
 
 
+@ask("(a) In letters, just after release")
+def in_letters(case):
+    closed = {"hoop.y": "-g/2", "hoop.x": "0", "hoop.angle": "-g/(2*R)"}
+    yield from case.in_letters(
+        closed, "closed form: moments about the point where the string leaves", at_rest=True, set={"tilt": 0}
+    )
+
+
 @ask("(a) y_G at time t")
 def height(case):
     for of, file in MODELS.items():

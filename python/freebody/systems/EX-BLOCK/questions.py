@@ -37,6 +37,13 @@ def forces(y, shares):
     return (total - difference) / 2, (total + difference) / 2, shares[0] * normal, shares[1] * normal
 
 
+@ask("in letters")
+def in_letters(case):
+    below = "(m1 + m2*sin(tip)^2)"
+    closed = {"x": f"m2*g*sin(tip)*cos(tip)/{below}", "y": f"(m1 + m2)*g*sin(tip)/{below}"}
+    yield from case.in_letters(closed, "closed form: momentum along x, block 2 along the slope")
+
+
 @ask("accelerations and roller forces at y = 0, 0.1, 0.3 m")
 def instants(case):
     for y in PLACES:

@@ -17,7 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.formulas import formula
 from freebody.catalogue.reference import motion
+from freebody.equations import Sym
 from freebody.systems._linkages import cross, dot
 
 G, R, THROW, L = 9.81, 0.3, 0.04, 0.14
@@ -134,6 +136,26 @@ def parts(case):
             "closed form: triangle, gear ratios",
             1e-12,
         )
+
+
+@ask("in letters: each part's rate by that of the crank, and the one equation of motion")
+def in_letters(case):
+    """The rod's centre is at x + r sin θ − l/2 sin ψ, r cos θ + l/2 cos ψ; k are rates for θ̇ = 1, c accelerations for θ̈ = 0."""
+    found = case.mechanism().solve_in_letters(["thc"])
+    across, up = "(R/12 + r*cos(thc) - l*cos(psi)*k_psi/2)", "(-r*sin(thc) - l*sin(psi)*k_psi/2)"
+    aside = "(-r*sin(thc)*rate(thc)^2 + l*sin(psi)*rate(psi)^2/2 - l*cos(psi)*c_psi/2)"
+    down = "(-r*cos(thc)*rate(thc)^2 - l*cos(psi)*rate(psi)^2/2 - l*sin(psi)*c_psi/2)"
+    shift = "whole*(R/12)^2 + J_crank + J_shaft/9 + J_wheel/144"
+    rod = f"m_rod*({across}^2 - (R/12)^2 + {up}^2 + l^2*k_psi^2/12)"
+    load = (
+        f"-resistance*R/12 - (m_piston*(g + c_h) + gas*sin(thc))*k_h"
+        f" - m_rod*({across}*{aside} + {up}*({down} + g) + l^2*k_psi*c_psi/12)"
+    )
+    closed = {"k_psi": "r*cos(thc)/(l*cos(psi))", "k_h": "-r*sin(thc) - l*sin(psi)*k_psi"}
+    for name, text in closed.items():
+        yield formula(name, found.named[Sym(name)], text, "closed form: the loop, differentiated", found.letters)
+    whole = f"({load})/({shift} + m_piston*k_h^2 + {rod})"
+    yield formula("thc′′", found["thc"], whole, "closed form: power of loads and inertia", found.letters)
 
 
 @ask("inertia felt at the crank, and the equation of motion")

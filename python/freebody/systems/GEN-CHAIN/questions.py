@@ -9,6 +9,8 @@ At release all angles are 0, and each hinge carries what the links beyond it nee
 40 digits.
 """
 
+from fractions import Fraction
+
 import mpmath as mp
 import numpy as np
 
@@ -50,6 +52,32 @@ def released(n):
         centres = [sum(turn[:i]) + turn[i] / 2 for i in range(n)]
         forces = [sum(a + g for a in centres[i:]) for i in range(n)]
         return [float(a) for a in turn], [float(f) for f in forces], float(sum(turn))
+
+
+@ask("at release, in letters: three links")
+def in_letters(case):
+    """M φ̈ = b in parts of mℓ² and mgℓ, exactly; hinge i carries what the links from i on weigh, less m times their fall."""
+    places = range(3)
+    matrix = [[3 - max(i, j) - (Fraction(2, 3) if i == j else Fraction(1, 2)) for j in places] for i in places]
+    turned = solved(matrix, [-(Fraction(5, 2) - i) for i in places])
+    falls = [sum(turned[:i], turned[i] / 2) for i in places]
+    closed = {f"phi[{i + 1}]": f"{turned[i]}*g/l" for i in places}
+    closed |= {f"pin[{i + 1}].Fy": f"{3 - i + sum(falls[i:])}*m*g" for i in places}
+    straight = {f"phi[{i + 1}]": 0 for i in places}
+    yield from case.in_letters(closed, "other route: exact elimination", at_rest=True, set=straight)
+
+
+def determinant(rows):
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+
+
+def solved(matrix, right):
+    """x of A x = b for three unknowns, by Cramer's rule."""
+    swapped = [
+        [[b if k == col else x for k, x in enumerate(row)] for row, b in zip(matrix, right, strict=True)] for col in range(3)
+    ]
+    return [determinant(rows) / determinant(matrix) for rows in swapped]
 
 
 @ask("at release: angular accelerations, hinge forces, tip")

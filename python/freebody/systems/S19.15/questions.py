@@ -43,6 +43,20 @@ def formula(m1, m2, alpha, mu):
     return G * s - G * c * (push + mu) / D, G * push / D, m1 * G * c / D
 
 
+@ask("In letters, the angle and the limits among them")
+def in_letters(case):
+    S, C = "sin(alpha)", "cos(alpha)"
+    below = f"(m2 + m1*{S}*({S} - mu*{C}))"
+    closed = {
+        "x": f"m1*g*{C}*(mu*{C} - {S})/{below}",
+        "face.N": f"m1*m2*g*{C}/{below}",
+        "wheels.Fn": f"m2*(m1 + m2)*g/{below}",
+        "face.N, mu → 0": f"m1*m2*g*{C}/(m2 + m1*{S}^2)",
+        "face.N, m2 → inf": f"m1*g*{C}",
+    }
+    yield from case.in_letters(closed, "closed form: four balances")
+
+
 @ask("Does it slip, how do both move, and what do they push with")
 def instants(case):
     for name, change in SETS.items():

@@ -40,6 +40,17 @@ def forces(theta, spin, M, m, l, slope):
     return normal, m * (G * np.cos(theta - slope) - along * np.sin(theta) + l * spin**2)
 
 
+@ask("in letters: θ̈ alone, and the heavy cart on level ground")
+def in_letters(case):
+    below = "(M + m*sin(theta)^2)"
+    closed = {
+        "theta": f"-(m*l*rate(theta)^2*cos(theta) + (M + m)*g*cos(slope))*sin(theta)/(l*{below})",
+        "theta, M → inf": "-g*cos(slope)*sin(theta)/l",
+        "theta, slope → 0": f"-(m*l*rate(theta)^2*cos(theta) + (M + m)*g)*sin(theta)/(l*{below})",
+    }
+    yield from case.in_letters(closed, "closed form: elimination of s̈ by hand")
+
+
 @ask("accelerations and forces at θ = 0.6")
 def instants(case):
     for spin in (0, 3):

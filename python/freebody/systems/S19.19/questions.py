@@ -38,6 +38,18 @@ def rates(eps=1.0, gravity=0.0):
     return right
 
 
+@ask("in letters: the two equations")
+def in_letters(case):
+    below = "(m*eps^2*(M + m*cos(theta)^2))"
+    along = "(m*eps*rate(theta)^2*cos(theta) - k*x)"
+    turning = "(T - m*g*eps*cos(theta))"
+    closed = {
+        "x": f"(m*eps^2*{along} + m*eps*sin(theta)*{turning})/{below}",
+        "theta": f"((M + m)*{turning} + m*eps*sin(theta)*{along})/{below}",
+    }
+    yield from case.in_letters(closed, "closed form: two balances, solved by Cramer's rule")
+
+
 @ask("accelerations and arm force at one state")
 def instant(case):
     now = case.instant(theta=1, x=0.4, rates={"theta": 0.7, "x": -0.3})

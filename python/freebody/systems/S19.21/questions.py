@@ -6,6 +6,8 @@ forces follow from linear momentum. See ``_linkages.py``.
 """
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.formulas import formula
+from freebody.equations import Sym
 from freebody.systems._linkages import FourBar, nearest_turn
 
 CASES = {"first case": (1, 1.1, 4.0, 0.0), "second case": (-1, 2.6, -3.0, 5.0)}
@@ -71,6 +73,23 @@ def forces(case):
                 "closed form: balances, bar by bar",
                 1e-11,
             )
+
+
+@ask("in letters: the torque, with the ratios of rates k = dβ/dθ, dφ/dθ and c = β̈, φ̈ for θ̈ = 0")
+def in_letters(case):
+    """Power of inertia for a unit θ̇: the centre of BC has ℓ1 n1 + (ℓ2/2) k n2, and n1·n2 = cos(β − θ), n1·λ2 = sin(β − θ)."""
+    C, S, spin = "cos(beta - theta)", "sin(beta - theta)", "(k_beta*accel(theta) + c_beta)"
+    first = f"l1*(l1*accel(theta) + l2/2*({spin}*{C} - rate(beta)^2*{S}))"
+    second = f"l2/2*k_beta*(l1*(accel(theta)*{C} + rate(theta)^2*{S}) + l2/2*{spin})"
+    ends = "m1*l1^2/3*accel(theta) + m3*l3^2/3*k_phi*(k_phi*accel(theta) + c_phi)"
+    closed = f"{ends} + m2*({first} + {second} + l2^2/12*k_beta*{spin})"
+    found = case.mechanism("driven.yaml").solve_in_letters(["drive.force"])
+    yield formula("T", found["drive.force"], closed, "closed form: virtual power", found.letters)
+    for name, text in {
+        "k_beta": "l1*sin(phi - theta)/(l2*sin(beta - phi))",
+        "k_phi": "l1*sin(beta - theta)/(l3*sin(beta - phi))",
+    }.items():
+        yield formula(name, found.named[Sym(name)], text, "closed form: the loop along and across a bar", found.letters)
 
 
 @ask("that torque put into forward dynamics; no torque")

@@ -1,0 +1,28 @@
+"""Parameters that a model defines by others, as trees of those: h = w tan α/3."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection
+
+from freebody.equations.language import NoForm, read_text
+from freebody.equations.tree import PI, Sym, Tree, symbols
+from freebody.equations.tree import replace as replaced
+from freebody.source import Source
+
+
+def definitions(source: Source, free: Collection[str]) -> dict[str, Tree]:
+    """Every parameter that is defined by others, by those that are not or are ``free``; one without a form in letters, as a least
+    of two, stays a letter."""
+    found: dict[str, Tree] = {}
+    for parameter in json.loads(source.spec)["parameters"]:
+        name, value = parameter["name"], parameter["value"]
+        if name in free or not isinstance(value, str):
+            continue
+        try:
+            tree = replaced(read_text(value), {Sym(x): known for x, known in found.items()})
+        except NoForm:
+            continue
+        if symbols(tree) - {Sym(PI)}:
+            found[name] = tree
+    return found
