@@ -198,7 +198,9 @@ impl Watcher {
                 continue;
             }
             if side == -sign {
-                let t = probe.root(i, last, *node, f64::from(side) * NOISE * memory.size)?;
+                // What holds may start within its round-off.
+                let noise = if memory.is_guard { NOISE * memory.size } else { 0.0 };
+                let t = probe.root(i, last, *node, f64::from(side) * noise)?;
                 let direction = sign * probe.ahead() as i8;
                 marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
             } else if let Some(t) = touch.filter(|_| side == sign) {
@@ -309,9 +311,7 @@ impl<'a> Probe<'a> {
     fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, Trouble> {
         let is_bracket = |shift: f64| a.value + shift != 0.0 && (a.value + shift < 0.0) != (b.value + shift < 0.0);
         match [0.0, noise].into_iter().find(|&shift| is_bracket(shift)) {
-            Some(shift) => {
-                bracketed(|t| Ok(self.one(i, t)? + shift), (a.t, a.value + shift), (b.t, b.value + shift))
-            }
+            Some(shift) => bracketed(|t| Ok(self.one(i, t)? + shift), (a.t, a.value + shift), (b.t, b.value + shift)),
             None => Ok(a.t),
         }
     }

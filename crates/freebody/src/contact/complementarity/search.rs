@@ -138,12 +138,12 @@ pub(super) fn enumerate(task: &Task, mut all: Vec<Found>, tolerance: f64) -> Vec
     all
 }
 
-/// The finding of these modes; where they do not determine the forces, one near the middle of all, else the first of the
-/// vertices.
+/// The finding of these modes; where they do not determine the forces, the first of its vertices, with more touches one near
+/// the middle.
 fn vertex(task: &Task, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(task, modes, tolerance);
     let is_singular = matches!(result, Err(Refusal::Singular));
-    if is_singular {
+    if is_singular && task.len() > ALWAYS {
         result = basic(task, modes, tolerance);
     }
     if result.is_err() && is_singular && task.len() <= ENUMERABLE {

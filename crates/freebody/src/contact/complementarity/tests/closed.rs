@@ -76,8 +76,10 @@ fn redundant_touches_are_basic() {
             let pull = if grip == Grip::Smooth { 0.0 } else { 1.0 };
             let free = w.mul_vec(&[pull, -9.81, 0.1]);
             let a = solved(&Problem { g: &g, free: &free, grips: &vec![grip; k] });
-            let forces = a.normal.iter().chain(&a.tangent).filter(|f| **f != 0.0).count();
-            assert!(forces <= 3, "{a:?}");
+            // On the edge of its cone a touch has one force.
+            let edge = |i: usize| grip == resting(0.4) && (a.tangent[i].abs() - 0.4 * a.normal[i]).abs() < 1e-12;
+            let count = |i: usize| usize::from(a.normal[i] != 0.0) + usize::from(a.tangent[i] != 0.0 && !edge(i));
+            assert!((0..k).map(count).sum::<usize>() <= 3, "{a:?}");
             assert!(a.acceleration.iter().all(|a| a.abs() <= 1e-14), "{a:?}");
             assert!((a.normal.iter().sum::<f64>() - 9.81).abs() < 1e-12);
         }
