@@ -54,7 +54,7 @@ impl Random {
             Random::Sin(a) => of(a).sin_cos().0,
             Random::Cos(a) => of(a).sin_cos().1,
             // −0 is no number of its own.
-            Random::Direction(a, b) => (of(a) + S::zero()).atan2(of(b)),
+            Random::Direction(a, b) => (of(a) + S::zero()).atan2(of(b) + S::zero()),
         }
     }
 }
