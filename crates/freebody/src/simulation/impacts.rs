@@ -8,8 +8,8 @@ use crate::mode::Hold;
 use crate::plane::Vec2;
 
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more: its
-/// height is below what counts as reached.
-const BRIEF: f64 = 1e-4;
+/// height comes near the round-off of the gap.
+const BRIEF: f64 = 1e-5;
 /// Part of the kinetic energy by which it may rise in an impact, as round-off.
 const RISE: f64 = 1e-11;
 /// Shares of themselves by which limits yield, one after the other, where impulses of rigid ones are lost in round-off.

@@ -9,18 +9,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from freebody.equations.latex import latex, latex_lines
-from freebody.equations.text import columns
+from freebody.equations import breaking
+from freebody.equations.latex import latex
 from freebody.equations.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.run import Source
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.names import letter, spoken
+from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
 
-_LETTER = 5.0  # pt, of a formula below a diagram
-_LEAST = 20  # letters of a line
+_EM = 10.0  # pt, of a formula below a diagram
+_LEAST = 12.0  # em of a line
 _ON_AXIS = 1e-9
 _SPACE = re.compile(r"(\\text\{[^}]*\})|(?<=[\w})]) (?=[\w\\(])")
 """Between factors; words keep theirs."""
@@ -42,7 +42,7 @@ class Laws:
         lines: dict[str, list[str]] = {}
         for action in actions:
             if action.kind == "force" and action.label not in lines:
-                lines[action.label] = list(self._law(action, int(width / _LETTER)))
+                lines[action.label] = list(self._law(action, width / _EM))
         made = [line for each in lines.values() for line in each]
         return [f"where {line}" if not i else line for i, line in enumerate(made)]
 
@@ -57,12 +57,12 @@ class Laws:
                 return along if sense > 0 else negative(along)
         return None
 
-    def _law(self, action: Action, width: int) -> Iterator[str]:
+    def _law(self, action: Action, room: float) -> Iterator[str]:
         [load], size = action.loads, self.size(action)
         if size is None:
             law = self._of_length(load.name, load.symbol)
         else:
-            law = latex_lines(size, width=max(_LEAST, width - columns(f"where {spoken(action.label)} = ")))
+            law = breaking.lines(latex(size), max(_LEAST, room - breaking.width(rf"\text{{where }}{action.label} = ")))
         if law and law[0] != action.label:
             law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""
             yield f"${action.label} = {_plain(law[0])}$"
