@@ -13,6 +13,8 @@ const SHALLOW: f64 = 1e-8;
 const GRAZE: f64 = 1e-9;
 /// Difference, over the characteristic length, of what pieces tell of a gap up to which it is one.
 const SAME: f64 = 1e-10;
+/// Distance, over the characteristic length, up to which two corners meet, whichever of them tells it.
+const MEET: f64 = 1e-9;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
 const CLEAR: f64 = 0.1;
 
@@ -134,14 +136,14 @@ impl Balance<'_> {
     fn is_doubled(&self, l: usize, piece: Piece) -> bool {
         let (limit, at) = (&self.m.limits[l], self.at());
         let place = |l: usize, piece: Piece| self.m.limits[l].gap.contact(self.m, &at, piece).map(|c| c.point);
-        let other = |border: &Border| !limit.gap.can_close(border.beyond) && border.value.abs() <= SAME * self.length;
+        let other = |border: &Border| !limit.gap.can_close(border.beyond) && border.value.abs() <= MEET * self.length;
         let Some(here) = place(l, piece).filter(|_| limit.gap.borders(self.m, &at, piece).iter().any(other)) else {
             return false;
         };
         let closed = |&by: &usize| by != l && self.mode.limits[by].hold.touches();
         let by = self.m.groups[limit.group].limits.clone().filter(closed);
         let mut places = by.filter_map(|by| place(by, self.mode.limits[by].piece));
-        places.any(|there| (there - here).norm() <= SAME * self.length)
+        places.any(|there| (there - here).norm() <= MEET * self.length)
     }
 
     /// Of every contact, stop and string a distance that its two bodies keep at least, m, where they are clearly apart: then
