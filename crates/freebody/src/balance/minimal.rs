@@ -1,7 +1,7 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
 use super::rows::closing_rows;
-use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Trouble, CANCELLED, INCONSISTENT};
+use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Source, Trouble, CANCELLED, INCONSISTENT};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Islands, Matrix, SaddleError};
@@ -111,11 +111,34 @@ impl Balance<'_> {
                     format!("the actuators cannot bring about the prescribed motion: {what} out of their reach");
                 Trouble::new("no_authority", sentence).about(first)
             }
+            SaddleError::RankMismatch { motion, force } if force > motion && self.slides() => self.undecided_press(),
             SaddleError::RankMismatch { motion, force } => Trouble::new(
                 "no_authority",
                 format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
             ),
         }
+    }
+
+    fn slides(&self) -> bool {
+        self.sliding().next().is_some()
+    }
+
+    /// The limits of the present rows that slide against friction.
+    fn sliding(&self) -> impl Iterator<Item = usize> + '_ {
+        self.rows.iter().filter(|row| row.force.is_some()).filter_map(|row| match row.source {
+            Source::Limit(l) => Some(l),
+            _ => None,
+        })
+    }
+
+    /// Limits that slide press against each other: where one of them is to spare, the balance equations leave open how hard.
+    fn undecided_press(&self) -> Trouble {
+        let sliding: Vec<usize> = self.sliding().collect();
+        let names = self.names_of(&sliding);
+        let what = format!("{names} slide while they press against each other: the balance equations leave open how hard, and the motion depends on it");
+        let group = &self.m.groups[self.m.limits[sliding[0]].group];
+        Trouble::new("painleve_indeterminate", what + "; lower the friction, or let a spring stand for one of them")
+            .about(group.path())
     }
 
     /// Which bodies take part in a motion of the tree, in words, and where the first of them stands in the model.
