@@ -124,7 +124,7 @@ fn small_piles_come_to_rest() {
 
 /// All of them, for five seconds. PILES=from..to or a list of seeds chooses others.
 #[test]
-#[ignore = "takes an hour, and fails: large piles take too long, and in some corners that meet chatter"]
+#[ignore = "takes a quarter of an hour"]
 fn a_hundred_piles_come_to_rest() {
     let wish = std::env::var("PILES").unwrap_or("0..100".into());
     let seeds: Vec<u64> = match wish.split_once("..") {
