@@ -61,7 +61,11 @@ impl Trajectory {
     }
     /// Bodies and loads during a blow, given by its place among `changes`: those of what was struck are told for a unit.
     fn free_bodies_of_blow(&self, change: usize) -> PyResult<String> {
-        let told = self.run.at_blow(&self.of.mechanism(), change, freebody::free_bodies::free_bodies);
+        let told = self.run.at_blow(&self.of.mechanism(), change, |balance| {
+            // What strikes at several places moves there as no constraint allows; where impulses act does not depend on it.
+            balance.stand_still();
+            freebody::free_bodies::free_bodies(balance)
+        });
         Ok(told.map_err(errors::motion)?.to_string())
     }
     /// Answers in letters to questions about a blow, with the rates before it.

@@ -1,7 +1,9 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
 use super::rows::closing_rows;
-use super::{down_to_ground, effective, project, size_of_power, Balance, Row, Source, Trouble, CANCELLED, INCONSISTENT};
+use super::{
+    down_to_ground, effective, project, size_of_power, Balance, Row, Source, Trouble, CANCELLED, INCONSISTENT,
+};
 use crate::gauges::Placed;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Islands, Matrix, SaddleError};

@@ -192,6 +192,12 @@ impl<'m> Balance<'m> {
         self.k.sweep(self.m, &self.n, q, u);
     }
 
+    /// Takes all speeds as none, in the present configuration.
+    pub fn stand_still(&mut self) {
+        self.u.fill(0.0);
+        self.k.sweep(self.m, &self.n, &self.q, &self.u);
+    }
+
     /// The present state, as what measures sees it.
     pub fn at(&self) -> Placed<'_> {
         Placed { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode }
