@@ -102,10 +102,9 @@ fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static st
             Err((what, "make the moving surface a circle"))
         }
         (Arc(crate::contact::Arc { hollow: false, .. }), Polygon(_))
-        | (Polygon(_), Arc(crate::contact::Arc { hollow: false, .. })) => Err((
-            "a polygon does not meet an arc that bulges towards it",
-            "leave out `ends`: it meets whole circles",
-        )),
+        | (Polygon(_), Arc(crate::contact::Arc { hollow: false, .. })) => {
+            Err(("a polygon does not meet an arc that bulges towards it", "leave out `ends`: it meets whole circles"))
+        }
         (Arc(_), other) | (other, Arc(_)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
             Err(("an arc meets points and circles only", "make the moving surface a circle, or the arc a track"))
         }
