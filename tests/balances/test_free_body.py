@@ -134,3 +134,11 @@ def test_a_body_that_is_not_there_is_named():
     free = FreeBodies.read(planar.four_bar(np.random.default_rng(2)).text())
     with pytest.raises(KeyError, match="'lever'; there are crank, coupler, rocker"):
         free.on("lever")
+
+
+def test_what_is_determined_is_the_same_in_loads_and_reactions():
+    """Of a car whose frame and axle may press each other up and down by any amount, the thrust of the road is determined."""
+    car = fb.load(SYSTEMS / "GEN-CAR/model.yaml")
+    thrust, weight = (next(load for load in car.free_bodies().loads if load.symbol == name) for name in ("road.Fs", "road.Fn"))
+    assert thrust.determinate and not weight.determinate
+    assert thrust.value == pytest.approx(car.solve(route="newton_euler").reactions["road"].Fx, rel=1e-12)

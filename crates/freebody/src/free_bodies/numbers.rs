@@ -178,8 +178,7 @@ impl<'l> Sizes<'l> {
                 let of = &m.joints[joint];
                 let at = of.rows.iter().position(|&r| r == row).expect("a row of the joint");
                 let sign = if load.symbol.ends_with(".tension") { -1.0 } else { 1.0 };
-                let sure = self.labels.joints[joint].iter().all(|&s| s);
-                (Some(sign * self.joints[joint].1[at]), sure)
+                (Some(sign * self.joints[joint].1[at]), self.is_sure(joint, load, all))
             }
             Origin::Row(Source::Drive(drive)) => (Some(self.drives[drive]), self.labels.drives[drive]),
             Origin::Row(Source::Limit(l)) => (Some(self.limits[l][0]), self.labels.groups[group(l)][2]),
@@ -188,6 +187,24 @@ impl<'l> Sizes<'l> {
             Origin::Pressed(l) | Origin::Sliding(l) => (Some(b.press(l)), true),
         }
     }
+
+    /// Whether the load of a row is determinate: where all components of its joint are, or those of its force that no other row
+    /// of the joint shares.
+    fn is_sure(&self, joint: usize, load: &Load<f64>, all: &[Load<f64>]) -> bool {
+        let labels = self.labels.joints[joint];
+        let own = along(load);
+        let of_joint = |other: &&Load<f64>| matches!(other.origin, Origin::Row(Source::Joint(j, _)) if j == joint);
+        let others = all.iter().filter(of_joint).filter(|other| other.symbol != load.symbol);
+        let alone = !others.map(along).any(|other| (0..2).any(|axis| own[axis] && other[axis]));
+        let pushes = own.contains(&true);
+        labels.iter().all(|&sure| sure) || (pushes && alone && (0..2).all(|axis| !own[axis] || labels[axis]))
+    }
+}
+
+/// Whether a load has a force along x, and along y.
+fn along(load: &Load<f64>) -> [bool; 2] {
+    let any = |of: fn(&Part<f64>) -> f64| load.parts.iter().any(|part| of(part) != 0.0);
+    [any(|part| part.force.x), any(|part| part.force.y)]
 }
 
 fn rows_of(b: &Balance<'_>, joint: usize) -> Vec<f64> {
