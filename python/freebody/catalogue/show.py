@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from rich.text import Text
 
 from freebody.catalogue.answers import Answer, Asked
 from freebody.catalogue.system import System
+from freebody.check.verdict import Kind
 
 if TYPE_CHECKING:
     from freebody.check.file import Judged
@@ -47,20 +49,6 @@ def show_asked(asked: Asked, console: Console | None = None) -> None:
         console.print(Text(f"  failed: {asked.failure}\n", "bold red"))
 
 
-_STYLES = {
-    "TRUE": "green",
-    "TRUE_IF": "yellow",
-    "WRONG": "red",
-    "DIMENSIONS": "red",
-    "UNDECIDABLE": "yellow",
-    "UNREADABLE": "red",
-}
-_SHORT = {
-    **{"TRUE": "true", "TRUE_IF": "true if", "WRONG": "wrong", "DIMENSIONS": "dimensions"},
-    **{"UNDECIDABLE": "not decidable", "UNREADABLE": "cannot be read"},
-}
-
-
 def show_statements(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:
     """The statements about a system, each with its verdict and what is behind it."""
     table = Table(box=box.SIMPLE_HEAD, title=Text(_headed(system), "bold"), title_justify="left")
@@ -68,27 +56,27 @@ def show_statements(system: System, judged: Iterable[Judged], console: Console |
     table.add_column("verdict", no_wrap=True)
     table.add_column("what is stated, and what is behind the verdict", overflow="fold")
     for one in judged:
-        kind = one.verdict.kind.name
-        table.add_row(one.statement.id, Text(_SHORT[kind] + _unexpected(one), _STYLES[kind]), _behind(one))
+        kind = one.verdict.kind
+        table.add_row(one.statement.id, Text(kind.short + _unexpected(one), kind.colour), _behind(one))
     (console or Console()).print(table)
 
 
 def show_verdicts(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:
     """Which of the statements about a system are true, which are wrong."""
-    console, by_kind = console or Console(), dict[str, list[str]]()
+    console, by_kind = console or Console(), dict[Kind, list[str]]()
     for one in judged:
-        by_kind.setdefault(one.verdict.kind.name, []).append(one.statement.id + _unexpected(one))
+        by_kind.setdefault(one.verdict.kind, []).append(one.statement.id + _unexpected(one))
     console.print(Text("What is stated about it", "bold"))
     for kind, names in by_kind.items():
-        console.print(Text.assemble("  ", (f"{_SHORT[kind]}: ", _STYLES[kind]), ", ".join(names)))
+        console.print(Text.assemble("  ", (f"{kind.short}: ", kind.colour), ", ".join(names)))
     console.print(Text(f"  why: freebody systems {system.id} --statements\n"))
 
 
 def show_totals(judged: Iterable[Judged], console: Console | None = None) -> None:
     """How many statements are true, how many are wrong, and whether all have the verdict that their file expects."""
     every = list(judged)
-    counts = {word: sum(one.verdict.kind.name == kind for one in every) for kind, word in _SHORT.items()}
-    told = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    counts = Counter(one.verdict.kind for one in every)
+    told = ", ".join(f"{counts[kind]} {kind.short}" for kind in Kind if counts[kind])
     (console or Console()).print(Text(f"{len(every)} statements: {told}", "bold"))
     if wrong := [one.statement.id for one in every if one.as_expected is False]:
         (console or Console()).print(Text(f"not as expected: {', '.join(wrong)}", "bold red"))

@@ -36,6 +36,16 @@ class Kind(str, Enum):
     DIMENSIONS = "dimensions do not fit"
     UNREADABLE = "cannot be read"
 
+    @property
+    def short(self) -> str:
+        """In a word or two, for tables."""
+        return {Kind.TRUE_IF: "true if", Kind.UNDECIDABLE: "not decidable", Kind.DIMENSIONS: "dimensions"}.get(self, self.value)
+
+    @property
+    def colour(self) -> str:
+        """For a terminal."""
+        return {Kind.TRUE: "green", Kind.TRUE_IF: "yellow", Kind.UNDECIDABLE: "yellow"}.get(self, "red")
+
 
 _ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS, Kind.UNREADABLE]
 

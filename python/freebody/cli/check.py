@@ -74,16 +74,6 @@ def _file(path: Path, quiet: bool) -> tuple[list[Any], bool]:
     return told, fine
 
 
-_COLOURS = {
-    "TRUE": "green",
-    "TRUE_IF": "yellow",
-    "WRONG": "red",
-    "DIMENSIONS": "red",
-    "UNDECIDABLE": "yellow",
-    "UNREADABLE": "red",
-}
-
-
 def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:
     """Print a verdict with what is behind it."""
     from rich.console import Console
@@ -92,6 +82,6 @@ def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:
     console = Console(highlight=False, soft_wrap=True)
     mark = "  (not what the file expects)" if unexpected else ""
     console.print(Text(text.strip()))
-    console.print(Text(f"  {verdict.kind.value}{mark}", style=_COLOURS[verdict.kind.name]))
+    console.print(Text(f"  {verdict.kind.value}{mark}", style=verdict.kind.colour))
     for line in verdict.details:
         console.print(Text(f"  {line}"))

@@ -5,8 +5,9 @@ use super::{
     down_to_ground, effective, project, size_of_power, Balance, Row, Source, Trouble, CANCELLED, INCONSISTENT,
 };
 use crate::gauges::Placed;
+use crate::mode::Hold;
 use crate::plane::{Twist, Wrench};
-use crate::solve::{Islands, Matrix, SaddleError};
+use crate::solve::{Islands, Matrix, Orthogonal, SaddleError};
 
 /// Memory of the dense solution.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +27,8 @@ pub(super) enum Force {
     OwnWay,
 }
 
+/// Share of a row in a dependence, whose size is 1, below which it is round-off.
+const PART: f64 = 1e-6;
 /// Largest contradiction of the rows, relative to what they ask for, that is put down to round-off.
 const CONTRADICTION: f64 = 1e-7;
 
@@ -113,32 +116,32 @@ impl Balance<'_> {
                     format!("the actuators cannot bring about the prescribed motion: {what} out of their reach");
                 Trouble::new("no_authority", sentence).about(first)
             }
-            SaddleError::RankMismatch { motion, force } if force > motion && self.slides() => self.undecided_press(),
-            SaddleError::RankMismatch { motion, force } => Trouble::new(
-                "no_authority",
-                format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
-            ),
+            SaddleError::RankMismatch { motion, force } => match &self.spare()[..] {
+                [] => Trouble::new(
+                    "no_authority",
+                    format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
+                ),
+                spare => self.undecided_press(spare),
+            },
         }
     }
 
-    fn slides(&self) -> bool {
-        self.sliding().next().is_some()
+    /// Limits that slide and of which one is to spare: their gaps depend on each other.
+    fn spare(&self) -> Vec<usize> {
+        let dependence = Orthogonal::factor(&self.dense.g);
+        let (y, rank) = (dependence.y(), dependence.rank().rank);
+        let is_part = |i: usize| (rank..y.rows()).any(|k| y[(k, i)].abs() > PART);
+        let slides = |l: &usize| matches!(self.mode.limits[*l].hold, Hold::Sliding(_));
+        let limit = |row: &Row| if let Source::Limit(l) = row.source { Some(l) } else { None };
+        let parts = self.rows.iter().enumerate().filter(|(i, _)| is_part(*i));
+        parts.filter_map(|(_, row)| limit(row)).filter(slides).collect()
     }
 
-    /// The limits of the present rows that slide against friction.
-    fn sliding(&self) -> impl Iterator<Item = usize> + '_ {
-        self.rows.iter().filter(|row| row.force.is_some()).filter_map(|row| match row.source {
-            Source::Limit(l) => Some(l),
-            _ => None,
-        })
-    }
-
-    /// Limits that slide press against each other: where one of them is to spare, the balance equations leave open how hard.
-    fn undecided_press(&self) -> Trouble {
-        let sliding: Vec<usize> = self.sliding().collect();
-        let names = self.names_of(&sliding);
+    /// Limits that slide press against each other: the balance equations leave open how hard.
+    fn undecided_press(&self, spare: &[usize]) -> Trouble {
+        let names = self.names_of(spare);
         let what = format!("{names} slide while they press against each other: the balance equations leave open how hard, and the motion depends on it");
-        let group = &self.m.groups[self.m.limits[sliding[0]].group];
+        let group = &self.m.groups[self.m.limits[spare[0]].group];
         Trouble::new("painleve_indeterminate", what + "; lower the friction, or let a spring stand for one of them")
             .about(group.path())
     }

@@ -6,9 +6,10 @@ use freebody::balance::Balance;
 use freebody::compile::Compiled;
 use freebody::contact::{Friction, Gap, Touch};
 use freebody::mechanism::Mechanism;
+use freebody::mode::Hold;
 use freebody::plane::{vec2, Vec2};
 use freebody::spec::{Contact, Number, Stop, Surface};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 fn contact(name: &str, of: [Surface; 2]) -> Contact {
     let nought = literal(0.0);
@@ -364,4 +365,34 @@ fn polygons_that_meet_with_corners_touch_just_where_they_are() {
         assert!(least.abs() < 1e-14, "seed {seed}, {apart:e} from corner to corner: {least:e}");
     }
     assert!(met > 500, "{met}");
+}
+
+/// A block that slides between two walls may be pinched by any amount, and the pinch brakes it: that is told, of these walls and
+/// not of the floor on which another slides.
+#[test]
+fn how_hard_walls_pinch_what_slides_is_not_decided() {
+    let mut model = Model::new().body("block", 1.0, 1.0, [0.0; 2]).body("other", 1.0, 1.0, [0.0; 2]);
+    for body in ["block", "other"] {
+        let coordinates = ["x", "y", "f"].map(|c| format!("{c}_{body}"));
+        let ends = points(&["ground.O", &format!("{body}.origin")]);
+        model =
+            model.joint(&format!("{body}_free"), "free", &[("of", ends)], &coordinates.each_ref().map(String::as_str));
+    }
+    for (name, body, angle) in [("low", "block", 0.0), ("high", "block", PI), ("floor", "other", 0.0)] {
+        let wall = Surface::Line(place("ground.O", angle));
+        let touch = contact(name, [point(&format!("{body}.origin")), wall]);
+        model.0.contacts.push(Contact { friction: literal(0.3), ..touch });
+    }
+    let m = model.compile().mechanism;
+    let mut balance = Balance::new(&m, &[]);
+    balance.place(0.0, &[0.0; 6], &[1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    // The normal of the upper wall is turned round, and so is its tangent.
+    for (l, sense) in [1.0, -1.0, 1.0].into_iter().enumerate() {
+        balance.mode.limits[l].hold = Hold::Sliding(sense);
+    }
+    let trouble = balance.solve().expect_err("any pinch");
+    assert_eq!(trouble.name, "painleve_indeterminate");
+    assert!(trouble.sentence.starts_with("`low` and `high` slide"), "{}", trouble.sentence);
+    balance.mode.limits[1].hold = Hold::Idle;
+    balance.solve().expect("one wall less");
 }
