@@ -1,7 +1,7 @@
 //! Errors of the core as Python exceptions.
 
 use freebody::balance::Trouble;
-use freebody::compile::CompileError;
+use freebody::error::CompileError;
 use freebody::expr::ExprError;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};

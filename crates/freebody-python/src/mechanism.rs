@@ -301,7 +301,7 @@ fn one_of(what: &str, word: &str, words: &[&str]) -> PyResult<()> {
 }
 
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> PyErr {
-    let message = freebody::compile::unknown(what, name, known);
+    let message = freebody::builder::unknown(what, name, known);
     errors::ModelError::new_err((name.to_string(), message.what, message.hint))
 }
 

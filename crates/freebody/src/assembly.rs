@@ -1,7 +1,8 @@
 //! Assembly: coordinates and rates that close all loops and keep what was asked for.
 
 use crate::balance::{Balance, Row, Source, Trouble, CLOSED, OPEN};
-use crate::gauges::{jet, Law, Moving};
+use crate::gauges::Law;
+use crate::kinematics::{jet, Moving};
 
 /// What an initial state is asked to be.
 #[derive(Clone, Debug, Default)]

@@ -31,3 +31,28 @@ impl fmt::Display for Trouble {
 }
 
 impl std::error::Error for Trouble {}
+
+/// What is wrong with a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompileError {
+    /// Where in the model, e.g. `joints.pivot.of`.
+    pub path: String,
+    /// What is wrong.
+    pub what: String,
+    /// What to try.
+    pub hint: String,
+}
+
+impl CompileError {
+    pub(crate) fn new(path: impl Into<String>, what: impl Into<String>, hint: impl Into<String>) -> Self {
+        CompileError { path: path.into(), what: what.into(), hint: hint.into() }
+    }
+}
+
+impl fmt::Display for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}: {}; {}", self.path, self.what, self.hint)
+    }
+}
+
+impl std::error::Error for CompileError {}

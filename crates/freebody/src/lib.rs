@@ -7,6 +7,7 @@ pub mod algebra;
 pub mod assembly;
 pub mod balance;
 pub mod benchmark;
+pub mod builder;
 pub mod compile;
 pub mod contact;
 pub mod describe;

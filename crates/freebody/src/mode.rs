@@ -1,6 +1,5 @@
 //! What is active now. A motion is a chain of modes; within one, every law is smooth.
 
-use crate::contact::Piece;
 use crate::mechanism::{Mechanism, Part};
 use std::collections::HashMap;
 
@@ -26,6 +25,24 @@ pub struct Held {
     pub hold: Hold,
     /// The piece.
     pub piece: Piece,
+}
+
+/// The piece on which a gap is told, and what was found when its motion started.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Piece {
+    /// Which one: an edge, a corner, a way of being wound. What the number means is the gap's own.
+    pub index: usize,
+    /// Found at the start, for a string: where on its drum each end is attached, rad, and its length, m.
+    pub phase: [f64; 3],
+}
+
+/// A function that is positive on its piece, with the piece that lies beyond its zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Border {
+    /// Its value, in m.
+    pub value: f64,
+    /// The piece beyond.
+    pub beyond: usize,
 }
 
 /// How a limit is held.

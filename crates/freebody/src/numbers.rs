@@ -1,6 +1,6 @@
 //! The numbers of a mechanism at given parameters.
 
-use crate::compile::CompileError;
+use crate::error::CompileError;
 use crate::expr::{Env, Table};
 use crate::gauges::{Law, Leaf};
 use crate::mechanism::{Body, Coordinate, Mechanism, Slot, Spot};

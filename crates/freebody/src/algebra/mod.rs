@@ -21,15 +21,16 @@ mod power;
 mod pretty;
 mod ratio;
 mod sum;
+mod symbol;
 mod trig;
 
 #[cfg(test)]
 mod tests;
 
-pub use crate::scalar::Symbol;
 pub use arena::Rule;
 pub use atom::Letter;
 pub use pretty::{Number, Tree};
+pub use symbol::Symbol;
 
 pub(crate) use arena::{with, SumId};
 pub(crate) use coefficient::Coefficient;

@@ -4,7 +4,7 @@ use super::limits::force_on_first;
 use super::reactions::joint_load;
 use super::{Balance, JointLoad, Reached, Scale, Trouble};
 use crate::contact::complementarity::{self, Problem, Strike};
-use crate::contact::Friction;
+use crate::mechanism::Friction;
 use crate::plane::{Twist, Vec2, Wrench};
 
 /// Within a jam loads act for this part of the time in which they would bring about a speed that counts.

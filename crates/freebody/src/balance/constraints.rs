@@ -3,8 +3,7 @@
 
 use super::rows::{closing_rows, joint_rows, pair};
 use super::{Balance, Row, Source, Trouble};
-use crate::gauges::Placed;
-use crate::kinematics::{relative, JointView};
+use crate::kinematics::{relative, JointView, Placed};
 use crate::mechanism::{Joint, Part};
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Jet, Scalar};

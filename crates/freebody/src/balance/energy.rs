@@ -2,7 +2,8 @@
 
 use super::{load, Balance};
 use crate::expr::Env;
-use crate::gauges::{Config, Leaf};
+use crate::gauges::Leaf;
+use crate::kinematics::Config;
 use crate::mechanism::Part;
 use crate::plane::{vec2, Vec2};
 

@@ -2,9 +2,8 @@
 
 use super::rows::{closing_rows, joint_rows};
 use super::{Balance, Source, Trouble};
-use crate::contact::{Border, Gap, Group, Piece};
-use crate::mechanism::{Mechanism, Part};
-use crate::mode::{Held, Hold};
+use crate::mechanism::{Gap, Group, Mechanism, Part};
+use crate::mode::{Border, Held, Hold, Piece};
 use crate::numbers::Numbers;
 
 /// Depth, over the characteristic length, to which a limit may be violated at the start.

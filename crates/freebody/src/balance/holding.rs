@@ -3,8 +3,8 @@
 use super::limits::force_on_first;
 use super::rows::{gap_row, slide_row};
 use super::{Balance, Row, Source, Spread};
-use crate::contact::Friction;
 use crate::gauges::{Axis, Bound};
+use crate::mechanism::Friction;
 use crate::mode::Hold;
 use crate::plane::Vec2;
 use crate::solve::{keep_above, Matrix};

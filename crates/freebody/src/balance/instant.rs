@@ -1,7 +1,8 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
 use super::{force_power, force_value, Balance, JointLoad, Labels, Route, Sizes, Trouble};
-use crate::gauges::{Axis, Bound, Law, Leaf, Observed, Reading};
+use crate::gauges::{Axis, Bound, Law, Leaf, Reading};
+use crate::kinematics::Observed;
 use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 use crate::plane::Vec2;

@@ -8,7 +8,7 @@ use super::minimal::Force;
 use super::rows::{closing_rows, gap_row, slide_row};
 use super::{project, Balance, Row, Trouble};
 use crate::contact::complementarity::{self, Answer, Grip, Problem, Status, Verdict};
-use crate::contact::Friction;
+use crate::mechanism::Friction;
 use crate::mode::Hold;
 use crate::plane::{Vec2, Wrench};
 use crate::solve::Matrix;

@@ -1,8 +1,7 @@
 //! The loads on the bodies: gravity and the forces of the model.
 
-use crate::forces::{Force, Pull, Push};
-use crate::gauges::{gradient, Placed, State};
-use crate::mechanism::Part;
+use crate::kinematics::{gradient, Placed, State};
+use crate::mechanism::{Force, Part, Pull, Push};
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
 

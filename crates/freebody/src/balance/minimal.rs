@@ -4,7 +4,7 @@ use super::rows::closing_rows;
 use super::{
     down_to_ground, effective, project, size_of_power, Balance, Row, Source, Trouble, CANCELLED, INCONSISTENT,
 };
-use crate::gauges::Placed;
+use crate::kinematics::Placed;
 use crate::mode::Hold;
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Islands, Matrix, Orthogonal, SaddleError};

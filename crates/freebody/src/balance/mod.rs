@@ -38,8 +38,7 @@ pub use rows::{closing_rows, drive_row, gap_row, joint_rows, rub_row, slide_row,
 pub use sizes::Sizes;
 
 pub use crate::error::Trouble;
-use crate::gauges::Placed;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Placed};
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
 use crate::numbers::Numbers;

@@ -3,8 +3,8 @@
 use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
 use super::{Balance, Row, Source, Trouble};
-use crate::gauges::{Law, Placed};
-use crate::kinematics::JointView;
+use crate::gauges::Law;
+use crate::kinematics::{JointView, Placed};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
 /// Corrections after which a position is given up.
@@ -218,8 +218,8 @@ impl Balance<'_> {
 
     /// A row that holds a gauge at a value, and its rate at a rate.
     pub(crate) fn target_row(&self, gauge: &Law, value: f64, rate: f64) -> Row {
-        let going = crate::gauges::Moving { at: self.at(), bodies: None, accelerations: None };
-        let jet = crate::gauges::jet(&going, gauge);
+        let going = crate::kinematics::Moving { at: self.at(), bodies: None, accelerations: None };
+        let jet = crate::kinematics::jet(&going, gauge);
         Row {
             source: Source::Drive(usize::MAX),
             value: Some(jet.d0 - value),

@@ -8,7 +8,7 @@ use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Row, Source};
-use crate::gauges::Placed;
+use crate::kinematics::Placed;
 use crate::mechanism::Part;
 use crate::mode::Hold;
 use crate::plane::Wrench;

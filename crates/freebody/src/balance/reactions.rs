@@ -2,8 +2,7 @@
 
 use super::rows::{Row, Source};
 use super::Balance;
-use crate::gauges::Placed;
-use crate::kinematics::{relative, JointView};
+use crate::kinematics::{relative, JointView, Placed};
 use crate::mechanism::{Mechanism, Rubbing};
 use crate::plane::{vec2, Vec2, Wrench};
 use crate::solve::{Matrix, Orthogonal};

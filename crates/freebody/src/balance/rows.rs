@@ -4,11 +4,10 @@
 //! no joint of the tree accelerated (or no body, see [`Base`]), the loads that a unit multiplier puts on the bodies (which are
 //! also its gradient), and, for an actuator that acts along another gauge, the loads of that one.
 
-use crate::contact::Friction;
 use crate::expr::Env;
-use crate::gauges::{gradient, jet, Law, Moving, Placed, Poses, Seeded, State};
-use crate::kinematics::{relative, JointView};
-use crate::mechanism::{Drive, Joint, Level, Part, Rubbing};
+use crate::gauges::Law;
+use crate::kinematics::{gradient, jet, relative, JointView, Moving, Placed, Poses, Seeded, State};
+use crate::mechanism::{Drive, Friction, Joint, Level, Part, Rubbing};
 use crate::mode::Hold;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};

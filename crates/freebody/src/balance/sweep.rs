@@ -6,7 +6,7 @@
 //! relative vectors, so nothing is lost far from the origin.
 
 use super::Trouble;
-use crate::gauges::Placed;
+use crate::kinematics::Placed;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 
 /// Relative size below which an inertia is none.

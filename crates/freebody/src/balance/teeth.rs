@@ -1,9 +1,8 @@
 //! Teeth push and never pull: a gear pair without backlash carries on the flank that can.
 
 use super::{Balance, Source};
-use crate::gauges::Moving;
 use crate::joints::{Gear, Kind};
-use crate::kinematics::relative;
+use crate::kinematics::{relative, Moving};
 use crate::mechanism::Joint;
 
 /// Change of a distance, relative to what the wheels' turning could make of it, that is round-off.

@@ -1,9 +1,9 @@
 //! Contacts and stops: which disk or point can touch which surface, and what a gauge may not fall below.
 
 use super::outline::Outline;
-use super::{twice, CompileError, Compiler, Reach, Result};
-use crate::contact::{Arc, Disk, Friction, Gap, Group, Limit, Profile, Touch, Track};
-use crate::mechanism::{Marker, Rub, Rubbing, Slot};
+use crate::builder::{twice, Builder, Reach, Result};
+use crate::error::CompileError;
+use crate::mechanism::{Arc, Disk, Friction, Gap, Group, Limit, Marker, Profile, Rub, Rubbing, Slot, Touch, Track};
 use crate::plane::Vec2;
 use crate::spec::{Contact, Number, Surface};
 use std::f64::consts::TAU;
@@ -101,8 +101,8 @@ fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static st
             let what = "a track meets points and circles only, and polygons where no arc bulges towards them";
             Err((what, "make the moving surface a circle"))
         }
-        (Arc(crate::contact::Arc { hollow: false, .. }), Polygon(_))
-        | (Polygon(_), Arc(crate::contact::Arc { hollow: false, .. })) => {
+        (Arc(crate::mechanism::Arc { hollow: false, .. }), Polygon(_))
+        | (Polygon(_), Arc(crate::mechanism::Arc { hollow: false, .. })) => {
             Err(("a polygon does not meet an arc that bulges towards it", "leave out `ends`: it meets whole circles"))
         }
         (Arc(_), other) | (other, Arc(_)) if !matches!(other, Point(_) | Circle { hollow: false, .. }) => {
@@ -125,7 +125,7 @@ fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static st
     }
 }
 
-impl Compiler<'_> {
+impl Builder<'_> {
     /// The contacts. The shapes of polygons and polylines are judged at the parameters' own values; other parameters must
     /// keep their corners convex or concave as they are.
     pub(crate) fn contacts(&mut self) -> Result<()> {

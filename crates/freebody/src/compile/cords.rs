@@ -1,12 +1,11 @@
 //! Strings.
 
-use super::{CompileError, Compiler, Result};
-use crate::contact::{Gap, Limit};
-use crate::mechanism::Slot;
-use crate::paths::{Cord, End, Guide};
+use crate::builder::{Builder, Result};
+use crate::error::CompileError;
+use crate::mechanism::{Cord, End, Gap, Guide, Limit, Slot};
 use crate::spec::{self, Number};
 
-impl Compiler<'_> {
+impl Builder<'_> {
     pub(crate) fn cords(&mut self) -> Result<()> {
         for string in &self.spec.strings {
             self.cord(&format!("strings.{}", string.name), string)?;

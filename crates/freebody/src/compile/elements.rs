@@ -1,6 +1,7 @@
 //! Couplings and motions, forces, events.
 
-use super::{twice, CompileError, Compiler, Fields, Reach, Result};
+use crate::builder::{twice, unknown, Builder, Fields, Reach, Result};
+use crate::error::CompileError;
 use crate::gauges::{Law, Leaf};
 use crate::joints::{Card, FieldKind, Role};
 use crate::mechanism::{Drive, Level};
@@ -16,7 +17,7 @@ pub fn coupling_card() -> Card {
     )
 }
 
-impl Compiler<'_> {
+impl Builder<'_> {
     pub(crate) fn drives(&mut self) -> Result<()> {
         for element in self.spec.joints.iter().filter(|e| e.kind == "coupling") {
             let path = format!("joints.{}", element.name);
@@ -84,7 +85,7 @@ impl Compiler<'_> {
             let path = format!("forces.{}", element.name);
             let Some(kind) = crate::forces::named(&element.kind) else {
                 let words: Vec<String> = crate::forces::ALL.iter().map(|f| f.card().word.to_string()).collect();
-                let message = super::names::unknown("type of force", &element.kind, words.iter());
+                let message = unknown("type of force", &element.kind, words.iter());
                 return Err(CompileError::from(format!("{path}.type"), message));
             };
             let card = kind.card();

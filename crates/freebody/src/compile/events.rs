@@ -1,6 +1,7 @@
 //! Events and what they do; parts that are released and engaged.
 
-use super::{names::unknown, CompileError, Compiler, Names, Reach, Result};
+use crate::builder::{unknown, Builder, Names, Reach, Result};
+use crate::error::CompileError;
 use crate::gauges::{Law, Leaf};
 use crate::mechanism::{Deed, Drive, Event, Level, Part, Runner};
 use crate::spec::{Action, Element, Event as EventSpec, Spec};
@@ -14,7 +15,7 @@ pub(super) fn stays(spec: &Spec, joint: &Element) -> bool {
     joint.engaged && !spec.events.iter().flat_map(|event| &event.then).any(switched)
 }
 
-impl Compiler<'_> {
+impl Builder<'_> {
     /// A row for every gauge that an event locks; it holds only from then on.
     pub(crate) fn locks(&mut self) -> Result<()> {
         for event in &self.spec.events {

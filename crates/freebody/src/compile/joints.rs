@@ -1,12 +1,13 @@
 //! Joints: their markers, numbers and coordinates, and which of them close loops.
 
 use super::tree::Pair;
-use super::{twice, CompileError, Compiler, Fields, Result};
+use crate::builder::{twice, Builder, Fields, Result};
+use crate::error::CompileError;
 use crate::gauges::Law;
 use crate::graph::Branch as TreeBranch;
 use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
 use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker, Rub, Rubbing};
-use crate::spec::Coordinate as CoordinateSpec;
+use crate::spec::{Coordinate as CoordinateSpec, Number};
 
 /// What the fields of a joint give, side by side.
 #[derive(Default)]
@@ -69,7 +70,7 @@ impl Sides {
     }
 }
 
-impl Compiler<'_> {
+impl Builder<'_> {
     pub(crate) fn joints(&mut self, pairs: &[Pair], tree: &[TreeBranch]) -> Result<()> {
         for (i, pair) in pairs.iter().enumerate() {
             let branch = tree.iter().find(|b| b.edge == i).copied();
@@ -196,7 +197,7 @@ impl Compiler<'_> {
             let card = &card.coordinates[i];
             let default = CoordinateSpec {
                 name: format!("{}.{}", pair.element.name, card.name),
-                zero: super::places::nought(),
+                zero: Number::Literal(0.0),
                 sense: 1,
                 absolute: false,
             };

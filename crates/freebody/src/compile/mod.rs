@@ -4,61 +4,21 @@ mod contacts;
 mod cords;
 mod elements;
 mod events;
-mod fields;
 mod joints;
-mod names;
 mod outline;
 mod places;
 mod track;
 mod tree;
 
 pub use elements::coupling_card;
-pub use fields::Fields;
-pub use names::{distance, unknown, Names, Reach, Scope};
 
-use crate::contact::Gap;
+use crate::builder::{twice, Builder, Names, Reach, Result, Scope};
+use crate::error::CompileError;
 use crate::expr::{Interpolation, Table};
 use crate::gauges::Law;
-use crate::mechanism::{Kink, Mechanism, Parameter, Slot};
+use crate::mechanism::{Gap, Kink, Mechanism, Parameter};
 use crate::spec::{Number, Spec};
 use std::collections::HashSet;
-
-/// What is wrong with a model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CompileError {
-    /// Where in the model, e.g. `joints.pivot.of`.
-    pub path: String,
-    /// What is wrong.
-    pub what: String,
-    /// What to try.
-    pub hint: String,
-}
-
-impl CompileError {
-    pub(crate) fn new(path: impl Into<String>, what: impl Into<String>, hint: impl Into<String>) -> Self {
-        CompileError { path: path.into(), what: what.into(), hint: hint.into() }
-    }
-    pub(crate) fn from(path: impl Into<String>, message: crate::expr::Message) -> Self {
-        CompileError::new(path, message.what, message.hint)
-    }
-}
-
-impl std::fmt::Display for CompileError {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(f, "{}: {}; {}", self.path, self.what, self.hint)
-    }
-}
-
-impl std::error::Error for CompileError {}
-
-type Result<T> = std::result::Result<T, CompileError>;
-
-/// A mechanism being built, with the meaning of its names.
-pub struct Compiler<'s> {
-    pub(crate) spec: &'s Spec,
-    pub(crate) names: Names,
-    pub(crate) m: Mechanism,
-}
 
 /// A compiled mechanism with the names by which expressions may read it.
 pub struct Compiled {
@@ -71,7 +31,7 @@ pub struct Compiled {
 impl Compiled {
     /// Compiles a model.
     pub fn new(spec: &Spec) -> Result<Compiled> {
-        let mut c = Compiler { spec, names: Names::default(), m: Mechanism::empty(&spec.name) };
+        let mut c = Builder { spec, names: Names::default(), m: Mechanism::empty(&spec.name) };
         c.parameters()?;
         c.tables()?;
         let elements = tree::joints_of(spec)?;
@@ -102,36 +62,7 @@ impl Compiled {
     }
 }
 
-impl Compiler<'_> {
-    pub(crate) fn scope(&mut self, reach: Reach) -> Scope<'_> {
-        Scope { names: &self.names, reach, switches: &mut self.m.switches }
-    }
-
-    pub(crate) fn law(&mut self, path: &str, text: &str, reach: Reach) -> Result<Law> {
-        self.scope(reach).law(text).map_err(|e| Names::complaint(path, text, e))
-    }
-
-    pub(crate) fn number(&mut self, path: &str, number: &Number) -> Result<Law> {
-        match number {
-            Number::Literal(value) if value.is_finite() => Ok(Law::constant(*value)),
-            Number::Literal(value) => {
-                Err(CompileError::new(path, format!("{value} is no number"), "give a finite number"))
-            }
-            Number::Expression(text) => self.law(path, text, Reach::Numbers),
-        }
-    }
-
-    /// A new slot.
-    pub(crate) fn slot(&mut self, law: Law) -> Slot {
-        self.m.slots.push(law);
-        self.m.slots.len() - 1
-    }
-
-    pub(crate) fn number_slot(&mut self, path: &str, number: &Number) -> Result<Slot> {
-        let law = self.number(path, number)?;
-        Ok(self.slot(law))
-    }
-
+impl Builder<'_> {
     fn parameters(&mut self) -> Result<()> {
         for (i, p) in self.spec.parameters.iter().enumerate() {
             if self.names.parameters.insert(p.name.clone(), i).is_some() {
@@ -232,8 +163,4 @@ fn uses(law: &Law) -> HashSet<usize> {
             _ => None,
         })
         .collect()
-}
-
-pub(crate) fn twice(path: impl Into<String>, name: &str) -> CompileError {
-    CompileError::new(path, format!("the name `{name}` is given twice"), "give each its own name")
 }

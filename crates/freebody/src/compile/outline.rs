@@ -1,7 +1,8 @@
 //! Polygons and polylines as convex chains.
 
-use super::{CompileError, Compiler, Result};
-use crate::contact::Chain;
+use crate::builder::{Builder, Result};
+use crate::error::CompileError;
+use crate::mechanism::Chain;
 use crate::plane::Vec2;
 
 /// Sine of the turn at a corner below which its sides are one; and height over a side, in parts of the outline's size,
@@ -25,7 +26,7 @@ pub(crate) struct Outline {
     pub points: Vec<usize>,
 }
 
-impl Compiler<'_> {
+impl Builder<'_> {
     /// The corners of an outline, on one body and each at a place of its own.
     pub(super) fn corners(&self, path: &str, names: &[String], arms: &[Vec2]) -> Result<Vec<Corner>> {
         let mut corners: Vec<Corner> = vec![];

@@ -1,11 +1,11 @@
 //! Points, lines and curves.
 
-use super::{CompileError, Compiler, Names, Reach, Result};
+use crate::builder::{unknown, Builder, Names, Reach, Result};
+use crate::error::CompileError;
 use crate::gauges::Law;
-use crate::mechanism::{Curve, Marker, Site, Spot};
-use crate::spec::{Number, Place};
+use crate::mechanism::{Curve, Spot};
 
-impl Compiler<'_> {
+impl Builder<'_> {
     /// All named points, and the origin and mass centre of every body.
     pub(crate) fn points(&mut self) -> Result<()> {
         let zero = self.slot(Law::constant(0.0));
@@ -24,7 +24,7 @@ impl Compiler<'_> {
         for point in &self.spec.points {
             let path = format!("points.{}", point.name);
             let known = self.names.bodies.keys();
-            let missing = || CompileError::from(&path, super::names::unknown("body", &point.body, known));
+            let missing = || CompileError::from(&path, unknown("body", &point.body, known));
             let body = *self.names.bodies.get(&point.body).ok_or_else(missing)?;
             let [x, y] = &point.at;
             let at = Spot::At([self.number_slot(&path, x)?, self.number_slot(&path, y)?]);
@@ -42,11 +42,6 @@ impl Compiler<'_> {
         self.m.points.push((name, site));
     }
 
-    pub(crate) fn site(&mut self, body: usize, at: Spot) -> usize {
-        self.m.sites.push(Site { body, at });
-        self.m.sites.len() - 1
-    }
-
     pub(crate) fn lines(&mut self) -> Result<()> {
         for line in &self.spec.lines {
             let path = format!("lines.{}", line.name);
@@ -58,56 +53,11 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// A site with a direction, and that direction.
-    pub(crate) fn place(&mut self, path: &str, place: &Place) -> Result<(Marker, Law)> {
-        let site = self.names.site(&place.point).map_err(|m| CompileError::from(path, m))?;
-        let direction = match (&place.angle, &place.towards) {
-            (None, Some(other)) => {
-                let other = self.names.site(other).map_err(|m| CompileError::from(path, m))?;
-                self.towards(path, site, other)?
-            }
-            (Some(angle), None) => self.number(path, angle)?,
-            (None, None) => Law::constant(0.0),
-            _ => {
-                return Err(CompileError::new(path, "a line has an angle or a second point, not both", "leave one out"))
-            }
-        };
-        let marker = Marker { site, angle: self.slot(direction.clone()) };
-        Ok((marker, direction))
-    }
-
-    /// Direction, in their body's frame, from one site to another of the same body.
-    pub(crate) fn towards(&mut self, path: &str, from: usize, to: usize) -> Result<Law> {
-        let [dx, dy] = self.offset(path, from, to)?;
-        Ok(dy.atan2(dx))
-    }
-
-    /// The vector, in their body's frame, from one site to another of the same body.
-    pub(crate) fn offset(&mut self, path: &str, from: usize, to: usize) -> Result<[Law; 2]> {
-        let (a, b) = (self.m.sites[from], self.m.sites[to]);
-        if a.body != b.body {
-            let names = [&self.m.bodies[a.body].name, &self.m.bodies[b.body].name];
-            let what = format!("these two points are on different bodies, `{}` and `{}`", names[0], names[1]);
-            return Err(CompileError::new(path, what, "a line is given by two points of one body"));
-        }
-        match (a.at, b.at) {
-            (Spot::At(a), Spot::At(b)) => {
-                let slot = |s: usize| self.m.slots[s].clone();
-                Ok([slot(b[0]) - slot(a[0]), slot(b[1]) - slot(a[1])])
-            }
-            _ => Err(CompileError::new(
-                path,
-                "a line cannot be drawn through the mass centre by name",
-                "give the point its coordinates",
-            )),
-        }
-    }
-
     pub(crate) fn curves(&mut self) -> Result<()> {
         for (i, curve) in self.spec.curves.iter().enumerate() {
             let path = format!("curves.{}", curve.name);
             let known = self.names.bodies.keys();
-            let missing = || CompileError::from(&path, super::names::unknown("body", &curve.body, known));
+            let missing = || CompileError::from(&path, unknown("body", &curve.body, known));
             let body = *self.names.bodies.get(&curve.body).ok_or_else(missing)?;
             let (x, y) = (self.law(&path, &curve.x, Reach::Curve)?, self.law(&path, &curve.y, Reach::Curve)?);
             self.m.curves.push(Curve { name: curve.name.clone(), body, x, y });
@@ -143,9 +93,4 @@ impl Compiler<'_> {
         }
         Ok(())
     }
-}
-
-/// The number 0, as a model writes it.
-pub(crate) fn nought() -> Number {
-    Number::Literal(0.0)
 }

@@ -1,7 +1,8 @@
 //! Tracks of lines and arcs as surfaces.
 
-use super::{CompileError, Compiler, Result};
-use crate::contact::{Profile, Stretch, Touch, Track};
+use crate::builder::{Builder, Result};
+use crate::error::CompileError;
+use crate::mechanism::{Profile, Stretch, Touch, Track};
 use crate::plane::Vec2;
 use crate::spec;
 
@@ -9,7 +10,7 @@ use crate::spec;
 /// first, up to which they are one.
 const SMOOTH: f64 = 1e-9;
 
-impl Compiler<'_> {
+impl Builder<'_> {
     /// A track on one body, which goes on smoothly from stretch to stretch at the parameters' own values.
     pub(super) fn track(&self, path: &str, start: &str, stretches: &[spec::Stretch], arms: &[Vec2]) -> Result<Track> {
         let site = |name: &str| self.names.site(name).map_err(|m| CompileError::from(path, m));

@@ -1,11 +1,12 @@
 //! Which bodies a joint joins, and which joints make the tree.
 
-use super::{CompileError, Compiler, Result};
+use crate::builder::{unknown, Builder, Result};
+use crate::error::CompileError;
 use crate::graph::{spanning_tree, Branch, Edge};
 use crate::joints::{Card, FieldKind, Joint as _, Kind, Role};
 use crate::mechanism::Body;
 use crate::shapes::{Shape, SHAPES};
-use crate::spec::{Body as BodySpec, Element, Number, Piece as PieceSpec, Spec, Value};
+use crate::spec::{Body as BodySpec, Element, Piece as PieceSpec, Spec, Value};
 use std::collections::HashMap;
 
 /// A joint of the model, as one pair of bodies.
@@ -46,7 +47,7 @@ pub(crate) fn joints_of(spec: &Spec) -> Result<Vec<Pair>> {
 fn no_such_joint(path: &str, word: &str) -> CompileError {
     let words: Vec<String> =
         Kind::ALL.iter().map(|k| k.card().word.to_string()).chain(["coupling".to_string()]).collect();
-    CompileError::from(format!("{path}.type"), super::names::unknown("type of joint", word, words.iter()))
+    CompileError::from(format!("{path}.type"), unknown("type of joint", word, words.iter()))
 }
 
 /// A pin shared by several bodies is a hinge of each with the first, named after the other body.
@@ -58,20 +59,13 @@ fn separate(element: &Element, card: &Card, bodies: &HashMap<&str, &str>) -> Vec
     };
     let one = |(i, other): (usize, &Value)| {
         let mut pair = element.clone();
-        let body = text(other).and_then(|name| bodies.get(name).copied()).unwrap_or("?");
+        let body = other.text().and_then(|name| bodies.get(name).copied()).unwrap_or("?");
         pair.name = format!("{}.{body}", element.name);
         pair.fields.insert(field.unwrap_or("of").to_string(), Value::List(vec![points[0].clone(), other.clone()]));
         pair.coordinates = element.coordinates.get(i).cloned().into_iter().collect();
         pair
     };
     points[1..].iter().enumerate().map(one).collect()
-}
-
-pub(crate) fn text(value: &Value) -> Option<&str> {
-    match value {
-        Value::Number(Number::Expression(text)) => Some(text),
-        _ => None,
-    }
 }
 
 /// The name of the body on one side of a joint.
@@ -91,11 +85,11 @@ fn end(
     let name = match value {
         Value::List(points) => {
             let i = if field.role == Role::Both { side } else { 0 };
-            points.get(i).and_then(text)
+            points.get(i).and_then(Value::text)
         }
         Value::Line(place) => Some(place.point.as_str()),
         Value::Circle { centre, .. } => Some(centre.as_str()),
-        other => text(other),
+        other => other.text(),
     };
     let name = name.ok_or_else(missing)?;
     if field.kind == FieldKind::Curve {
@@ -103,7 +97,7 @@ fn end(
             return Ok(curve.body.clone());
         }
         let known: Vec<String> = spec.curves.iter().map(|c| c.name.clone()).collect();
-        return Err(CompileError::from(path, super::names::unknown("curve", name, known.iter())));
+        return Err(CompileError::from(path, unknown("curve", name, known.iter())));
     }
     if let Some(body) = bodies.get(name) {
         return Ok(body.to_string());
@@ -115,7 +109,7 @@ fn end(
         }
     }
     let known: Vec<String> = spec.points.iter().map(|p| p.name.clone()).collect();
-    Err(CompileError::from(path, super::names::unknown("point", name, known.iter())))
+    Err(CompileError::from(path, unknown("point", name, known.iter())))
 }
 
 /// Rank of a joint that would hang a body on a particle and pass it a couple: taken last, and then refused.
@@ -142,7 +136,7 @@ fn rank(pair: &Pair, particle: [bool; 2]) -> [Option<u32>; 2] {
     [Some(forward + last(0)), Some(forward + last(1) + if absolute { 4 } else { 0 })]
 }
 
-impl Compiler<'_> {
+impl Builder<'_> {
     /// Numbers the bodies, parents first, and says by which pair each hangs; a body that nothing joins
     /// is free from the origin of ground, which is a pair beyond the last.
     pub(crate) fn bodies(&mut self, pairs: &[Pair]) -> Result<Vec<Branch>> {
@@ -157,7 +151,7 @@ impl Compiler<'_> {
         for pair in pairs {
             let side = |s: usize| {
                 let known = self.spec.bodies.iter().map(|b| &b.name);
-                let missing = || CompileError::from(&pair.path, super::names::unknown("body", &pair.ends[s], known));
+                let missing = || CompileError::from(&pair.path, unknown("body", &pair.ends[s], known));
                 index.get(pair.ends[s].as_str()).copied().ok_or_else(missing)
             };
             let ends = [side(0)?, side(1)?];
@@ -212,10 +206,7 @@ impl Compiler<'_> {
     fn piece(&mut self, path: &str, spec: &PieceSpec) -> Result<crate::mechanism::Piece> {
         let Some((_, shape, words)) = SHAPES.iter().find(|(word, ..)| *word == spec.shape) else {
             let words: Vec<String> = SHAPES.iter().map(|s| s.0.to_string()).collect();
-            return Err(CompileError::from(
-                format!("{path}.shape"),
-                super::names::unknown("shape", &spec.shape, words.iter()),
-            ));
+            return Err(CompileError::from(format!("{path}.shape"), unknown("shape", &spec.shape, words.iter())));
         };
         let mut sizes = vec![];
         for word in *words {

@@ -11,5 +11,4 @@ pub mod complementarity;
 mod limit;
 mod touch;
 
-pub use limit::{Border, Contact, Friction, Gap, Group, Limit, Piece};
-pub use touch::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};
+pub use limit::Contact;

@@ -1,9 +1,11 @@
 //! A force at a point.
 
-use super::{Force, ForceKind, Push};
-use crate::compile::{CompileError, Fields};
+use super::ForceKind;
+use crate::builder::Fields;
+use crate::error::CompileError;
 use crate::gauges::Law;
 use crate::joints::{Card, FieldKind, Role};
+use crate::mechanism::{Force, Push};
 
 /// A force at a point, by size and direction or by components, in fixed axes or in those of the body.
 pub struct AtPoint;

@@ -1,8 +1,10 @@
 //! Any law on any gauge.
 
-use super::{Force, ForceKind};
-use crate::compile::{CompileError, Fields};
+use super::ForceKind;
+use crate::builder::Fields;
+use crate::error::CompileError;
 use crate::joints::{Card, FieldKind, Role};
+use crate::mechanism::Force;
 
 /// A law on a gauge.
 pub struct General;

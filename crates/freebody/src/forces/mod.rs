@@ -9,56 +9,10 @@ mod law;
 mod spring;
 mod torque;
 
-use crate::compile::{CompileError, Fields};
-use crate::gauges::Law;
+use crate::builder::Fields;
+use crate::error::CompileError;
 use crate::joints::Card;
-
-/// A force, compiled.
-#[derive(Clone, Debug, Default)]
-pub struct Force {
-    /// Name.
-    pub name: String,
-    /// Its word in the list.
-    pub word: &'static str,
-    /// Laws on gauges.
-    pub pulls: Vec<Pull>,
-    /// Loads in a direction.
-    pub pushes: Vec<Push>,
-    /// Its potential energy, J; a force without one accounts for its work.
-    pub potential: Option<Law>,
-}
-
-impl Force {
-    /// Whether its law has cases, like `max` or `if`.
-    pub fn has_cases(&self) -> bool {
-        let pulls = self.pulls.iter().map(|pull| &pull.value);
-        pulls.chain(self.pushes.iter().flat_map(|push| [&push.x, &push.y])).any(|law| law.kinks().next().is_some())
-    }
-}
-
-/// A force that acts to increase a gauge.
-#[derive(Clone, Debug)]
-pub struct Pull {
-    /// The gauge.
-    pub gauge: Law,
-    /// How strongly, N for a length and N·m for an angle.
-    pub value: Law,
-    /// The bodies on which the gauge depends.
-    pub bodies: Vec<usize>,
-}
-
-/// A force at a point.
-#[derive(Clone, Debug)]
-pub struct Push {
-    /// The site at which it acts.
-    pub site: usize,
-    /// Component along x, N.
-    pub x: Law,
-    /// Component along y, N.
-    pub y: Law,
-    /// Whether x and y are the body's axes.
-    pub with_body: bool,
-}
+use crate::mechanism::Force;
 
 /// The contract of a force.
 pub trait ForceKind {
@@ -87,16 +41,4 @@ list! {
 /// The force of a given word.
 pub fn named(word: &str) -> Option<&'static (dyn ForceKind + Sync)> {
     ALL.iter().copied().find(|f| f.card().word == word)
-}
-
-impl Force {
-    /// A law on a gauge.
-    pub fn pulling(gauge: Law, value: Law, potential: Option<Law>) -> Self {
-        Force { pulls: vec![Pull { gauge, value, bodies: vec![] }], potential, ..Force::default() }
-    }
-    /// The laws that it evaluates.
-    pub fn laws(&self) -> impl Iterator<Item = &Law> {
-        let pulls = self.pulls.iter().flat_map(|p| [&p.gauge, &p.value]);
-        pulls.chain(self.pushes.iter().flat_map(|p| [&p.x, &p.y])).chain(&self.potential)
-    }
 }

@@ -1,9 +1,11 @@
 //! Springs and dampers, between two points or along a gauge.
 
-use super::{Force, ForceKind};
-use crate::compile::{CompileError, Fields};
+use super::ForceKind;
+use crate::builder::Fields;
+use crate::error::CompileError;
 use crate::gauges::Law;
 use crate::joints::{Card, FieldKind, Role};
+use crate::mechanism::{Force, Pull};
 
 fn along(card: Card) -> Card {
     card.takes("between", FieldKind::Points, "m", "", "the two points at its ends").takes(
@@ -20,7 +22,7 @@ fn gauge(fields: &mut Fields) -> Result<Law, CompileError> {
     match (fields.given("between"), fields.given("along")) {
         (true, false) => {
             let [p, q] = fields.two_sites("between")?;
-            Ok(crate::compile::distance(p, q))
+            Ok(crate::builder::distance(p, q))
         }
         (false, true) => fields.gauge("along"),
         _ => Err(fields.error(
@@ -44,9 +46,9 @@ pub(super) fn elastic(gauge: Law, fields: &mut Fields, rest: &str) -> Result<For
     Ok(force)
 }
 
-fn drag(gauge: Law, damping: Law) -> super::Pull {
+fn drag(gauge: Law, damping: Law) -> Pull {
     let rate = gauge.clone().rate().expect("a gauge of the configuration has a rate");
-    super::Pull { gauge, value: -(damping * rate), bodies: vec![] }
+    Pull { gauge, value: -(damping * rate), bodies: vec![] }
 }
 
 /// A spring, with a damper beside it if wished.

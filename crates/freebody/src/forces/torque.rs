@@ -1,9 +1,11 @@
 //! Couples between two bodies.
 
-use super::{Force, ForceKind};
-use crate::compile::{CompileError, Fields};
+use super::ForceKind;
+use crate::builder::Fields;
+use crate::error::CompileError;
 use crate::gauges::{Law, Leaf};
 use crate::joints::{Card, FieldKind, Role};
+use crate::mechanism::Force;
 
 /// The turn of `on` against `from`.
 fn turn(fields: &mut Fields) -> Result<Law, CompileError> {

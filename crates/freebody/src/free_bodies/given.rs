@@ -3,9 +3,8 @@
 use super::{along_gauge, mass_centre, Load, Origin, Part, Size};
 use crate::balance::Spread;
 use crate::expr::spell;
-use crate::forces::Push;
-use crate::gauges::{gradient, Placed, State};
-use crate::mechanism::{Mechanism, Part as Piece};
+use crate::kinematics::{gradient, Placed, State};
+use crate::mechanism::{Mechanism, Part as Piece, Push};
 use crate::plane::vec2;
 use crate::scalar::Scalar;
 

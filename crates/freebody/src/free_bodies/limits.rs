@@ -3,10 +3,9 @@
 use super::reactions::loaded;
 use super::{along_gauge, ground_takes, joint_place, mass_centre, part, Load, Origin, Part, Size};
 use crate::balance::{gap_row, rub_row, slide_row, Row, Source};
-use crate::contact::{Friction, Gap};
 use crate::expr::spell;
-use crate::gauges::{Placed, Poses};
-use crate::mechanism::Rubbing;
+use crate::kinematics::{Placed, Poses};
+use crate::mechanism::{Friction, Gap, Rubbing};
 use crate::mode::Hold;
 use crate::scalar::Scalar;
 

@@ -11,9 +11,9 @@ mod reactions;
 pub use numbers::free_bodies;
 
 use crate::balance::Source;
-use crate::gauges::{Law, Leaf, Placed, Poses};
+use crate::gauges::{Law, Leaf};
 use crate::joints::Joint as _;
-use crate::kinematics::{relative, JointView};
+use crate::kinematics::{relative, JointView, Placed, Poses};
 use crate::mechanism::Rubbing;
 use crate::mode::Hold;
 use crate::plane::{Vec2, Wrench};

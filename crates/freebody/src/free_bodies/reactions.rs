@@ -3,8 +3,8 @@
 use super::{along_gauge, joint_place, part, Load, Origin, Part, Size};
 use crate::balance::{curve_row, drive_row, joint_rows, Row, Source};
 use crate::expr::spell;
-use crate::gauges::{Placed, Poses};
 use crate::joints::{Joint as _, Kind};
+use crate::kinematics::{Placed, Poses};
 use crate::mechanism::{Joint, Part as Piece};
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;

@@ -2,14 +2,12 @@
 //! that an expression of a model may read.
 //!
 //! A gauge is an [`Expr`] over [`Leaf`]s. One definition serves springs, drives, couplings, limits,
-//! events and reports: over plain numbers it gives a value, over [`Jet`]s its rate and acceleration, over
-//! [`Dual`]s seeded on one body the load that a unit force along the gauge puts on that body.
+//! events and reports: over plain numbers it gives a value, over jets its rate and acceleration, over
+//! duals seeded on one body the load that a unit force along the gauge puts on that body.
 
-mod place;
 mod reading;
 
-pub use place::{gradient, jet, Config, Moving, Placed, Poses, Seeded, State};
-pub use reading::{Axis, Bound, Observed, Reading};
+pub use reading::{Axis, Bound, Reading};
 
 use crate::expr::Expr;
 

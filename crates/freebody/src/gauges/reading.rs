@@ -1,8 +1,4 @@
-//! Quantities that are known only when the instant is solved, and the environment that knows them.
-
-use super::{jet, Law, Leaf, Moving, Placed, Poses};
-use crate::expr::Env;
-use crate::plane::{Twist, Vec2};
+//! Quantities that are known only when the instant is solved.
 
 /// A quantity of a solved instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,50 +85,4 @@ pub enum Axis {
     Tension,
     /// The reaction along one row of the joint, in the order of its card: the force of one roller, of one tooth …
     Row(usize),
-}
-
-/// A solved instant as an environment of expressions.
-pub struct Observed<'a> {
-    /// The state.
-    pub at: Placed<'a>,
-    /// Accelerations of pins and angles.
-    pub bodies: &'a [Twist],
-    /// Accelerations of the coordinates.
-    pub accelerations: &'a [f64],
-    /// What a reading is.
-    pub read: &'a dyn Fn(Reading) -> f64,
-}
-
-impl Observed<'_> {
-    fn moving(&self) -> Moving<'_, f64> {
-        Moving { at: self.at, bodies: Some(self.bodies), accelerations: Some(self.accelerations) }
-    }
-}
-
-impl Env<f64, Leaf> for Observed<'_> {
-    fn leaf(&self, leaf: &Leaf) -> f64 {
-        let place = |site: usize| -> Vec2 { self.at.pose(self.at.m.body_of(site)).place(self.at.arm(site)) };
-        match leaf {
-            Leaf::Parameter(i) => self.at.parameter(*i),
-            Leaf::Time => self.at.t,
-            Leaf::X(site) => place(*site).x,
-            Leaf::Y(site) => place(*site).y,
-            Leaf::Angle(body) => self.at.pose(*body).turn.angle,
-            Leaf::Coordinate(joint, k) => self.at.coordinate(*joint, *k),
-            Leaf::Reading(reading) => (self.read)(*reading),
-            Leaf::Local => unreachable!("a curve's parameter outside a curve"),
-        }
-    }
-    fn rate(&self, of: &Law) -> f64 {
-        jet(&self.moving(), of).d1
-    }
-    fn accel(&self, of: &Law) -> f64 {
-        jet(&self.moving(), of).d2
-    }
-    fn table(&self, table: usize, x: f64) -> f64 {
-        self.at.m.tables[table].eval(x)
-    }
-    fn arm(&self, kink: usize) -> Option<bool> {
-        self.at.mode.arm(kink)
-    }
 }

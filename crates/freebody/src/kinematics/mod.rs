@@ -2,11 +2,17 @@
 //! joint did.
 //!
 //! Joint rates ν are relative (of the second body against the first); the user's rates u may be
-//! absolute or reversed. [`Kinematics::joint_rates`] and [`Kinematics::user_rates`] go between them.
+//! absolute or reversed. [`Kinematics::user_rates`] goes between them.
+//!
+//! A state is seen as [`Placed`], over any scalar; gauges are measured on it.
 
-mod relative;
+mod joint_view;
+mod measure;
+mod view;
 
-pub use relative::{curve_switch, relative, JointView};
+pub use joint_view::{curve_switch, JointView};
+pub use measure::{gradient, jet, Config, Observed, State};
+pub use view::{relative, Moving, Placed, Poses, Seeded};
 
 use crate::joints::Relative;
 use crate::mechanism::{Body, Branch, Joint, Mechanism};

@@ -3,10 +3,10 @@
 use super::equation::Test;
 use super::vectors::{tree, tree_by};
 use super::Letters;
-use crate::algebra::Letter;
+use crate::algebra::{Letter, Symbol};
 use crate::free_bodies::Origin;
-use crate::gauges::State;
-use crate::scalar::{Scalar, Symbol};
+use crate::kinematics::State;
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
 

@@ -6,11 +6,11 @@
 use super::question::{About, Along, Group, Parts};
 use super::vectors::{tree, tree_by};
 use super::Letters;
-use crate::algebra::{Letter, Tree};
+use crate::algebra::{Letter, Symbol, Tree};
 use crate::balance::Trouble;
 use crate::free_bodies::{Load, Part, Size};
 use crate::plane::{vec2, Vec2, Wrench};
-use crate::scalar::{Scalar, Symbol};
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 /// A rigid virtual motion of a group.
@@ -264,7 +264,7 @@ fn meeting(a: Wrench<Symbol>, b: Wrench<Symbol>) -> Test {
 }
 
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> Trouble {
-    let told = crate::compile::unknown(what, name, known);
+    let told = crate::builder::unknown(what, name, known);
     Trouble::new("unknown_name", format!("{}; {}", told.what, told.hint))
 }
 

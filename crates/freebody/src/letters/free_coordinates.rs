@@ -5,14 +5,13 @@ use super::motion::acceleration;
 
 use super::vectors::tree_by;
 use super::{sizes, Letters};
-use crate::algebra::{Letter, Tree};
+use crate::algebra::{Letter, Symbol, Tree};
 use crate::balance::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{follow_presses, loads, Load, Size};
-use crate::gauges::Placed;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Placed};
 use crate::mechanism::Part;
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
-use crate::scalar::{Scalar, Symbol};
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 /// The bodies placed each by itself: x and y of its mass centre and its angle.

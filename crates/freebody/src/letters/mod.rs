@@ -13,17 +13,15 @@ mod vectors;
 
 pub use question::{answer, Question, Setting};
 
-use crate::algebra::Letter;
+use crate::algebra::{Letter, Symbol};
 use crate::balance::{Balance, Trouble};
 use crate::free_bodies::{follow_presses, loads, Load, Origin, Size};
-use crate::gauges::Placed;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Placed};
 use crate::mechanism::{Mechanism, Rubbing};
-use crate::mode::Hold;
-use crate::mode::Mode;
+use crate::mode::{Hold, Mode};
 use crate::numbers::Numbers;
 use crate::plane::{Twist, Vec2};
-use crate::scalar::{Scalar, Symbol};
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 /// One state of a mechanism in letters.
@@ -152,7 +150,7 @@ impl Letters<'_> {
         let known: Vec<&String> = (0..self.m.freedom()).map(|i| &self.m.coordinate(i).name).collect();
         let found = known.iter().position(|k| *k == name);
         found.ok_or_else(|| {
-            let told = crate::compile::unknown("coordinate", name, known.into_iter());
+            let told = crate::builder::unknown("coordinate", name, known.into_iter());
             Trouble::new("unknown_name", format!("{}; {}", told.what, told.hint))
         })
     }

@@ -3,13 +3,13 @@
 use super::equation::linear_in;
 use super::vectors::{tell, tree};
 use super::Letters;
-use crate::algebra::Letter;
+use crate::algebra::{Letter, Symbol};
 use crate::balance::{closing_rows, Row, Source, Trouble};
 use crate::free_bodies::mass_centre;
 use crate::joints::Joint as _;
 use crate::kinematics::Kinematics;
 use crate::plane::{Twist, Vec2};
-use crate::scalar::{Scalar, Symbol};
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 impl Letters<'_> {

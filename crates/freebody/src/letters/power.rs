@@ -3,10 +3,10 @@
 use super::motion::acceleration;
 use super::vectors::{tree, tree_by};
 use super::Letters;
-use crate::algebra::Letter;
+use crate::algebra::{Letter, Symbol};
 use crate::balance::Trouble;
 use crate::plane::{vec2, Twist, Vec2};
-use crate::scalar::{Scalar, Symbol};
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 impl Letters<'_> {

@@ -1,8 +1,8 @@
 //! Vectors told in named unit directions.
 
-use crate::algebra::{Letter, Tree};
+use crate::algebra::{Letter, Symbol, Tree};
 use crate::plane::Vec2;
-use crate::scalar::{Scalar, Symbol};
+use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 /// A vector as components along fixed axes, and along and across unit directions at angles to the x axis.

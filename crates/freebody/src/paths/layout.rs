@@ -1,9 +1,9 @@
 //! A string laid out at one configuration: its straight stretches, its arcs, and what is wound.
 
 use super::tangent::{near, Free, Round};
-use super::{Cord, End, Guide, Way, Winding};
-use crate::gauges::Poses;
-use crate::mechanism::Mechanism;
+use super::{Way, Winding};
+use crate::kinematics::Poses;
+use crate::mechanism::{Cord, End, Guide, Mechanism};
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 use std::f64::consts::{FRAC_PI_2, PI};

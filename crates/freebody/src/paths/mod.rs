@@ -10,6 +10,5 @@ mod start;
 mod tangent;
 mod winding;
 
-pub use cord::{Cord, End, Guide};
 pub use outline::{Outline, Stretch};
 pub use winding::{Way, Winding};

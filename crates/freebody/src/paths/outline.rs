@@ -1,10 +1,10 @@
 //! How a string is drawn, and where its length is.
 
 use super::layout::Layout;
-use super::{Cord, End, Guide, Way, Winding};
-use crate::contact::Piece;
-use crate::gauges::Poses;
-use crate::mechanism::Mechanism;
+use super::{Way, Winding};
+use crate::kinematics::Poses;
+use crate::mechanism::{Cord, End, Guide, Mechanism};
+use crate::mode::Piece;
 use crate::plane::{vec2, Vec2};
 use std::f64::consts::FRAC_PI_2;
 

@@ -2,9 +2,9 @@
 
 use super::layout::{Layout, Leave};
 use super::tangent::near;
-use super::{Cord, End, Way, Winding};
-use crate::gauges::Poses;
-use crate::mechanism::Mechanism;
+use super::{Way, Winding};
+use crate::kinematics::Poses;
+use crate::mechanism::{Cord, End, Mechanism};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Angle, rad, below which a string that is attached where it leaves the drum is not wound a whole turn.
@@ -12,7 +12,7 @@ const NONE: f64 = 1e-9;
 
 impl Cord {
     /// Directions from the centre, in the body's frame, in which its ends are attached, rad; and its length, m: what
-    /// [`Piece::phase`](crate::contact::Piece::phase) is to be from the start on.
+    /// [`Piece::phase`](crate::mode::Piece::phase) is to be from the start on.
     ///
     /// - Where the length wound is given, the direction follows.
     /// - Where the direction is given and the straight line from there is free, the string is unwound; else less than one

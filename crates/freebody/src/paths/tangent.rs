@@ -1,6 +1,6 @@
 //! Straight stretches of a string: common tangents of circles and points.
 
-use crate::gauges::Poses;
+use crate::kinematics::Poses;
 use crate::mechanism::Mechanism;
 use crate::plane::Vec2;
 use crate::scalar::Scalar;

@@ -1,6 +1,6 @@
 //! The number. Every formula of mechanics is written once over [`Scalar`] and read as
-//! `f64` (values), [`Dual`] (exact gradients), [`Jet`] (exact time derivatives) or [`Symbol`]
-//! (equations).
+//! `f64` (values), [`Dual`] (exact gradients), [`Jet`] (exact time derivatives) or, in `algebra`, as
+//! a symbol (equations).
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -9,11 +9,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 mod dual;
 mod jet;
 pub mod real;
-mod symbol;
 
 pub use dual::Dual;
 pub use jet::Jet;
-pub use symbol::Symbol;
 
 /// What a formula of mechanics may do with a number.
 ///

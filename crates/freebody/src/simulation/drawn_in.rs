@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::balance::Trouble;
-use crate::contact::Gap;
+use crate::mechanism::Gap;
 use crate::plane::Vec2;
 
 /// Length of a stretch, over the characteristic length, below which it has none.

@@ -3,7 +3,7 @@
 use super::switching::{REACHED, STILL};
 use super::Machine;
 use crate::balance::{Route, Trouble};
-use crate::contact::Gap;
+use crate::mechanism::Gap;
 use crate::mode::Hold;
 
 /// Guards of each limit: gap or force, two for friction, border.

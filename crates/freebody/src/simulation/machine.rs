@@ -4,7 +4,8 @@ use super::changes::Change;
 use super::guards::{GUARDS, RUB_GUARDS};
 use super::impacts::Rule;
 use crate::balance::{Balance, Observer, Trouble};
-use crate::gauges::{Law, State};
+use crate::gauges::Law;
+use crate::kinematics::{curve_switch, Poses, State};
 use crate::mechanism::{Deed, Kink};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, Happening, System, Watch};
@@ -163,7 +164,7 @@ impl<'m> Machine<'m> {
         match kink {
             Kink::Switch(switch, law) => law.switch(*switch, &State(at)),
             Kink::Knot(argument, x) => argument.eval::<f64, _>(&State(at)) - x,
-            Kink::Bend(joint, switch) => crate::kinematics::curve_switch(at, *joint, *switch),
+            Kink::Bend(joint, switch) => curve_switch(at.m, at.n, *joint, at.coordinate(*joint, 0), *switch),
         }
     }
 

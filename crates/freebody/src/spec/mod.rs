@@ -253,6 +253,16 @@ pub enum Value {
     Line(Place),
 }
 
+impl Value {
+    /// The text of a name or an expression.
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Value::Number(Number::Expression(text)) => Some(text),
+            _ => None,
+        }
+    }
+}
+
 /// How a joint coordinate is measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -4,7 +4,7 @@ use crate::model::*;
 use crate::rng::Rng;
 use crate::strung::*;
 use freebody::compile::Compiled;
-use freebody::contact::Piece;
+use freebody::mode::Piece;
 use freebody::paths::{Stretch, Way, Winding};
 use freebody::plane::{vec2, Twist, Vec2, Wrench};
 use freebody::spec::{Cord, CordEnd, Guide};

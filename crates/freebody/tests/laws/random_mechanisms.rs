@@ -4,7 +4,7 @@ use crate::model::*;
 use crate::random::*;
 use crate::rng::Rng;
 use freebody::balance::{force_power, unaccounted_power, Balance, Instant, Route};
-use freebody::gauges::gradient;
+use freebody::kinematics::gradient;
 
 pub const MECHANISMS: u64 = 30;
 const STATES: usize = 34;

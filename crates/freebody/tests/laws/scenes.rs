@@ -2,10 +2,9 @@
 
 use crate::model::*;
 use crate::rng::Rng;
-use freebody::contact::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};
-use freebody::gauges::{Law, Moving, Placed};
-use freebody::kinematics::Kinematics;
-use freebody::mechanism::{Marker, Mechanism, Site, Spot};
+use freebody::gauges::Law;
+use freebody::kinematics::{Kinematics, Moving, Placed};
+use freebody::mechanism::{Arc, Chain, Disk, Marker, Mechanism, Profile, Site, Spot, Stretch, Touch, Track};
 use freebody::mode::Mode;
 use freebody::numbers::Numbers;
 use freebody::plane::{vec2, Pose, Turn, Twist, Vec2};

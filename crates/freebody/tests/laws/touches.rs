@@ -3,8 +3,9 @@
 
 use crate::model::*;
 use crate::scenes::*;
-use freebody::contact::{Border, Profile, Track};
-use freebody::gauges::Seeded;
+use freebody::kinematics::Seeded;
+use freebody::mechanism::{Profile, Track};
+use freebody::mode::Border;
 use freebody::plane::{vec2, Vec2, Wrench};
 use freebody::scalar::{Dual, Jet};
 
@@ -303,7 +304,7 @@ fn a_track_is_its_points() {
 
 /// Places all along a track, 1/400 of a stretch apart.
 fn walked(scene: &Scene, there: &There, track: &Track) -> Vec<Vec2> {
-    let stretch = |stretch: &freebody::contact::Stretch| {
+    let stretch = |stretch: &freebody::mechanism::Stretch| {
         let [from, to] = stretch.ends.map(|site| scene.place(there, site));
         let centre = stretch.centre.map(|site| scene.place(there, site));
         let part = move |k: i32| {

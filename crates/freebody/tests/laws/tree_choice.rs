@@ -5,8 +5,9 @@ use crate::random::*;
 use crate::random_mechanisms::{loads, HOME, MECHANISMS};
 use crate::rng::Rng;
 use freebody::balance::{Instant, Route};
-use freebody::gauges::{jet, Law, Leaf, Moving};
+use freebody::gauges::{Law, Leaf};
 use freebody::joints::Joint;
+use freebody::kinematics::{jet, Moving};
 use freebody::mechanism::Mechanism;
 use freebody::plane::Vec2;
 

@@ -1,29 +1,12 @@
 //! A circle with ends.
 
-use super::{turn, Disk, Face, ON_BORDER};
-use crate::contact::Border;
-use crate::gauges::Poses;
-use crate::mechanism::{Mechanism, Slot};
+use super::{turn, Face, ON_BORDER};
+use crate::kinematics::Poses;
+use crate::mechanism::{Arc, Disk, Mechanism};
+use crate::mode::Border;
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 use std::f64::consts::PI;
-
-/// Part of a circle of a body, counter-clockwise from one direction to another.
-///
-/// Piece 0 is the arc, 1 and 2 its start and its end. A disk touches the ends as circles of radius 0. A point cannot: there
-/// the lines from the centre through the ends bound the solid, and the gap is the larger of the heights over the arc and over the
-/// line through the nearer end.
-#[derive(Clone, Debug)]
-pub struct Arc {
-    /// Site of its centre.
-    pub centre: usize,
-    /// Radius.
-    pub radius: Slot,
-    /// Whether the free side is inside.
-    pub hollow: bool,
-    /// Directions of its ends from the centre, in the body's frame; the second less than a turn beyond the first.
-    pub ends: [Slot; 2],
-}
 
 const ARC: usize = 0;
 

@@ -1,9 +1,9 @@
 //! Straight sides with convex corners.
 
-use super::{turn, Disk, Face};
-use crate::contact::Border;
-use crate::gauges::Poses;
-use crate::mechanism::Mechanism;
+use super::{turn, Face};
+use crate::kinematics::Poses;
+use crate::mechanism::{Chain, Disk, Mechanism};
+use crate::mode::Border;
 use crate::plane::Vec2;
 use crate::scalar::Scalar;
 
@@ -20,32 +20,6 @@ const FLAT: f64 = 1e-6;
 const SLACK: f64 = 1e-10;
 /// The piece of a corner that a side of its own polygon keeps off. Nothing closes there.
 const KEPT_OFF: usize = 1;
-
-/// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their right.
-/// Each corner turns to the right, so a closed one has its corners clockwise.
-///
-/// Piece 2i is side i, from corner i to the next; piece 2i + 1 the corner that ends it. The corner at which an open chain
-/// starts is the last number, twice the number of sides.
-///
-/// A disk touches corners as circles of radius 0, and its gap is the distance. A point cannot: its distance from a corner
-/// has no direction there. It has pieces for sides only, each prolonged until it meets the next, and its gap is the largest
-/// of its heights over them: 0 just on the sides, and outside a corner less than the distance. The ends of an open chain are
-/// then bounds of the solid too: along the side that follows in a concave corner, a little behind it, else straight back, or
-/// across to the other end where that would leave corners outside.
-///
-/// Where two corners meet, the sides of either polygon may keep them apart, and one side that does is enough. So the corner of
-/// a polygon that is lower over the sides here than the corners here are over a side of its own has a piece for that, the
-/// number 1: what closes is the other corner, on that side.
-#[derive(Clone, Debug)]
-pub struct Chain {
-    /// Sites of its corners.
-    pub corners: Vec<usize>,
-    /// Whether the last corner is joined to the first.
-    pub closed: bool,
-    /// Where the surface goes on beyond the ends with a concave corner: the sites of its corners before the first and
-    /// after the last of this chain.
-    pub beyond: [Option<usize>; 2],
-}
 
 /// A side and the centre of a disk.
 struct Seen<T> {

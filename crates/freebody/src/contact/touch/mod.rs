@@ -8,13 +8,10 @@ mod chain;
 mod face;
 mod track;
 
-pub use arc::Arc;
-pub use chain::Chain;
-pub use track::{Stretch, Track};
-
-use super::{Border, Contact};
-use crate::gauges::Poses;
-use crate::mechanism::{Marker, Mechanism, Slot};
+use super::Contact;
+use crate::kinematics::Poses;
+use crate::mechanism::{Arc, Mechanism, Profile, Touch};
+use crate::mode::Border;
 use crate::numbers::Numbers;
 use crate::plane::{vec2, Turn};
 use crate::scalar::Scalar;
@@ -22,49 +19,6 @@ use face::Face;
 
 /// How far before the end of a surface, m, a point that slides has left it: it does not come back to it.
 const ON_BORDER: f64 = 1e-10;
-
-/// A disk against a surface. Every contact of the plane is made of these: polygons meet with the corners of one against
-/// the sides of the other.
-#[derive(Clone, Debug)]
-pub struct Touch {
-    /// The disk.
-    pub disk: Disk,
-    /// The surface.
-    pub against: Profile,
-}
-
-/// A disk of a body; a point has radius 0.
-#[derive(Clone, Copy, Debug)]
-pub struct Disk {
-    /// Site of its centre.
-    pub centre: usize,
-    /// Radius; None for a point.
-    pub radius: Option<Slot>,
-    /// Sites of the corners before and after it, where it is the corner of a polygon.
-    pub beside: Option<[usize; 2]>,
-}
-
-/// A surface of a body.
-#[derive(Clone, Debug)]
-pub enum Profile {
-    /// A straight line without ends; the free side is on its left.
-    Line(Marker),
-    /// A circle.
-    Circle {
-        /// Site of its centre.
-        centre: usize,
-        /// Radius.
-        radius: Slot,
-        /// Whether the free side is inside.
-        hollow: bool,
-    },
-    /// A circle with ends.
-    Arc(Arc),
-    /// Straight sides with convex corners.
-    Chain(Chain),
-    /// Lines and arcs without a kink.
-    Track(Track),
-}
 
 impl Touch {
     /// The disk's body and the surface's body.

@@ -1,34 +1,14 @@
 //! Lines and arcs that go on in each other's direction.
 
-use super::{turn, Disk, Face, ON_BORDER};
-use crate::contact::Border;
-use crate::gauges::Poses;
-use crate::mechanism::Mechanism;
+use super::{turn, Face, ON_BORDER};
+use crate::kinematics::Poses;
+use crate::mechanism::{Disk, Mechanism, Stretch, Track};
+use crate::mode::Border;
 use crate::plane::Vec2;
 use crate::scalar::Scalar;
 
 /// How far behind a stretch, in parts of its length, a point still counts as on it.
 const BEHIND: f64 = 0.01;
-
-/// A way of straight and round stretches on one body, without a kink; the free side is on its left.
-///
-/// Pieces 0 to n − 1 are the stretches in order, n is the start and n + 1 the end. A disk touches the two ends as circles of radius
-/// 0, a point cannot; behind the track there is nothing. While the gap is closed, the piece goes from a stretch to the next
-/// by what is past their common point, so a track may cross itself, as a loop does. A disk touches it at one place at a time.
-#[derive(Clone, Debug)]
-pub struct Track {
-    /// Its stretches.
-    pub stretches: Vec<Stretch>,
-}
-
-/// A line, or an arc of less than half a turn.
-#[derive(Clone, Copy, Debug)]
-pub struct Stretch {
-    /// Sites where it starts and ends.
-    pub ends: [usize; 2],
-    /// Site of the centre of an arc.
-    pub centre: Option<usize>,
-}
 
 impl Stretch {
     /// +1 for an arc that goes round counter-clockwise, so that its centre is on the free side; −1 for the other.

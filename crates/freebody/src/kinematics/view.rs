@@ -1,10 +1,8 @@
-//! The configuration as expressions see it: with plain numbers, moving, or seeded on one body.
+//! One state of a mechanism: with plain numbers, moving, or seeded on one body.
 
-use super::{Law, Leaf};
-use crate::expr::Env;
-use crate::joints::Joint as _;
-use crate::kinematics::{relative, JointView, Kinematics};
-use crate::mechanism::Mechanism;
+use super::{JointView, Kinematics};
+use crate::joints::{Joint as _, Relative};
+use crate::mechanism::{Joint, Mechanism};
 use crate::mode::Mode;
 use crate::numbers::Numbers;
 use crate::plane::{Pose, Turn, Twist, Vec2, Wrench};
@@ -290,72 +288,13 @@ fn measured<S: Scalar, T: Scalar>(
     (reading - poses.slot(c.zero)).scale(c.sense)
 }
 
-/// A configuration as an environment of expressions without time derivatives.
-pub struct Config<'a, P> {
-    /// Where everything is.
-    pub poses: &'a P,
-    /// The mechanism, for its tables.
-    pub m: &'a Mechanism,
-    /// Which arms of switches are frozen.
-    pub mode: &'a Mode,
-}
-
-impl<T: Scalar, P: Poses<T>> Env<T, Leaf> for Config<'_, P> {
-    fn leaf(&self, leaf: &Leaf) -> T {
-        let p = self.poses;
-        match leaf {
-            Leaf::Parameter(i) => p.parameter(*i),
-            Leaf::Time => p.time(),
-            Leaf::X(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).x,
-            Leaf::Y(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).y,
-            Leaf::Angle(body) => p.pose(*body).turn.angle,
-            Leaf::Coordinate(joint, k) => p.coordinate(*joint, *k),
-            Leaf::Local | Leaf::Reading(_) => unreachable!("{leaf:?} in an expression of the configuration"),
-        }
-    }
-    fn rate(&self, _: &Law) -> T {
-        unreachable!("a time derivative in an expression of the configuration")
-    }
-    fn accel(&self, _: &Law) -> T {
-        unreachable!("a time derivative in an expression of the configuration")
-    }
-    fn table(&self, table: usize, x: T) -> T {
-        self.m.tables[table].eval(x)
-    }
-    fn arm(&self, kink: usize) -> Option<bool> {
-        self.mode.arm(kink)
-    }
-}
-
-/// A state as an environment of laws, which may read rates.
-pub struct State<'a, S>(pub Placed<'a, S>);
-
-impl<S: Scalar> Env<S, Leaf> for State<'_, S> {
-    fn leaf(&self, leaf: &Leaf) -> S {
-        Config { poses: &self.0, m: self.0.m, mode: self.0.mode }.leaf(leaf)
-    }
-    fn rate(&self, of: &Law) -> S {
-        jet(&Moving { at: self.0, bodies: None, accelerations: None }, of).d1
-    }
-    fn accel(&self, _: &Law) -> S {
-        unreachable!("an acceleration in a law")
-    }
-    fn table(&self, table: usize, x: S) -> S {
-        self.0.m.tables[table].eval(x)
-    }
-    fn arm(&self, kink: usize) -> Option<bool> {
-        self.0.mode.arm(kink)
-    }
-}
-
-/// The load on `body`, at its pin, of a unit force along a gauge.
-pub fn gradient<S: Scalar>(at: Placed<'_, S>, gauge: &Law, body: usize) -> Wrench<S> {
-    let seeded = Seeded { at, body };
-    let value: Dual<3, S> = gauge.eval(&Config { poses: &seeded, m: at.m, mode: at.mode });
-    Wrench::from_parts(value.du)
-}
-
-/// A gauge with its rate and acceleration, for given accelerations of the bodies.
-pub fn jet<S: Scalar>(moving: &Moving<'_, S>, gauge: &Law) -> Jet<S> {
-    gauge.eval(&Config { poses: moving, m: moving.at.m, mode: moving.at.mode })
+/// The place of a joint's second marker as seen from its first, with the pose of the first marker.
+pub fn relative<T: Scalar>(joint: &Joint, m: &Mechanism, poses: &impl Poses<T>) -> (Pose<T>, Relative<T>) {
+    let [a, b] = m.ends(joint);
+    let (first, second) = (poses.pose(a), poses.pose(b));
+    let axes = Turn::by(first.turn.angle + poses.slot(joint.first.angle));
+    let from = first.place(poses.arm(joint.first.site));
+    let at = axes.undo(poses.span(joint.first.site, joint.second.site, m));
+    let angle = second.turn.angle + poses.slot(joint.second.angle) - axes.angle;
+    (Pose { at: from, turn: axes }, Relative { x: at.x, y: at.y, angle })
 }

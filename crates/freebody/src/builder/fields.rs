@@ -1,13 +1,14 @@
 //! The fields of one joint or force, read as what its card says they are.
 
-use super::{CompileError, Compiler, Reach, Result};
+use super::{unknown, Builder, Reach, Result};
+use crate::error::CompileError;
 use crate::gauges::Law;
 use crate::joints::Card;
 use crate::spec::{Element, Number, Value};
 
 /// The fields of one element.
 pub struct Fields<'a, 's> {
-    pub(crate) c: &'a mut Compiler<'s>,
+    pub(crate) c: &'a mut Builder<'s>,
     pub(crate) element: &'a Element,
     pub(crate) card: &'a Card,
     pub(crate) path: String,
@@ -30,10 +31,7 @@ impl<'a, 's> Fields<'a, 's> {
         match self.element.fields.keys().find(|k| !known.contains(k)) {
             Some(field) => {
                 let what = format!("field of a {}", self.card.word);
-                Err(CompileError::from(
-                    format!("{}.{field}", self.path),
-                    super::names::unknown(&what, field, known.iter()),
-                ))
+                Err(CompileError::from(format!("{}.{field}", self.path), unknown(&what, field, known.iter())))
             }
             None => Ok(()),
         }
@@ -99,7 +97,7 @@ impl<'a, 's> Fields<'a, 's> {
 
     fn name(&self, field: &str, value: &Value) -> Result<String> {
         let needed = || self.error(field, "a name is needed here", "a point is written `body.point`");
-        super::tree::text(value).map(str::to_string).ok_or_else(needed)
+        value.text().map(str::to_string).ok_or_else(needed)
     }
 
     fn site_of(&self, field: &str, value: &Value) -> Result<usize> {
@@ -127,9 +125,7 @@ impl<'a, 's> Fields<'a, 's> {
     pub fn body(&mut self, field: &str) -> Result<usize> {
         let name = self.name(field, &self.value(field)?)?;
         let bodies = &self.c.names.bodies;
-        let unknown = || {
-            CompileError::from(format!("{}.{field}", self.path), super::names::unknown("body", &name, bodies.keys()))
-        };
+        let unknown = || CompileError::from(format!("{}.{field}", self.path), unknown("body", &name, bodies.keys()));
         bodies.get(&name).copied().ok_or_else(unknown)
     }
 
@@ -175,9 +171,7 @@ impl<'a, 's> Fields<'a, 's> {
     pub fn curve(&mut self, field: &str) -> Result<usize> {
         let name = self.name(field, &self.value(field)?)?;
         let curves = &self.c.names.curves;
-        let unknown = || {
-            CompileError::from(format!("{}.{field}", self.path), super::names::unknown("curve", &name, curves.keys()))
-        };
+        let unknown = || CompileError::from(format!("{}.{field}", self.path), unknown("curve", &name, curves.keys()));
         curves.get(&name).copied().ok_or_else(unknown)
     }
 

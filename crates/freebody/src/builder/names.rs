@@ -1,6 +1,6 @@
 //! What the names in a model mean.
 
-use super::CompileError;
+use crate::error::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
 use crate::gauges::{Axis, Bound, Law, Leaf, Reading};
 use crate::joints::{Joint as _, Kind};

@@ -1,13 +1,13 @@
 //! The number read as a symbol.
 
-use super::Scalar;
-use crate::algebra::{with, Letter, Ratio, Rule, SumId, Tree};
+use super::{with, Letter, Ratio, Rule, SumId, Tree};
+use crate::scalar::Scalar;
 use std::collections::HashMap;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// An expression in letters, in canonical form, and the value it has for the values of the letters.
 ///
-/// It is a handle that holds within one [`crate::algebra::session`]. Decisions read the value.
+/// It is a handle that holds within one [`session`](super::session). Decisions read the value.
 #[derive(Clone, Copy, Debug)]
 pub struct Symbol {
     id: SumId,

@@ -1,12 +1,11 @@
-//! The two sides of a joint: its own formulas read with any scalar, and the place of its second marker as
-//! seen from its first, read off the bodies.
+//! A joint with its numbers: its own formulas, read with any scalar.
 
 use crate::expr::Env;
-use crate::gauges::{Law, Leaf, Placed, Poses};
+use crate::gauges::{Law, Leaf};
 use crate::joints::{Curve as CurveOf, Joint as Formulas, Numbers as JointNumbers, Relative};
 use crate::mechanism::{Curve, Joint, Mechanism};
 use crate::numbers::Numbers;
-use crate::plane::{vec2, Few, Pose, Turn, Vec2};
+use crate::plane::{vec2, Few, Vec2};
 use crate::scalar::{Dual, Scalar};
 
 /// Most numbers that a joint has.
@@ -94,11 +93,10 @@ impl<T: Scalar> CurveOf<T> for CurveView<'_, T> {
     }
 }
 
-/// The switching function of a switch in the curve of a joint of the tree, at the pin's place on it.
-pub fn curve_switch(at: Placed<'_>, joint: usize, switch: usize) -> f64 {
-    let s = at.coordinate(joint, 0);
-    let curve = &at.m.curves[at.m.joints[joint].curve.expect("a joint along a curve")];
-    let env = Still { m: at.m, p: &at.n.p, s };
+/// The switching function of a switch in the curve of a joint, at a place on it.
+pub fn curve_switch(m: &Mechanism, n: &Numbers, joint: usize, s: f64, switch: usize) -> f64 {
+    let curve = &m.curves[m.joints[joint].curve.expect("a joint along a curve")];
+    let env = Still { m, p: &n.p, s };
     match curve.x.kinks().any(|k| k == switch) {
         true => curve.x.switch(switch, &env),
         false => curve.y.switch(switch, &env),
@@ -152,15 +150,4 @@ impl<T: Scalar> Env<Dual<1, T>, Leaf> for Along<'_, T> {
     fn table(&self, table: usize, x: Dual<1, T>) -> Dual<1, T> {
         self.m.tables[table].eval(x)
     }
-}
-
-/// The place of a joint's second marker as seen from its first, with the pose of the first marker.
-pub fn relative<T: Scalar>(joint: &Joint, m: &Mechanism, poses: &impl Poses<T>) -> (Pose<T>, Relative<T>) {
-    let [a, b] = m.ends(joint);
-    let (first, second) = (poses.pose(a), poses.pose(b));
-    let axes = Turn::by(first.turn.angle + poses.slot(joint.first.angle));
-    let from = first.place(poses.arm(joint.first.site));
-    let at = axes.undo(poses.span(joint.first.site, joint.second.site, m));
-    let angle = second.turn.angle + poses.slot(joint.second.angle) - axes.angle;
-    (Pose { at: from, turn: axes }, Relative { x: at.x, y: at.y, angle })
 }

@@ -3,11 +3,22 @@
 //! Every number of the model is a *slot*: an expression of the parameters `p`, evaluated once by
 //! [`Mechanism::bind`]. Bodies are numbered in the order of the tree, parents first; body 0 is ground.
 
-use crate::contact::{Group, Limit};
+mod cables;
+mod events;
+mod forces;
+mod joints;
+mod limits;
+mod surfaces;
+
+pub use cables::{Cord, End, Guide};
+pub use events::{Deed, Event, Kink};
+pub use forces::{Force, Pull, Push};
+pub use joints::{Coordinate, Joint, Rub, Rubbing, Runner};
+pub use limits::{Friction, Gap, Group, Limit};
+pub use surfaces::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};
+
 use crate::expr::Table;
-use crate::forces::Force;
 use crate::gauges::{Law, Leaf};
-use crate::joints::Kind;
 
 /// Index of a number of the model.
 pub type Slot = usize;
@@ -172,62 +183,6 @@ pub struct Curve {
     pub y: Law,
 }
 
-/// A joint.
-#[derive(Clone, Debug)]
-pub struct Joint {
-    /// Name.
-    pub name: String,
-    /// What it is.
-    pub kind: Kind,
-    /// Marker on the first body.
-    pub first: Marker,
-    /// Marker on the second body.
-    pub second: Marker,
-    /// Its numbers.
-    pub numbers: Vec<Slot>,
-    /// Its curve.
-    pub curve: Option<usize>,
-    /// Number of coordinates on its card.
-    pub size: usize,
-    /// Its coordinates, those that a particle does not have left out.
-    pub coordinates: Vec<Coordinate>,
-    /// Its rows as a constraint, those that a particle does not have left out: index among the card's rows.
-    pub rows: Vec<usize>,
-    /// Of each row of the card, whether only its change counts.
-    pub phased: Vec<bool>,
-    /// The body that hangs on it, if it is in the tree.
-    pub child: Option<usize>,
-}
-
-impl Joint {
-    /// The markers on the body nearer to ground and on the one that it carries.
-    #[inline(always)]
-    pub fn sides(&self, reversed: bool) -> (&Marker, &Marker) {
-        if reversed {
-            (&self.second, &self.first)
-        } else {
-            (&self.first, &self.second)
-        }
-    }
-}
-
-/// A joint coordinate, as its user reads it.
-#[derive(Clone, Debug)]
-pub struct Coordinate {
-    /// Name.
-    pub name: String,
-    /// Which of the card's coordinates it is.
-    pub card: usize,
-    /// `m`, `rad` or nothing.
-    pub dimension: &'static str,
-    /// Reading of the joint's measure where the coordinate is 0.
-    pub zero: Slot,
-    /// +1 or −1.
-    pub sense: f64,
-    /// Measured from the fixed x axis instead of from the first body.
-    pub absolute: bool,
-}
-
 /// At which level a motion is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
@@ -258,43 +213,6 @@ pub struct Drive {
     pub feedback: bool,
 }
 
-/// Coulomb friction that is known once the force that presses is: at most a coefficient times its size.
-#[derive(Clone, Debug)]
-pub struct Rub {
-    /// What rubs.
-    pub of: Rubbing,
-    /// Coefficient at rest.
-    pub fixed: Slot,
-    /// Coefficient of sliding.
-    pub kinetic: Slot,
-}
-
-/// What rubs.
-#[derive(Clone, Copy, Debug)]
-pub enum Rubbing {
-    /// A joint, by the force that it carries (times the radius of its bearing).
-    Joint {
-        /// The joint.
-        joint: usize,
-        /// Radius of the bearing of a hinge, which rubs as it turns; all else rubs along its line or curve.
-        radius: Option<Slot>,
-    },
-    /// A limit for which a spring stands, by the force of the spring and its damper.
-    Limit(usize),
-}
-
-/// A massless particle that runs on a curve and carries a pin, in place of a joint along the curve that can be released:
-/// then the pin is, and the particle is held where it is.
-#[derive(Clone, Copy, Debug)]
-pub struct Runner {
-    /// The joint along the curve, which carries the particle.
-    pub joint: usize,
-    /// The joint by which the particle carries the second body.
-    pub pin: usize,
-    /// The row that holds the particle.
-    pub hold: usize,
-}
-
 /// Something that can be released and engaged during a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -306,58 +224,6 @@ pub enum Part {
     Force(usize),
     /// A contact, stop or string.
     Group(usize),
-}
-
-/// A place where a law or a curve is not smooth: the zero of a function of the state.
-#[derive(Clone, Debug)]
-pub enum Kink {
-    /// A switch of a law, by its identifier; its arm is frozen between the kinks.
-    Switch(usize, Law),
-    /// The argument of a table of straight pieces at one of its points.
-    Knot(Law, f64),
-    /// A switch in the description of the curve of a joint.
-    Bend(usize, usize),
-}
-
-/// Something to watch for.
-#[derive(Clone, Debug)]
-pub struct Event {
-    /// Name.
-    pub name: String,
-    /// Its zero is the event.
-    pub when: Law,
-    /// +1, −1 or 0.
-    pub direction: i8,
-    /// Armed only while this holds.
-    pub condition: Option<crate::expr::Condition<Leaf>>,
-    /// It happens at the start, before anything moves.
-    pub opening: bool,
-    /// A value below 0 is the event, too, where the motion starts or starts afresh.
-    pub guard: bool,
-    /// What happens then, besides being recorded.
-    pub then: Vec<Deed>,
-}
-
-/// What an event does.
-#[derive(Clone, Debug)]
-pub enum Deed {
-    /// End the run.
-    Stop,
-    /// Give a parameter the value of an expression.
-    Set(usize, Law),
-    /// Take a part away.
-    Release(Part),
-    /// Put a part in place; what does not fit at once comes together with a plastic impact.
-    Engage(Part),
-    /// Give a gauge a rate at once, with the least change of momentum.
-    Reset {
-        /// The gauge in its user's words.
-        gauge: String,
-        /// The gauge.
-        of: Law,
-        /// Its rate.
-        rate: Law,
-    },
 }
 
 impl Mechanism {

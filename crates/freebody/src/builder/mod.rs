@@ -1,0 +1,66 @@
+//! A mechanism being built: what names mean, how expressions, numbers, places and fields of the model are read.
+
+mod fields;
+mod names;
+mod places;
+
+pub use fields::Fields;
+pub use names::{distance, unknown, Names, Reach, Scope};
+
+use crate::error::CompileError;
+use crate::expr::Message;
+use crate::gauges::Law;
+use crate::mechanism::{Mechanism, Slot};
+use crate::spec::{Number, Spec};
+
+impl CompileError {
+    /// A message about an expression, said to be about an item of the model.
+    pub(crate) fn from(path: impl Into<String>, message: Message) -> Self {
+        CompileError::new(path, message.what, message.hint)
+    }
+}
+
+/// What building answers.
+pub type Result<T> = std::result::Result<T, CompileError>;
+
+/// A mechanism being built, with the meaning of its names.
+pub struct Builder<'s> {
+    pub(crate) spec: &'s Spec,
+    pub(crate) names: Names,
+    pub(crate) m: Mechanism,
+}
+
+impl Builder<'_> {
+    pub(crate) fn scope(&mut self, reach: Reach) -> Scope<'_> {
+        Scope { names: &self.names, reach, switches: &mut self.m.switches }
+    }
+
+    pub(crate) fn law(&mut self, path: &str, text: &str, reach: Reach) -> Result<Law> {
+        self.scope(reach).law(text).map_err(|e| Names::complaint(path, text, e))
+    }
+
+    pub(crate) fn number(&mut self, path: &str, number: &Number) -> Result<Law> {
+        match number {
+            Number::Literal(value) if value.is_finite() => Ok(Law::constant(*value)),
+            Number::Literal(value) => {
+                Err(CompileError::new(path, format!("{value} is no number"), "give a finite number"))
+            }
+            Number::Expression(text) => self.law(path, text, Reach::Numbers),
+        }
+    }
+
+    /// A new slot.
+    pub(crate) fn slot(&mut self, law: Law) -> Slot {
+        self.m.slots.push(law);
+        self.m.slots.len() - 1
+    }
+
+    pub(crate) fn number_slot(&mut self, path: &str, number: &Number) -> Result<Slot> {
+        let law = self.number(path, number)?;
+        Ok(self.slot(law))
+    }
+}
+
+pub(crate) fn twice(path: impl Into<String>, name: &str) -> CompileError {
+    CompileError::new(path, format!("the name `{name}` is given twice"), "give each its own name")
+}

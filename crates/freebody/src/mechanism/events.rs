@@ -1,0 +1,57 @@
+//! What is watched for during a motion.
+
+use super::Part;
+use crate::expr::Condition;
+use crate::gauges::{Law, Leaf};
+
+/// A place where a law or a curve is not smooth: the zero of a function of the state.
+#[derive(Clone, Debug)]
+pub enum Kink {
+    /// A switch of a law, by its identifier; its arm is frozen between the kinks.
+    Switch(usize, Law),
+    /// The argument of a table of straight pieces at one of its points.
+    Knot(Law, f64),
+    /// A switch in the description of the curve of a joint.
+    Bend(usize, usize),
+}
+
+/// Something to watch for.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Name.
+    pub name: String,
+    /// Its zero is the event.
+    pub when: Law,
+    /// +1, −1 or 0.
+    pub direction: i8,
+    /// Armed only while this holds.
+    pub condition: Option<Condition<Leaf>>,
+    /// It happens at the start, before anything moves.
+    pub opening: bool,
+    /// A value below 0 is the event, too, where the motion starts or starts afresh.
+    pub guard: bool,
+    /// What happens then, besides being recorded.
+    pub then: Vec<Deed>,
+}
+
+/// What an event does.
+#[derive(Clone, Debug)]
+pub enum Deed {
+    /// End the run.
+    Stop,
+    /// Give a parameter the value of an expression.
+    Set(usize, Law),
+    /// Take a part away.
+    Release(Part),
+    /// Put a part in place; what does not fit at once comes together with a plastic impact.
+    Engage(Part),
+    /// Give a gauge a rate at once, with the least change of momentum.
+    Reset {
+        /// The gauge in its user's words.
+        gauge: String,
+        /// The gauge.
+        of: Law,
+        /// Its rate.
+        rate: Law,
+    },
+}
