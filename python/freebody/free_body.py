@@ -39,11 +39,27 @@ class Part:
 
 
 @dataclass(frozen=True)
+class LoadCard:
+    """What a load is, as the core declares it where its joint, force or limit is defined: its ``name`` (``normal force``), the
+    word by which an expression reads it (``Fn``), the ``stem`` of its symbol (``N``). ``pulls``: it draws its bodies together
+    where it is positive; ``tangent``: it acts along surfaces that touch; ``flank``: its sign says on which flank teeth bear."""
+
+    name: str
+    reading: str
+    stem: str
+    couple: bool
+    pulls: bool
+    tangent: bool
+    flank: bool
+
+
+@dataclass(frozen=True)
 class Load:
     """One load, or one component of a reaction, and what it does to each body that it touches, ground included.
 
     ``symbol`` is what an expression of the model calls it (``pivot.Fx``); ``kind`` is joint, motion, coupling, weight, force,
-    contact, string, stop or friction; ``of`` are its first and second body. An ``unknown`` load has a ``value`` (N or N·m; NaN
+    contact, string, stop or friction; ``axis`` the fixed axis, x or y, along which it is a component of a pin's force;
+    ``number`` which one it is of several of its kind that its owner has; ``of`` are its first and second body. An ``unknown`` load has a ``value`` (N or N·m; NaN
     where it is not ``determinate``) that multiplies its parts; the parts of a known one are what acts. One that ``follows``
     has a value so many times that of another load, given by its place in the list.
     """
@@ -52,13 +68,20 @@ class Load:
     path: str
     symbol: str
     kind: str
-    component: str | None
+    axis: str | None
+    card: LoadCard
+    number: int | None
     unknown: bool
     value: float
     determinate: bool
     of: tuple[str, ...]
     on: tuple[Part, ...]
     follows: tuple[int, float] | None = None
+
+    @property
+    def component(self) -> str | None:
+        """Which component of a joint's reaction it is: x, y, or its name."""
+        return self.axis or (self.card.name if self.kind == "joint" else None)
 
     @property
     def touched(self) -> frozenset[str]:
@@ -222,6 +245,7 @@ def _load(item: Mapping[str, Any]) -> Load:
         parts = [part for part in parts if not part.idle]
         of = (parts[1].body if len(parts) > 1 else GROUND, parts[0].body)
     known = not item["unknown"] or (item["determinate"] and not np.isnan(value))
-    named = {name: item[name] for name in ("name", "path", "symbol", "kind", "component", "unknown")}
+    named = {name: item[name] for name in ("name", "path", "symbol", "kind", "axis", "number", "unknown")}
+    named["card"] = LoadCard(**item["card"])
     follows = (item["follows"]["load"], float(item["follows"]["ratio"])) if item["follows"] else None
     return Load(value=value, determinate=known, of=of, on=tuple(parts), follows=follows, **named)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -27,19 +27,6 @@ STILL = 1e-4
 """Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
 it a load that nothing carries."""
 _FORCES = "N|T|F|Fx|Fy|tension"
-_THROUGH_POINT = {"force along x", "force along y", "normal force", "tension"}
-
-
-def passes_couple(joint: Mapping[str, Any]) -> bool:
-    """Whether the reaction of a joint, as the core describes it, can have a couple about the joint's point."""
-    return not set(joint["reaction"]) <= _THROUGH_POINT
-
-
-def without_couples(values: Array, joints: Sequence[Mapping[str, Any]]) -> Array:
-    """Reactions (…, nj, 3) with a plain 0, not round-off, for the couple of joints that pass none."""
-    clean = np.array(values)
-    clean[..., [not passes_couple(joint) for joint in joints], 2] = 0.0
-    return clean
 
 
 class Indeterminate(LookupError):
@@ -281,11 +268,11 @@ class Instant:
             first=joint["first"],
             second=joint["second"],
             body=joint["second"],
-            values=without_couples(self._solved.reactions, self._about["joints"])[i],
+            values=self._solved.reactions[i],
             determined=self._solved.determinate[i],
-            smallest=lambda: without_couples(self._solved.least_reactions, self._about["joints"])[i],
+            smallest=lambda: self._solved.least_reactions[i],
             local=lambda: self._values(texts),
-            has_couple=passes_couple(joint),
+            has_couple=joint["couple"],
             carries=bool(joint["reaction"]),
         )
 

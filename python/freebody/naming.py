@@ -20,16 +20,11 @@ from freebody.equations.names import Name, ascii_name
 from freebody.equations.tree import Tree, read
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
+from freebody.model import cards
 from freebody.run import Source
 
 _Law: TypeAlias = dict[str, Any] | None
 """A force of the model as the core reads it."""
-_PINS = {"Fx": "x", "Fy": "y"}
-_STEMS = {"normal force": "N", "friction force": "F", "tooth force": "F", "thrust": "T", "couple": "M",
-          "force of the first roller": "N", "force of the second roller": "N"}  # fmt: skip
-_KINDS = {"contact": "N", "friction": "F", "string": "T"}
-_TURNING = ("torque", "torsion_spring")
-_SPRINGS = ("spring", "torsion_spring")
 _PLAIN = re.compile(r"[^\W\d]\w*")
 
 
@@ -56,25 +51,18 @@ def coefficient(source: Source, name: str) -> str:
 
 
 def _name(load: Load, force: _Law) -> Name:
-    given, last = _given(force), load.symbol.rpartition(".")[2]
-    if given:
+    if given := _given(force):
         return given
-    stem, below = _owner(load.name)
-    if last == "2" and (force or {}).get("type") in _SPRINGS:
-        stem = stem.replace("spring", "damper") if "spring" in stem else f"{stem} damper"
-    if last in _PINS:
-        return Name(stem, (*below, _PINS[last]))
-    number = re.sub(r"\D", "", last) if load.kind in ("contact", "friction") or "roller" in (load.component or "") else ""
-    return Name(_stem(load, force), tuple(filter(None, (stem, *below, number))))
-
-
-def _stem(load: Load, force: _Law) -> str:
-    pushes = any(any(part.force) for part in load.on)
-    turns = any(part.couple for part in load.on) and not pushes
-    told = _STEMS.get(load.component or "") or (_KINDS.get(load.kind) if not turns else "")
-    if told:
-        return told
-    return "M" if turns or (force or {}).get("type") in _TURNING else "F"
+    owner, below = _owner(load.name)
+    if load.axis:
+        return Name(owner, (*below, load.axis))
+    number = load.number
+    if force and number:
+        # The first load of a force has its name; each further one what it is in addition.
+        first, number = cards.forces()[force["type"]].loads[0], None
+        if load.card.name != first:
+            owner = owner.replace(first, load.card.name) if first in owner else f"{owner} {load.card.name}"
+    return Name(load.card.stem, (owner, *below, *([str(number)] if number else [])))
 
 
 def _given(force: _Law) -> Name | None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.grid import Motion, Times, output_times
-from freebody.instant import Instant, Reaction, Reactions, State, passes_couple, refuse_indeterminate, without_couples
+from freebody.instant import Instant, Reaction, Reactions, State, refuse_indeterminate
 from freebody.results import (
     BEFORE,
     ENTRIES,
@@ -336,7 +336,7 @@ class Run:
     def _reactions(self) -> Array:
         values, determinate = self.motion.instants(self.t)
         known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
-        return without_couples(np.where(known, values, np.nan), self.about["joints"])
+        return np.where(known, values, np.nan)
 
     @cached_property
     def _limits(self) -> Array:
@@ -355,7 +355,7 @@ class Run:
             determined=~np.isnan(values),
             smallest=lambda: self._least(i),
             local=lambda: self.motion.evaluate(texts, self.t),
-            has_couple=passes_couple(joint),
+            has_couple=joint["couple"],
             carries=bool(joint["reaction"]),
         )
 
@@ -365,7 +365,7 @@ class Run:
             raise ValueError("an event changed parameters during this run: ask for the least reactions instant by instant")
         rows = zip(self.t, self.q, self.u, strict=True)
         least = [self.source.core.instant(p, float(t), q, u).least_reactions for t, q, u in rows]
-        return without_couples(np.array(least), self.about["joints"])[:, i]
+        return np.array(least)[:, i]
 
     def _named(self, values: Sequence[float]) -> dict[str, float]:
         return dict(zip(self.coordinates, values, strict=True))

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 GRAVITY = 9.81
-WORDS = {"x": "Fx", "y": "Fy", "normal force": "Fn", "couple": "M", None: "force"}
+READINGS = {"x": "Fx", "y": "Fy", "normal force": "Fn", "couple": "M", None: "force"}
+FACTS = {"stem": "F", "pulls": False, "tangent": False, "flank": False}
 
 
 def left(v):
@@ -73,8 +74,10 @@ class Fake:
 
     def _told(self, name, kind, component, of, parts):
         on = [{"body": b, "point": list(map(float, p)), "force": list(map(float, f)), "couple": c} for b, p, f, c in parts]
-        symbol = f"{name}.{WORDS[component]}"
-        told = {"name": name, "path": f"{kind}s.{name}", "symbol": symbol, "kind": kind, "component": component}
+        card = {"name": component or kind, "reading": READINGS[component], "couple": component == "couple", **FACTS}
+        axis = component if component in ("x", "y") else None
+        told = {"name": name, "path": f"{kind}s.{name}", "symbol": f"{name}.{card['reading']}", "kind": kind}
+        told |= {"axis": axis, "card": card, "number": None}
         return {**told, "follows": None, "of": list(of), "on": on}
 
     def _place(self, name):

@@ -97,7 +97,7 @@ fn joint(m: &Mechanism, j: &Joint) -> Value {
     json!({
         "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(),
         "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
-        "reaction": j.rows.iter().map(|&r| card.rows[r].name).collect::<Vec<_>>(),
+        "reaction": j.rows.iter().map(|&r| card.rows[r].load.name).collect::<Vec<_>>(), "couple": j.couple,
     })
 }
 

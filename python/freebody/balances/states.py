@@ -93,7 +93,7 @@ def _free(core: _core.Mechanism, state: State) -> FreeBodies:
 def _senses(free: FreeBodies) -> list[bool]:
     """In which sense everything slides that rubs, and on which flank teeth bear."""
     sliding = [load.follows[1] > 0 for load in free.loads if load.follows]
-    return sliding + [load.value > 0 for load in free.loads if load.component == "tooth force"]
+    return sliding + [load.value > 0 for load in free.loads if load.card.flank]
 
 
 class Closing:

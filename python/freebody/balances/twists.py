@@ -104,7 +104,7 @@ def pair_twists(columns: Array, boundary: Sequence[int]) -> Twists:
 def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[Twist, list[Pair]]]:
     """The turns about joints, mass centres and named points, with the place at every state."""
     joints: dict[str, int] = {}
-    pins_first = sorted(enumerate(problem.free.loads), key=lambda each: each[1].component not in ("x", "y"))
+    pins_first = sorted(enumerate(problem.free.loads), key=lambda each: not each[1].axis)
     for i, load in pins_first:
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
@@ -145,7 +145,7 @@ def _joint_directions(problem: Problem) -> list[tuple[Twist, Array]]:
     found: list[tuple[Twist, Array]] = []
     for unknown in problem.unknowns:
         load = problem.load(unknown)
-        if load is None or load.component in ("x", "y"):
+        if load is None or load.axis:
             continue
         f = _directions(problem, unknown.load)
         if f is None:
@@ -168,7 +168,7 @@ def _rubbing(problem: Problem, load: int) -> int | None:
 
 def touching(free: FreeBodies) -> list[str]:
     """The names of what touches: contacts that hold, and joints that roll."""
-    return list(dict.fromkeys(load.name for load in free.loads if load.kind == "contact" or load.component == "friction force"))
+    return list(dict.fromkeys(load.name for load in free.loads if load.kind == "contact" or load.card.tangent))
 
 
 def _directions(problem: Problem, load: int) -> Array | None:
@@ -187,12 +187,11 @@ def _directions(problem: Problem, load: int) -> Array | None:
 
 def _direction_words(problem: Problem, load: Load, f: Array) -> tuple[str, str]:
     """Words for the direction of a force and for the one at right angles to it."""
-    if load.symbol.endswith(".tension"):
+    if load.card.pulls:
         return load.name, f"the normal of {load.name}"
     normal, tangent = f"the normal of {load.name}", f"the tangent of {load.name}"
     if load.name in touching(problem.free):
-        rubs = load.kind == "friction" or load.component == "friction force"
-        return (tangent, normal) if rubs else (normal, tangent)
+        return (tangent, normal) if load.card.tangent else (normal, tangent)
     loads = enumerate(problem.free.loads)
     alike = [_directions(problem, i) for i, other in loads if other.path == load.path and other.unknown and not other.follows]
     if all(g is None or np.abs(f[:, 0] * g[:, 1] - f[:, 1] * g[:, 0]).max() < ONE_LINE for g in alike):

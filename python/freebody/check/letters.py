@@ -8,7 +8,6 @@ from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
-from freebody.instant import passes_couple
 from freebody.model import meanings, syntax
 from freebody.model.errors import Complaint
 from freebody.model.names import nearest, replace_names, spell
@@ -241,7 +240,7 @@ class Letters:
             return []
         rubs = any(j["name"] == name and j["with"].get("friction") for j in self.spec["joints"])
         numbered = [f"F{i + 1}" for i in range(min(len(joint["reaction"]), 2))]
-        extra = {"M": passes_couple(joint), "tension": joint["type"] == "link", "friction": rubs}
+        extra = {"M": joint["couple"], "tension": joint["type"] == "link", "friction": rubs}
         return ["Fx", "Fy", "F", "Fs", "Fn", *numbered, *(part for part, there in extra.items() if there)]
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:

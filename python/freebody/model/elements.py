@@ -77,7 +77,7 @@ def _coordinates(card: cards.Card) -> dict[str, Any]:
 
 def _switches(card: cards.Card) -> dict[str, Any]:
     words: dict[str, Any] = {}
-    if card.pushes:
+    if card.presses:
         words["one_sided"] = (bool, Field(False, description="Whether it only pushes, and is released where it would pull."))
     if has_ends(card):
         told = "What happens where the line ends: it is free and the joint released, or there are stops."

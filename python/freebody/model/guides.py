@@ -23,7 +23,7 @@ def leaving(joint: str) -> list[str]:
 
 def lifting(name: str, joint: elements.Element) -> list[tuple[str, str]]:
     """The events at which a one-sided joint would begin to pull, each with the push that then vanishes."""
-    rows = cards.joints()[joint.type].pushes
+    rows = cards.joints()[joint.type].presses
     # Inside another circle a circle is pushed inwards, against the sense in which the distance of the centres grows.
     sign = "-" if elements.given(joint, "inside") else ""
     return [(f"{name} lifts off {row}" if len(rows) > 1 else f"{name} lifts off", f"{sign}{{}}.F{row}") for row in rows]

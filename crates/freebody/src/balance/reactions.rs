@@ -14,7 +14,7 @@ pub struct JointLoad {
     pub point: Vec2,
     /// Force on the second body, N.
     pub force: Vec2,
-    /// Couple on the second body about the point, N·m.
+    /// Couple on the second body about the point, N·m; a plain 0 where the joint passes none.
     pub couple: f64,
     /// Direction of the first body's marker, rad.
     pub axes: f64,
@@ -72,7 +72,8 @@ pub(super) fn joint_load(at: Placed<'_>, index: usize, passed: &[Wrench], rows: 
             about(at, told, load, point)
         }
     };
-    JointLoad { point, force: load.f, couple: load.m, axes: axes.turn.angle, span: axes.turn.apply(place.at()) }
+    let couple = if joint.couple { load.m } else { 0.0 };
+    JointLoad { point, force: load.f, couple, axes: axes.turn.angle, span: axes.turn.apply(place.at()) }
 }
 
 /// A load at a body's pin, told about another place.

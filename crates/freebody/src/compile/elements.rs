@@ -94,8 +94,10 @@ impl Builder<'_> {
             let mut force = kind.lower(&mut fields)?;
             force.name = element.name.clone();
             force.word = card.word;
-            for pull in &mut force.pulls {
+            force.cards = card.parts[..force.pulls.len() + force.pushes.len()].to_vec();
+            for (pull, card) in force.pulls.iter_mut().zip(&mut force.cards) {
                 pull.bodies = self.m.bodies_of(&pull.gauge);
+                *card = card.along(self.m.turns(&pull.gauge));
             }
             if self.names.forces.insert(force.name.clone(), self.m.forces.len()).is_some() {
                 return Err(twice(path, &force.name));

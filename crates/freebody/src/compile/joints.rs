@@ -155,13 +155,14 @@ impl Builder<'_> {
             let what = format!("a {} would have to pass a couple to a particle", card.word);
             return Err(CompileError::new(&pair.path, what, "use a slot or a hinge, or make the body rigid"));
         }
-        if particle.contains(&true) && !card.rows.iter().any(|r| r.turning) && !has_turn && !card.rows.is_empty() {
+        if particle.contains(&true) && !card.rows.iter().any(|r| r.load.couple) && !has_turn && !card.rows.is_empty() {
             let what = format!("a {} needs bodies that can turn, and a particle cannot", card.word);
             return Err(CompileError::new(&pair.path, what, "use a slot or a link, or make the particle a rigid body"));
         }
         let coordinates = self.coordinates(pair, &card, child_is_particle, reversed)?;
         let numbers = numbers.into_iter().map(|law| self.slot(law)).collect();
-        let rows = card.rows.iter().enumerate().filter(|(_, row)| !(row.turning && particle.contains(&true)));
+        let rows: Vec<usize> =
+            (0..card.rows.len()).filter(|&r| !(card.rows[r].load.couple && particle.contains(&true))).collect();
         Ok(Joint {
             name: pair.element.name.clone(),
             kind: pair.kind,
@@ -171,7 +172,8 @@ impl Builder<'_> {
             curve,
             size: card.coordinates.len(),
             coordinates,
-            rows: rows.map(|(i, _)| i).collect(),
+            couple: rows.iter().any(|&r| card.rows[r].turns()),
+            rows,
             phased: card.rows.iter().map(|row| row.phased).collect(),
             child: branch.map(|b| b.child),
         })
@@ -250,6 +252,7 @@ impl Builder<'_> {
                 coordinates: coordinates.collect(),
                 rows: vec![],
                 phased: vec![],
+                couple: false,
                 child: Some(branch.child),
             };
             self.m.notes.push(format!("`{name}` is joined to nothing: it moves freely from ground.O."));
@@ -321,6 +324,7 @@ impl Builder<'_> {
             size: kind.card().coordinates.len(),
             coordinates: vec![],
             phased: vec![false; rows.len()],
+            couple: !turns,
             rows,
             child: None,
         });

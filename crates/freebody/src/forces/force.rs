@@ -4,7 +4,7 @@ use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
 use crate::gauges::Law;
-use crate::joints::{Card, FieldKind, Role};
+use crate::joints::{Card, FieldKind, LoadCard, Role};
 use crate::mechanism::{Force, Push};
 
 /// A force at a point, by size and direction or by components, in fixed axes or in those of the body.
@@ -19,6 +19,7 @@ impl ForceKind for AtPoint {
             .takes("x", FieldKind::Law, "N", "0", "its component along x")
             .takes("y", FieldKind::Law, "N", "0", "its component along y")
             .takes("frame", FieldKind::Frame, "", "fixed", "`fixed`, or `body` for axes that turn with the body")
+            .loads(&[LoadCard::force("force", "value", "F")])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let along = fields.law("direction")?;

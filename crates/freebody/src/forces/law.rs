@@ -3,7 +3,7 @@
 use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
-use crate::joints::{Card, FieldKind, Role};
+use crate::joints::{Card, FieldKind, LoadCard, Role};
 use crate::mechanism::Force;
 
 /// A law on a gauge.
@@ -15,6 +15,7 @@ impl ForceKind for General {
             .needs("along", FieldKind::Gauge, Role::Number, "", "the gauge")
             .needs("value", FieldKind::Law, Role::Number, "", "the force (N) or couple (N·m)")
             .takes("potential", FieldKind::Gauge, "J", "", "its potential energy, if it has one")
+            .loads(&[LoadCard::force("force", "value", "F")])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let potential = if fields.given("potential") { Some(fields.gauge("potential")?) } else { None };

@@ -4,8 +4,10 @@ use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
 use crate::gauges::Law;
-use crate::joints::{Card, FieldKind, Role};
+use crate::joints::{Card, FieldKind, LoadCard, Role};
 use crate::mechanism::{Force, Pull};
+
+const DAMPER: LoadCard = LoadCard::force("damper", "value", "F");
 
 fn along(card: Card) -> Card {
     card.takes("between", FieldKind::Points, "m", "", "the two points at its ends").takes(
@@ -60,6 +62,7 @@ impl ForceKind for Spring {
             .needs("stiffness", FieldKind::Number, Role::Number, "N/m", "force for each unit of stretch")
             .takes("rest_length", FieldKind::Number, "m", "0", "length without force")
             .takes("damping", FieldKind::Number, "N*s/m", "0", "force for each unit of stretching speed")
+            .loads(&[LoadCard::force("spring", "value", "F"), DAMPER])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let gauge = gauge(fields)?;
@@ -72,13 +75,9 @@ pub struct Damper;
 
 impl ForceKind for Damper {
     fn card(&self) -> Card {
-        along(Card::new("damper", "A linear damper.")).needs(
-            "damping",
-            FieldKind::Number,
-            Role::Number,
-            "N*s/m",
-            "force for each unit of speed",
-        )
+        along(Card::new("damper", "A linear damper."))
+            .needs("damping", FieldKind::Number, Role::Number, "N*s/m", "force for each unit of speed")
+            .loads(&[DAMPER])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let gauge = gauge(fields)?;

@@ -4,7 +4,7 @@ use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
 use crate::gauges::{Law, Leaf};
-use crate::joints::{Card, FieldKind, Role};
+use crate::joints::{Card, FieldKind, LoadCard, Role};
 use crate::mechanism::Force;
 
 /// The turn of `on` against `from`.
@@ -28,13 +28,9 @@ pub struct Torque;
 
 impl ForceKind for Torque {
     fn card(&self) -> Card {
-        between(Card::new("torque", "A couple on one body, from another, counter-clockwise.")).needs(
-            "value",
-            FieldKind::Law,
-            Role::Number,
-            "N*m",
-            "the couple",
-        )
+        between(Card::new("torque", "A couple on one body, from another, counter-clockwise."))
+            .needs("value", FieldKind::Law, Role::Number, "N*m", "the couple")
+            .loads(&[LoadCard::couple("couple", "value")])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         Ok(Force::pulling(turn(fields)?, fields.law("value")?, None))
@@ -50,6 +46,7 @@ impl ForceKind for TorsionSpring {
             .needs("stiffness", FieldKind::Number, Role::Number, "N*m/rad", "couple for each radian")
             .takes("rest_angle", FieldKind::Number, "rad", "0", "turn without couple")
             .takes("damping", FieldKind::Number, "N*m*s/rad", "0", "couple for each radian a second")
+            .loads(&[LoadCard::couple("spring", "value"), LoadCard::couple("damper", "value")])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let gauge = turn(fields)?;

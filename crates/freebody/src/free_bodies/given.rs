@@ -3,10 +3,13 @@
 use super::{along_gauge, mass_centre, Load, Origin, Part, Size};
 use crate::balance::Spread;
 use crate::expr::spell;
+use crate::joints::LoadCard;
 use crate::kinematics::{gradient, Placed, State};
 use crate::mechanism::{Mechanism, Part as Piece, Push};
 use crate::plane::vec2;
 use crate::scalar::Scalar;
+
+const WEIGHT: LoadCard = LoadCard::force("weight", "weight", "W");
 
 /// The weight of every body that has one.
 pub fn weights<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
@@ -17,7 +20,8 @@ pub fn weights<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
         let force = at.n.gravity * at.n.mass[body];
         let parts = vec![Part { body, point: mass_centre(at, body), force, couple: S::zero() }];
         let symbol = format!("{}.weight", spell(&of.name));
-        out.push(Load { origin: Origin::Weight(body), symbol, of: [0, body], parts, size: Size::Known });
+        let (origin, card) = (Origin::Weight(body), WEIGHT);
+        out.push(Load { origin, symbol, card, number: None, of: [0, body], parts, size: Size::Known });
     }
 }
 
@@ -30,24 +34,26 @@ fn weightless(m: &Mechanism, body: usize) -> bool {
 /// Every force of the model that is in place, all that it does together.
 pub fn forces<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, force) in at.m.forces.iter().enumerate().filter(|(f, _)| at.mode.has(Piece::Force(*f))) {
-        let several = force.pulls.len() + force.pushes.len() > 1;
-        let name = |k: usize| if several { format!("{}.{}", force.name, k + 1) } else { force.name.clone() };
+        let several = force.cards.len() > 1;
+        let load = |k: usize, parts: Vec<Part<S>>| Load {
+            origin: Origin::Force(index, k),
+            symbol: if several { format!("{}.{}", force.name, k + 1) } else { force.name.clone() },
+            card: force.cards[k],
+            number: several.then_some(k + 1),
+            of: [if parts.len() > 1 { parts[1].body } else { 0 }, parts.first().map_or(0, |p| p.body)],
+            parts,
+            size: Size::Known,
+        };
         for (k, pull) in force.pulls.iter().enumerate() {
             let value = crate::balance::pull_value(at, pull);
             let spread: Spread<S> = pull.bodies.iter().map(|&b| (b, gradient(at, &pull.gauge, b) * value)).collect();
             let parts = along_gauge(at, &pull.gauge, &spread);
-            out.push(load([index, k], name(k), parts));
+            out.push(load(k, parts));
         }
         for (k, push) in force.pushes.iter().enumerate() {
-            let k = force.pulls.len() + k;
-            out.push(load([index, k], name(k), vec![pushed(at, push)]));
+            out.push(load(force.pulls.len() + k, vec![pushed(at, push)]));
         }
     }
-}
-
-fn load<S: Scalar>([force, number]: [usize; 2], symbol: String, parts: Vec<Part<S>>) -> Load<S> {
-    let of = [if parts.len() > 1 { parts[1].body } else { 0 }, parts.first().map_or(0, |p| p.body)];
-    Load { origin: Origin::Force(force, number), symbol, of, parts, size: Size::Known }
 }
 
 fn pushed<S: Scalar>(at: Placed<'_, S>, push: &Push) -> Part<S> {

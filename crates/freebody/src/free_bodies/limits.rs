@@ -4,19 +4,24 @@ use super::reactions::loaded;
 use super::{along_gauge, ground_takes, joint_place, mass_centre, part, Load, Origin, Part, Size};
 use crate::balance::{gap_row, rub_row, slide_row, Row, Source};
 use crate::expr::spell;
+use crate::joints::{Joint as _, LoadCard};
 use crate::kinematics::{Placed, Poses};
-use crate::mechanism::{Friction, Gap, Rubbing};
+use crate::mechanism::{Friction, Gap, Rubbing, FRICTION};
 use crate::mode::Hold;
 use crate::scalar::Scalar;
 
 /// The loads of every limit that is closed or pressed.
 pub fn limits<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
-    for (group, of) in at.m.groups.iter().enumerate() {
+    for of in &at.m.groups {
         let acts: Vec<usize> = of.limits.clone().filter(|&l| acts(at, l)).collect();
         for (k, &limit) in acts.iter().enumerate() {
-            let number = if acts.len() > 1 { (k + 1).to_string() } else { String::new() };
-            let name = |word: &str| format!("{}.{word}{number}", spell(&of.name));
-            push_limit(at, limit, at.m.groups[group].ends, &name, out);
+            let number = (acts.len() > 1).then_some(k + 1);
+            let load = |origin, card: LoadCard, parts, size| {
+                let which = number.map_or(String::new(), |k| k.to_string());
+                let symbol = format!("{}.{}{which}", spell(&of.name), card.reading);
+                Load { origin, symbol, card, number, of: of.ends, parts, size }
+            };
+            push_limit(at, limit, &load, out);
         }
     }
 }
@@ -29,37 +34,35 @@ fn acts<S: Scalar>(at: Placed<'_, S>, limit: usize) -> bool {
 fn push_limit<S: Scalar>(
     at: Placed<'_, S>,
     limit: usize,
-    of: [usize; 2],
-    name: &dyn Fn(&str) -> String,
+    load: &dyn Fn(Origin, LoadCard, Vec<Part<S>>, Size<S>) -> Load<S>,
     out: &mut Vec<Load<S>>,
 ) {
-    let word = if matches!(at.m.limits[limit].gap, Gap::Touch(_)) { "N" } else { "tension" };
     let hold = at.mode.limits[limit].hold;
+    let card = at.m.limits[limit].gap.card(at.m);
     let normal = Row { force: None, ..gap_row(at, limit, None) };
     let parts = told(at, limit, &normal);
-    let load = |origin, symbol, parts, size| Load { origin, symbol, of, parts, size };
     if hold == Hold::Pressed {
-        out.push(load(Origin::Pressed(limit), name(word), parts, Size::ByLaw));
+        out.push(load(Origin::Pressed(limit), card, parts, Size::ByLaw));
         if let Some((origin, size)) = at.m.rub_of(limit).and_then(|rub| rubbing(at, rub)) {
             let slide = slide_row(at, limit, None).expect("what rubs slides");
-            out.push(load(origin, name("T"), told(at, limit, &slide), size));
+            out.push(load(origin, FRICTION, told(at, limit, &slide), size));
         }
         return;
     }
     let pressing = out.len();
-    out.push(load(Origin::Row(Source::Limit(limit)), name(word), parts, Size::Unknown));
+    out.push(load(Origin::Row(Source::Limit(limit)), card, parts, Size::Unknown));
     let Some(slide) = slide_row(at, limit, None) else { return };
     let along = told(at, limit, &slide);
     match (hold, at.m.limits[limit].friction) {
         (Hold::Stuck, _) => {
-            out.push(load(Origin::Row(Source::Friction(limit)), name("T"), along, Size::Unknown));
+            out.push(load(Origin::Row(Source::Friction(limit)), FRICTION, along, Size::Unknown));
         }
         (Hold::Sliding(sense), Some(Friction::Coulomb { kinetic, .. })) => {
             let ratio = -at.n.slots[kinetic].scale(sense);
-            out.push(load(Origin::Sliding(limit), name("T"), along, Size::Follows(pressing, ratio)));
+            out.push(load(Origin::Sliding(limit), FRICTION, along, Size::Follows(pressing, ratio)));
         }
         (Hold::Leaning(part), _) => {
-            out.push(load(Origin::Sliding(limit), name("T"), along, Size::Follows(pressing, S::of(part))));
+            out.push(load(Origin::Sliding(limit), FRICTION, along, Size::Follows(pressing, S::of(part))));
         }
         _ => {}
     }
@@ -104,12 +107,9 @@ pub fn rubs<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
         };
         let joint = &at.m.joints[carrier];
         let parts = loaded(at, &rub_row(at, index, None), joint_place(at, carrier));
-        out.push(Load {
-            origin,
-            symbol: format!("{}.friction", spell(&joint.name)),
-            of: at.m.ends(joint),
-            parts,
-            size,
-        });
+        let bearing = joint.kind.card().coordinates.first().is_some_and(|c| c.turn);
+        let card = LoadCard::force("friction", "friction", "F").along(bearing);
+        let symbol = format!("{}.{}", spell(&joint.name), card.reading);
+        out.push(Load { origin, symbol, card, number: None, of: at.m.ends(joint), parts, size });
     }
 }

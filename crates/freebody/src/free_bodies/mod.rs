@@ -12,7 +12,7 @@ pub use numbers::free_bodies;
 
 use crate::balance::Source;
 use crate::gauges::{Law, Leaf};
-use crate::joints::Joint as _;
+use crate::joints::LoadCard;
 use crate::kinematics::{relative, JointView, Placed, Poses};
 use crate::mechanism::Rubbing;
 use crate::mode::Hold;
@@ -71,6 +71,10 @@ pub struct Load<S> {
     pub origin: Origin,
     /// Its name, as in an expression of the model: `pivot.Fx`, `motor`.
     pub symbol: String,
+    /// What it is.
+    pub card: LoadCard,
+    /// Which one it is, from 1, of several of its kind that its owner has.
+    pub number: Option<usize>,
     /// First and second body; ground for the first where it has none.
     pub of: [usize; 2],
     /// What it does to each body, ground among them where it takes the opposite.
@@ -97,8 +101,8 @@ pub fn follow_presses<S: Scalar>(at: Placed<'_, S>, loads: &mut [Load<S>], value
     for i in 0..loads.len() {
         let Origin::Rubbing(rub) = loads[i].origin else { continue };
         let presses = |load: &Load<S>| match (load.origin, &at.m.rubs[rub].of) {
-            (Origin::Row(Source::Joint(joint, row)), Rubbing::Joint { joint: rubs, .. }) => {
-                joint == *rubs && !at.m.joints[joint].kind.card().rows[row].turning
+            (Origin::Row(Source::Joint(joint, _)), Rubbing::Joint { joint: rubs, .. }) => {
+                joint == *rubs && !load.card.couple
             }
             (Origin::Pressed(limit), Rubbing::Limit(rubs)) => limit == *rubs,
             _ => false,

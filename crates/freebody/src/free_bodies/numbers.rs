@@ -88,14 +88,15 @@ fn body(balance: &Balance<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) 
 
 fn tell(balance: &Balance<'_>, load: &Load<f64>, (value, determinate): (Option<f64>, bool)) -> Value {
     let m = balance.m;
-    let (kind, name, path, component) = described(m, load);
+    let (kind, name, path) = described(m, load);
+    let axis = if let Origin::Pin(_, axis) = load.origin { Some(["x", "y"][axis]) } else { None };
     let parts: Vec<Value> = load.parts.iter().map(|p| part(balance, p)).collect();
     let follows = match load.size {
         Size::Follows(of, ratio) => json!({"load": of, "ratio": ratio}),
         _ => Value::Null,
     };
     json!({
-        "name": name, "path": path, "symbol": load.symbol, "kind": kind, "component": component,
+        "name": name, "path": path, "symbol": load.symbol, "kind": kind, "axis": axis, "card": load.card, "number": load.number,
         "unknown": !matches!(load.size, Size::Known), "follows": follows, "value": value, "determinate": determinate,
         "of": load.of.map(|b| &m.bodies[b].name), "on": parts,
     })
@@ -114,35 +115,22 @@ fn part(balance: &Balance<'_>, p: &Part<f64>) -> Value {
     json!({"body": balance.m.bodies[p.body].name, "point": xy(point), "force": xy(p.force), "couple": couple})
 }
 
-/// Kind, name, place in the model and component of a load.
-fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, String, Option<String>) {
-    let row = |joint: usize, r: usize| Some(m.joints[joint].kind.card().rows[r].name.to_string());
+/// Kind, name and place in the model of a load.
+fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, String) {
+    let of = |kind, source: Source| (kind, source.name(m), source.path(m));
+    let group = |limit: usize| m.groups[m.limits[limit].group].word;
     match load.origin {
-        Origin::Weight(body) => ("weight", &m.bodies[body].name, format!("bodies.{}", m.bodies[body].name), None),
-        Origin::Force(force, _) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name), None),
-        Origin::Pin(joint, axis) => {
-            let component = ["x", "y"][axis].to_string();
-            ("joint", &m.joints[joint].name, format!("joints.{}", m.joints[joint].name), Some(component))
-        }
-        Origin::Row(source) => {
-            let (kind, component) = match source {
-                Source::Joint(joint, r) => ("joint", row(joint, r)),
-                Source::Drive(drive) if m.drives[drive].coupling => ("coupling", None),
-                Source::Drive(_) => ("motion", None),
-                Source::Limit(limit) => (m.groups[m.limits[limit].group].word, None),
-                Source::Friction(_) | Source::Rub(_) => ("friction", None),
-            };
-            (kind, source.name(m), source.path(m), component)
-        }
-        Origin::Sliding(limit) | Origin::Pressed(limit) => {
-            let group = &m.groups[m.limits[limit].group];
-            let kind = if matches!(load.origin, Origin::Sliding(_)) { "friction" } else { group.word };
-            (kind, &group.name, group.path(), None)
-        }
-        Origin::Rubbing(rub) => {
-            let source = Source::Rub(rub);
-            ("friction", source.name(m), source.path(m), None)
-        }
+        Origin::Weight(body) => ("weight", &m.bodies[body].name, format!("bodies.{}", m.bodies[body].name)),
+        Origin::Force(force, _) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name)),
+        Origin::Pin(joint, axis) => of("joint", Source::Joint(joint, axis)),
+        Origin::Row(source @ Source::Joint(..)) => of("joint", source),
+        Origin::Row(source @ Source::Drive(drive)) if m.drives[drive].coupling => of("coupling", source),
+        Origin::Row(source @ Source::Drive(_)) => of("motion", source),
+        Origin::Row(source @ Source::Limit(limit)) => of(group(limit), source),
+        Origin::Pressed(limit) => of(group(limit), Source::Limit(limit)),
+        Origin::Sliding(limit) => of("friction", Source::Limit(limit)),
+        Origin::Row(source @ (Source::Friction(_) | Source::Rub(_))) => of("friction", source),
+        Origin::Rubbing(rub) => of("friction", Source::Rub(rub)),
     }
 }
 
@@ -177,7 +165,7 @@ impl<'l> Sizes<'l> {
             Origin::Row(Source::Joint(joint, row)) => {
                 let of = &m.joints[joint];
                 let at = of.rows.iter().position(|&r| r == row).expect("a row of the joint");
-                let sign = if load.symbol.ends_with(".tension") { -1.0 } else { 1.0 };
+                let sign = of.kind.card().rows[row].sign();
                 (Some(sign * self.joints[joint].1[at]), self.is_sure(joint, load, all))
             }
             Origin::Row(Source::Drive(drive)) => (Some(self.drives[drive]), self.labels.drives[drive]),

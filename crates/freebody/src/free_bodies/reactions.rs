@@ -3,7 +3,7 @@
 use super::{along_gauge, joint_place, part, Load, Origin, Part, Size};
 use crate::balance::{curve_row, drive_row, joint_rows, Row, Source};
 use crate::expr::spell;
-use crate::joints::{Joint as _, Kind};
+use crate::joints::{Joint as _, LoadCard};
 use crate::kinematics::{Placed, Poses};
 use crate::mechanism::{Joint, Part as Piece};
 use crate::plane::{vec2, Vec2};
@@ -30,30 +30,24 @@ pub fn joints<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
         let card = joint.kind.card();
         for row in &rows {
             let Source::Joint(_, r) = row.source else { continue };
-            let (origin, parts) = match card.rows[r].pin {
+            let of_row = &card.rows[r];
+            let (origin, parts) = match of_row.pin {
                 Some(axis) => (Origin::Pin(index, axis), pinned(at, joint, axis)),
                 None => (Origin::Row(row.source), loaded(at, row, place)),
             };
-            let symbol = format!("{}.{}", spell(&joint.name), word(joint.kind, r));
-            let turned = if joint.kind == Kind::Link { -S::one() } else { S::one() };
-            let parts = parts.into_iter().map(|p| Part { force: p.force * turned, couple: p.couple * turned, ..p });
-            out.push(Load { origin, symbol, of, parts: parts.collect(), size: Size::Unknown });
+            let sign = S::of(of_row.sign());
+            let parts = parts.into_iter().map(|p| Part { force: p.force * sign, couple: p.couple * sign, ..p });
+            let alike = card.rows.iter().filter(|other| other.load.stem == of_row.load.stem).count();
+            out.push(Load {
+                origin,
+                symbol: format!("{}.{}", spell(&joint.name), of_row.load.reading),
+                card: of_row.load,
+                number: (alike > 1 && of_row.pin.is_none()).then_some(r + 1),
+                of,
+                parts: parts.collect(),
+                size: Size::Unknown,
+            });
         }
-    }
-}
-
-/// What an expression of the model calls the multiplier of a row of a joint; a link's is its tension.
-fn word(kind: Kind, row: usize) -> String {
-    let card = kind.card();
-    let row_card = &card.rows[row];
-    match (row_card.pin, row_card.name) {
-        (Some(0), _) => "Fx".into(),
-        (Some(_), _) => "Fy".into(),
-        (None, "couple") => "M".into(),
-        (None, "thrust") => "tension".into(),
-        (None, "normal force") if matches!(kind, Kind::Slot | Kind::Slider | Kind::Rolling) => "Fn".into(),
-        (None, "friction force") if kind == Kind::Rolling => "Fs".into(),
-        _ => format!("F{}", row + 1),
     }
 }
 
@@ -84,7 +78,8 @@ pub fn drives<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
         let parts = along_gauge(at, drive.by.as_ref().unwrap_or(&drive.of), row.loads());
         let first = if parts.len() > 1 { parts[1].body } else { 0 };
         let of = [first, parts.first().map_or(0, |p| p.body)];
-        let symbol = format!("{}.force", spell(&drive.name));
-        out.push(Load { origin: Origin::Row(row.source), symbol, of, parts, size: Size::Unknown });
+        let card = LoadCard::force("force", "force", "F").along(at.m.turns(drive.by.as_ref().unwrap_or(&drive.of)));
+        let (origin, symbol) = (Origin::Row(row.source), format!("{}.{}", spell(&drive.name), card.reading));
+        out.push(Load { origin, symbol, card, number: None, of, parts, size: Size::Unknown });
     }
 }

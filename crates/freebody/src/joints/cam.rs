@@ -16,7 +16,7 @@ impl Joint for CurvedSlot {
             .needs("point", FieldKind::Point, Role::Second, "m", "the point of the second body")
             .coordinate("s", "")
             .turn()
-            .force("normal force")
+            .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
             .rubbing()
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
@@ -35,7 +35,7 @@ impl Joint for Cam {
             .needs("follower", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
             .coordinate("s", "")
             .turn()
-            .force("normal force")
+            .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (at, slope) = n.curve?.at(q[0]);

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// The card of a joint or of a force: its word and its fields; for joints also coordinates and rows.
+/// The card of a joint or of a force: its word and its fields; for joints also coordinates and rows, for forces its loads.
 #[derive(Clone, Debug, Serialize)]
 pub struct Card {
     /// The word in a model file.
@@ -18,6 +18,8 @@ pub struct Card {
     pub rows: Vec<RowCard>,
     /// Whether it can rub along its first coordinate.
     pub rubs: bool,
+    /// The loads of a force, in the order of its pulls and pushes.
+    pub parts: Vec<LoadCard>,
 }
 
 /// One field of a card.
@@ -34,7 +36,6 @@ pub struct Field {
     /// One sentence.
     pub doc: &'static str,
     /// What it is to the joint.
-    #[serde(skip)]
     pub role: Role,
 }
 
@@ -69,7 +70,8 @@ pub enum FieldKind {
 }
 
 /// What a field is to a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Role {
     /// A number, in the order of the fields.
     Number,
@@ -89,30 +91,97 @@ pub struct CoordinateCard {
     /// `m` or `rad`, or empty for a curve parameter.
     pub dimension: &'static str,
     /// The turn of the second body, which a particle does not have.
-    #[serde(skip)]
     pub turn: bool,
 }
 
-/// A row of a joint told as a constraint.
-#[derive(Clone, Debug, Serialize)]
-pub struct RowCard {
-    /// What its multiplier is: `force` in N, or `couple` in N·m.
+/// What a load is: a component of a reaction, a force of the model, friction. Who names it, draws it or tells its unit reads it here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct LoadCard {
+    /// What it is called: `normal force`.
     pub name: &'static str,
-    /// It holds a turn, which a particle does not have.
-    #[serde(skip)]
-    pub turning: bool,
+    /// What an expression of the model calls it behind the name of its owner: `Fn`.
+    pub reading: &'static str,
+    /// The stem of its symbol: `N`; empty for the components of a pin's force, which are named after the pin.
+    pub stem: &'static str,
+    /// Whether it is a couple, N·m, and not a force, N.
+    pub couple: bool,
+    /// Whether it is a tension: where it is positive it draws its two bodies together.
+    pub pulls: bool,
+    /// Whether it acts along two surfaces that touch.
+    pub tangent: bool,
+    /// Whether its sign says on which flank teeth bear.
+    pub flank: bool,
+}
+
+impl LoadCard {
+    /// A force.
+    pub const fn force(name: &'static str, reading: &'static str, stem: &'static str) -> Self {
+        LoadCard { name, reading, stem, couple: false, pulls: false, tangent: false, flank: false }
+    }
+    /// A couple.
+    pub const fn couple(name: &'static str, reading: &'static str) -> Self {
+        LoadCard { couple: true, ..LoadCard::force(name, reading, "M") }
+    }
+    /// A tension.
+    pub const fn tension() -> Self {
+        LoadCard { pulls: true, ..LoadCard::force("tension", "tension", "T") }
+    }
+    /// The same as a couple, if what it acts along is a turn.
+    pub fn along(self, turns: bool) -> Self {
+        if turns {
+            LoadCard { couple: true, stem: "M", ..self }
+        } else {
+            self
+        }
+    }
+}
+
+/// A row of a joint told as a constraint, by the load that its multiplier is.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RowCard {
+    /// The load. One that pulls is read against the multiplier, which pushes where it is positive.
+    #[serde(flatten)]
+    pub load: LoadCard,
+    /// One side presses on the other with it: where it would pull, a one-sided joint lets go.
+    pub presses: bool,
     /// It is a component of the force of a pin, which a person tells along fixed axes: 0 for x, 1 for y.
     #[serde(skip)]
     pub pin: Option<usize>,
     /// Only its change counts: its value at the start of a motion is its zero (teeth mesh as they are put).
     #[serde(skip)]
     pub phased: bool,
+    /// It is a force that passes beside the joint's point, and so has a moment about it.
+    #[serde(skip)]
+    pub beside: bool,
+}
+
+impl RowCard {
+    /// A row whose multiplier is this load.
+    pub fn of(load: LoadCard) -> Self {
+        RowCard { load, presses: false, pin: None, phased: false, beside: false }
+    }
+    /// A normal force by which one side presses on the other.
+    pub fn press(name: &'static str, reading: &'static str) -> Self {
+        RowCard { presses: true, ..RowCard::of(LoadCard::force(name, reading, "N")) }
+    }
+    /// The sign of its load for a positive multiplier.
+    pub fn sign(&self) -> f64 {
+        if self.load.pulls {
+            -1.0
+        } else {
+            1.0
+        }
+    }
+    /// Whether it gives the joint's reaction a moment about the joint's point.
+    pub fn turns(&self) -> bool {
+        self.load.couple || self.beside
+    }
 }
 
 impl Card {
     /// A card with its word and sentence.
     pub fn new(word: &'static str, doc: &'static str) -> Self {
-        Card { word, doc, fields: vec![], coordinates: vec![], rows: vec![], rubs: false }
+        Card { word, doc, fields: vec![], coordinates: vec![], rows: vec![], rubs: false, parts: vec![] }
     }
     /// A field that must be given.
     pub fn needs(
@@ -151,27 +220,25 @@ impl Card {
     }
     /// The two rows that keep a point on a point.
     pub fn pin(self) -> Self {
-        let axis = |name, axis| RowCard { name, turning: false, pin: Some(axis), phased: false };
-        self.row(axis("force along x", 0)).row(axis("force along y", 1))
+        let axis = |name, reading, axis| RowCard { pin: Some(axis), ..RowCard::of(LoadCard::force(name, reading, "")) };
+        self.row(axis("force along x", "Fx", 0)).row(axis("force along y", "Fy", 1))
     }
-    /// A row whose multiplier is a force.
-    pub fn force(self, name: &'static str) -> Self {
-        self.row(RowCard { name, turning: false, pin: None, phased: false })
-    }
-    /// A force row of which only the change counts.
-    pub fn phased(self, name: &'static str) -> Self {
-        self.row(RowCard { name, turning: false, pin: None, phased: true })
+    /// A row that holds the second body's turn.
+    pub fn couple(self) -> Self {
+        self.row(RowCard::of(LoadCard::couple("couple", "M")))
     }
     /// It can rub along its first coordinate.
     pub fn rubbing(mut self) -> Self {
         self.rubs = true;
         self
     }
-    /// A row that holds the second body's turn.
-    pub fn couple(self) -> Self {
-        self.row(RowCard { name: "couple", turning: true, pin: None, phased: false })
+    /// The loads of a force, in the order of its pulls and pushes.
+    pub fn loads(mut self, parts: &[LoadCard]) -> Self {
+        self.parts = parts.to_vec();
+        self
     }
-    fn row(mut self, row: RowCard) -> Self {
+    /// A row.
+    pub fn row(mut self, row: RowCard) -> Self {
         self.rows.push(row);
         self
     }

@@ -61,7 +61,10 @@ impl Joint for Gear {
                 "1",
                 "+1 or -1: the side of the teeth that is tried first; the other carries where it would have to pull",
             )
-            .phased("tooth force")
+            .row(RowCard {
+                phased: true,
+                ..RowCard::of(LoadCard { flank: true, ..LoadCard::force("tooth force", "F1", "F") })
+            })
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         let (b1, b2) = Self::base(n);
@@ -100,7 +103,7 @@ impl Joint for Belt {
         .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two radii")
         .takes("crossed", FieldKind::Flag, "", "false", "whether the strands cross")
         .takes("strand", FieldKind::Number, "", "1", "+1 or -1: the strand that carries")
-        .phased("strand force")
+        .row(RowCard { phased: true, beside: true, ..RowCard::of(LoadCard::force("strand force", "F1", "F")) })
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         let (b1, b2) = Self::radii(n);

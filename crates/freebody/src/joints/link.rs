@@ -12,7 +12,7 @@ impl Joint for Link {
             .needs("length", FieldKind::Number, Role::Number, "m", "the distance")
             .coordinate("direction", "rad")
             .turn()
-            .force("thrust")
+            .row(RowCard::of(LoadCard::tension()))
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (sin, cos) = q[0].sin_cos();

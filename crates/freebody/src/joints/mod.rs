@@ -15,7 +15,7 @@ mod slider;
 mod slot;
 mod weld;
 
-pub use card::{Card, CoordinateCard, Field, FieldKind, Role, RowCard};
+pub use card::{Card, CoordinateCard, Field, FieldKind, LoadCard, Role, RowCard};
 pub use gear::Gear;
 
 use crate::plane::{vec2, Few, Turn, Vec2};

@@ -3,6 +3,12 @@
 use super::*;
 use std::f64::consts::TAU;
 
+/// The row that keeps a circle from slipping.
+fn friction(reading: &'static str) -> RowCard {
+    let load = LoadCard { tangent: true, ..LoadCard::force("friction force", reading, "F") };
+    RowCard { phased: true, ..RowCard::of(load) }
+}
+
 /// A circle of the second body rolls on a line of the first, on the line's left side.
 pub struct Rolling;
 
@@ -12,8 +18,8 @@ impl Joint for Rolling {
             .needs("on", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("circle", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
             .coordinate("s", "m")
-            .force("normal force")
-            .phased("friction force")
+            .row(RowCard::press("normal force", "Fn"))
+            .row(friction("Fs"))
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: n.of[0], angle: -q[0] / n.of[0] })
@@ -51,8 +57,8 @@ impl Joint for RollingCircles {
             .needs("circle", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
             .takes("inside", FieldKind::Flag, "", "false", "whether it rolls inside the first circle")
             .coordinate("direction", "rad")
-            .force("normal force")
-            .phased("friction force")
+            .row(RowCard::press("normal force", "F1"))
+            .row(friction("F2"))
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (distance, r2) = Self::sizes(n);

@@ -13,7 +13,7 @@ impl Joint for Slider {
             .needs("along", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("line", FieldKind::Line, Role::Second, "m", "the line of the second body")
             .coordinate("s", "m")
-            .force("normal force")
+            .row(RowCard::press("normal force", "Fn"))
             .couple()
             .rubbing()
     }
@@ -43,8 +43,8 @@ impl Joint for Rollers {
             .needs("along", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("points", FieldKind::Points, Role::Second, "m", "the two rollers of the second body")
             .coordinate("s", "m")
-            .force("force of the first roller")
-            .force("force of the second roller")
+            .row(RowCard::press("force of the first roller", "F1"))
+            .row(RowCard { beside: true, ..RowCard::press("force of the second roller", "F2") })
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })

@@ -12,7 +12,7 @@ impl Joint for Slot {
             .needs("point", FieldKind::Point, Role::Second, "m", "the point of the second body")
             .coordinate("s", "m")
             .turn()
-            .force("normal force")
+            .row(RowCard::press("normal force", "Fn"))
             .rubbing()
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {

@@ -1,6 +1,7 @@
 //! Forces as compiled: laws on gauges and loads in a direction.
 
 use crate::gauges::Law;
+use crate::joints::LoadCard;
 
 /// A force, compiled.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +16,8 @@ pub struct Force {
     pub pushes: Vec<Push>,
     /// Its potential energy, J; a force without one accounts for its work.
     pub potential: Option<Law>,
+    /// What each of its pulls and pushes is, in this order.
+    pub cards: Vec<LoadCard>,
 }
 
 impl Force {

@@ -26,6 +26,8 @@ pub struct Joint {
     pub rows: Vec<usize>,
     /// Of each row of the card, whether only its change counts.
     pub phased: Vec<bool>,
+    /// Whether its reaction can have a couple about its point.
+    pub couple: bool,
     /// The body that hangs on it, if it is in the tree.
     pub child: Option<usize>,
 }

@@ -1,7 +1,8 @@
 //! Limits: gauges that cannot fall below zero. Contacts, stops and strings are made of them.
 
-use super::{Cord, Slot, Touch};
+use super::{Cord, Mechanism, Slot, Touch};
 use crate::gauges::Law;
+use crate::joints::LoadCard;
 
 /// A gauge that cannot fall below zero.
 #[derive(Clone, Debug)]
@@ -56,6 +57,9 @@ pub enum Friction {
     },
 }
 
+/// Friction of what touches.
+pub const FRICTION: LoadCard = LoadCard { tangent: true, ..LoadCard::force("friction", "T", "F") };
+
 /// What a limit measures.
 #[derive(Clone, Debug)]
 pub enum Gap {
@@ -65,4 +69,15 @@ pub enum Gap {
     Touch(Touch),
     /// What is slack of a string.
     Cord(Cord),
+}
+
+impl Gap {
+    /// The force that keeps the limit.
+    pub fn card(&self, m: &Mechanism) -> LoadCard {
+        match self {
+            Gap::Touch(_) => LoadCard::force("normal force", "N", "N"),
+            Gap::Cord(_) => LoadCard::tension(),
+            Gap::Gauge(law) => LoadCard::force("force", "N", "F").along(m.turns(law)),
+        }
+    }
 }

@@ -14,11 +14,12 @@ pub use cables::{Cord, End, Guide};
 pub use events::{Deed, Event, Kink};
 pub use forces::{Force, Pull, Push};
 pub use joints::{Coordinate, Joint, Rub, Rubbing, Runner};
-pub use limits::{Friction, Gap, Group, Limit};
+pub use limits::{Friction, Gap, Group, Limit, FRICTION};
 pub use surfaces::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};
 
 use crate::expr::Table;
 use crate::gauges::{Law, Leaf};
+use crate::joints::Joint as _;
 
 /// Index of a number of the model.
 pub type Slot = usize;
@@ -323,6 +324,18 @@ impl Mechanism {
         bodies.sort_unstable();
         bodies.dedup();
         bodies
+    }
+    /// Whether all that a law reads of the configuration are turns of bodies: what acts along it is a couple.
+    pub fn turns(&self, law: &Law) -> bool {
+        let mut read = law.leaves().filter(|leaf| !self.leaf_bodies(leaf).is_empty()).peekable();
+        let turn = |leaf: &Leaf| match leaf {
+            Leaf::Coordinate(joint, k) => {
+                let joint = &self.joints[*joint];
+                joint.kind.card().coordinates[joint.coordinates[*k].card].turn
+            }
+            leaf => matches!(leaf, Leaf::Angle(_)),
+        };
+        read.peek().is_some() && read.all(turn)
     }
     fn leaf_bodies(&self, leaf: &Leaf) -> Vec<usize> {
         match leaf {

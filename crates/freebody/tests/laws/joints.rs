@@ -184,3 +184,25 @@ fn loads_are_reciprocal_to_the_freedom() {
         assert!(volume.abs() > 1e-3, "{}: rows and columns do not span the plane's motions", joint.told);
     });
 }
+
+/// What its card says of each row: a force, or a couple, that has a moment about the joint's point or none.
+#[test]
+fn rows_turn_about_the_joints_point_as_their_cards_say() {
+    let mut largest = std::collections::BTreeMap::new();
+    every_joint(|joint, rng| {
+        let thrown = [3.0 + rng.about(0.5), rng.about(2.0), rng.about(3.0)];
+        let at = joint.kind.pose(&joint.of(), &joint.q).map_or(thrown, parts);
+        let Some(gradients) = joint.gradients(at) else { return };
+        let there = Relative { x: at[0], y: at[1], angle: at[2] };
+        let arm = there.at() - joint.kind.contact(&joint.of(), &there);
+        for (i, (row, [x, y, angle])) in joint.card.rows.iter().zip(gradients).enumerate() {
+            assert_eq!(row.load.couple, (x, y) == (0.0, 0.0), "{}: row {i}", joint.told);
+            let moment = (angle + arm.cross(freebody::plane::vec2(x, y))).abs();
+            assert!(row.turns() || moment < ROUND_OFF, "{}: row {i} turns by {moment:e}", joint.told);
+            let most: &mut f64 = largest.entry((joint.card.word, i, row.turns())).or_default();
+            *most = most.max(moment);
+        }
+    });
+    let idle: Vec<_> = largest.iter().filter(|((.., turns), &most)| *turns && most < 0.1).collect();
+    assert!(idle.is_empty(), "said to turn, and do not: {idle:?}");
+}

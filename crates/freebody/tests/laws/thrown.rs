@@ -85,7 +85,7 @@ pub fn has_pose(kind: Kind) -> bool {
 /// Whether what a joint does still makes sense for a body that does not turn.
 pub fn suits_particle(kind: Kind) -> bool {
     let card = kind.card();
-    card.coordinates.iter().any(|c| c.turn) || card.rows.iter().any(|r| r.turning)
+    card.coordinates.iter().any(|c| c.turn) || card.rows.iter().any(|r| r.load.couple)
 }
 
 /// A mechanism at the pose at which it was thrown together.

@@ -161,8 +161,7 @@ def named_place(subject: Subject, at: tuple[float, float], bodies: Sequence[str]
     body has one of that name."""
     free, near = subject.free, _SAME * size(subject)
     for load in free.loads:
-        pinned = load.kind == "joint" and load.component in ("x", "y")
-        if pinned and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
+        if load.axis and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
             return pin(load.name)
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:

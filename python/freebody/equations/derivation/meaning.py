@@ -11,8 +11,6 @@ from freebody.naming import load_names
 
 _NUMBERS = {"g": "gravity"}
 _BY_PREFIX = {"m": "mass", "I": "inertia about the mass centre"}
-_COMPONENTS = {"x": "force along x", "y": "force along y"}
-_KINDS = {"contact": "normal force", "friction": "friction", "string": "tension"}
 
 
 def meanings(subject: Subject) -> Letters:
@@ -26,8 +24,7 @@ def meanings(subject: Subject) -> Letters:
     written = load_names(subject.free.loads, subject.source)
     for load in subject.free.loads:
         if load.unknown and not load.follows:
-            turns = not any(any(part.force) for part in load.on) and any(part.couple for part in load.on)
-            unit, doc = "N*m" if turns else "", f"{load_words(load)} ({load.symbol})"
+            unit, doc = "N*m" if load.card.couple else "", f"{load_words(load)} ({load.symbol})"
             found[load.symbol] = Letter(load.symbol, "unknown", unit, doc, written[load.symbol])
     return Letters(found | {"t": Letter("t", "time", "s", "time")})
 
@@ -45,14 +42,13 @@ def load_words(load: Load, bodies: Collection[str] = ()) -> str:
         return load.name
     if load.kind in ("motion", "coupling"):
         return f"what {load.name} exerts"
-    what = _COMPONENTS.get(load.component or "", load.component) or _KINDS.get(load.kind, "force")
-    return f"{'tension' if load.symbol.endswith('.tension') else what} of {load.name}{_between(load, bodies)}"
+    return f"{load.card.name} of {load.name}{_between(load, bodies)}"
 
 
 def _between(load: Load, bodies: Collection[str]) -> str:
     """On which body, from which. Its value is positive on the first body of a contact, on the second one of a joint."""
     other, on = (load.of[-1], load.of[0]) if load.path.startswith("contacts.") else (load.of[0], load.of[-1])
-    pair = load.kind in ("contact", "string") or load.symbol.endswith(".tension")
+    pair = load.kind == "contact" or load.card.pulls
     if (bodies and on not in bodies) or (not bodies and pair and on == GROUND):
         on, other = other, on
     if load.kind == "string":

@@ -17,12 +17,9 @@ def beside(subject: Subject, stated: Sequence[Stated]) -> list[Stated]:
     held = {x.name for s in stated for x in s.balance.linear.coefficients}
     needed = {x.name for _, law in subject.laws for x in symbols(law)} - held
     wanted = [(i, load) for i, load in enumerate(subject.free.loads) if load.unknown and load.symbol in needed]
-    asked = [{"ask": "equation", "bodies": _carried(subject, load), "along": _along(i, load)} for i, load in wanted]
+    asked = [{"ask": "equation", "bodies": _carried(subject, load), "along": load.axis or {"load": i}} for i, load in wanted]
     found = zip(wanted, subject.balances(asked), strict=True) if asked else []
-    return [
-        Stated(balance, load.component if _is_axis(load) else f"the line of {load.symbol}", "along")
-        for (_, load), balance in found
-    ]
+    return [Stated(balance, load.axis or f"the line of {load.symbol}", "along") for (_, load), balance in found]
 
 
 def sentence(subject: Subject, added: Sequence[Stated]) -> str:
@@ -30,14 +27,6 @@ def sentence(subject: Subject, added: Sequence[Stated]) -> str:
     laws = joined([letter.name for letter, _ in subject.laws])
     forces = joined([x.name for s in added for x in s.balance.linear.coefficients if not x.dots])
     return f"The friction {laws} stays, which follows from {forces} by a law that is not linear: {len(added)} more are for these."
-
-
-def _is_axis(load: Load) -> bool:
-    return load.component in ("x", "y")
-
-
-def _along(place: int, load: Load) -> str | dict[str, int]:
-    return load.component if _is_axis(load) and load.component else {"load": place}
 
 
 def _carried(subject: Subject, load: Load) -> list[str]:

@@ -15,7 +15,6 @@ from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.source import Source
 
-_COMPONENTS = {"x": "force along x", "y": "force along y"}
 _NUMBERS = {"m": "mass", "I": "inertia about the mass centre"}
 Matrix = tuple[tuple[Tree, ...], ...]
 Row = tuple[Tree, ...]
@@ -121,9 +120,9 @@ def _formula(value: str | float, names: Collection[str]) -> str:
 
 
 def _said(load: Load) -> str:
-    if load.component is None:
+    if load.kind != "joint":
         return f"what {load.name} takes"
-    return f"{_COMPONENTS.get(load.component, load.component)} of {load.name} on {load.of[-1]}, from {load.of[0]}"
+    return f"{load.card.name} of {load.name} on {load.of[-1]}, from {load.of[0]}"
 
 
 def _number(name: str) -> str:

@@ -88,7 +88,7 @@ def _acts(load: Load, part: Part, label: str, force: Array, couple: float, sketc
 
 def _pulls(load: Load, part: Part, force: Array) -> bool:
     """Whether a string, a link or a spring between two points pulls."""
-    if load.kind == "string" or load.component == "thrust":
+    if load.card.pulls:
         return bool(force @ part.force > 0)
     others = [other.point for other in load.on if other is not part]
     return load.kind == "force" and len(others) == 1 and bool(force @ np.subtract(others[0], part.point) > 0)
@@ -117,7 +117,7 @@ def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
     spec = next((f for f in sketch.spec.get("forces", []) if f["name"] == load.name), None)
     if spec is None:
         return force, couple
-    if spec["type"] in ("torque", "torsion_spring"):
+    if load.card.couple and "on" in spec["with"]:
         return np.zeros(2), 1.0 if part.body == spec["with"]["on"] else -1.0
     if "between" in spec["with"] and len(others) == 1:
         pull = np.subtract(others[0].point, part.point)

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from freebody.equations import breaking
 from freebody.equations.latex import latex
 from freebody.equations.tree import ZERO, Sym, Tree, is_zero, negative, number, read
-from freebody.free_body import FreeBodies
+from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.run import Source
 from freebody.views.diagram.actions import Action
@@ -60,7 +60,7 @@ class Laws:
     def _law(self, action: Action, room: float) -> Iterator[str]:
         [load], size = action.loads, self.size(action)
         if size is None:
-            law = self._of_length(load.name, load.symbol)
+            law = self._of_length(load)
         else:
             law = breaking.lines(latex(size), max(_LEAST, room - breaking.width(rf"\text{{where }}{action.label} = ")))
         if law and law[0] != action.label:
@@ -97,15 +97,15 @@ class Laws:
             if load in forces and any(part.body == name for part in load.on)
         }
 
-    def _of_length(self, name: str, symbol: str) -> list[str]:
+    def _of_length(self, load: Load) -> list[str]:
         """That of a spring or damper between two points, in the distance of these; of what else pulls aslant nothing is told."""
-        spec = next(each for each in json.loads(self.source.spec)["forces"] if each["name"] == name)
+        spec = next(each for each in json.loads(self.source.spec)["forces"] if each["name"] == load.name)
         fields = spec["with"]
         stiffness, rest, damping = (_quantity(fields.get(word, 0)) for word in ("stiffness", "rest_length", "damping"))
         if "between" not in fields or stiffness is None or rest is None or damping is None:
             return []
         length = rf"\overline{{{' '.join(map(self._end, fields['between']))}}}"
-        if spec["type"] == "damper" or symbol.endswith(".2"):
+        if load.card.name == "damper":
             return [_times(damping, rf"\frac{{d}}{{dt}}{length}")]
         stretch = length if is_zero(rest) else rf"\left({length} - {latex(rest)}\right)"
         return [_times(stiffness, stretch)]

@@ -14,7 +14,6 @@ from freebody.free_body import Load
 from freebody.naming import Naming
 
 _LONGEST = 8  # columns of an expression that is written out for a mass
-_PINS = ("Fx", "Fy")
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class Labels:
     def whole(self, load: Load) -> str:
         """Of a force of which a load is one component."""
         name = self.naming.loads.get(load.symbol)
-        if name is None or load.symbol.rpartition(".")[2] not in _PINS:
+        if name is None or not load.axis:
             return self.of(load)
         return replace(name, below=name.below[:-1]).latex()
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from freebody.free_body import FreeBodies
 from freebody.instant import State
+from freebody.model.cards import joints
 from freebody.results import Array
 from freebody.run import Source
 from freebody.views import shapes
@@ -38,7 +39,6 @@ _BESIDE = 8.0  # pt from its body at which a force hangs in the air
 _LOOSE = ("rail", "slot", "hatch")
 _SOLID = ("body", "block", "band", "mass")
 _CUT = ("pin", "weld")
-_PINNED = ("hinge", "link", "slot", "curved_slot", "polar")
 Measured: TypeAlias = Callable[[Sketch, float], Iterable[Measure]]
 """What finds coordinates to draw in a sketch; the number is the radius of arcs in sizes of symbols."""
 
@@ -107,7 +107,7 @@ class Scenery:
     def slides(self, action: Action) -> bool:
         """Whether it is the force of a slider, which has no point of its own."""
         kinds = {joint["name"]: joint["type"] for joint in self.sketch.about["joints"]}
-        return action.kind == "joint" and kinds[action.name] == "slider"
+        return action.kind == "joint" and joints()[kinds[action.name]].slides
 
     def within(self, places: Array) -> bool:
         """Whether any of some places (k, 2) is on a body."""
@@ -231,8 +231,8 @@ def _joining(scene: Scene, among: Collection[str] | None = None) -> list[Array]:
 
 def _pins(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> Array:
     """Where the group's bodies are pinned, to each other or to others, (k, 2) in m."""
-    kinds = {joint["name"]: joint["type"] for joint in sketch.about["joints"]}
-    cut = [(load, part) for load in free.loads if kinds.get(load.name) in _PINNED for part in load.on]
+    pinned = {joint["name"] for joint in sketch.about["joints"] if joints()[joint["type"]].pinned}
+    cut = [(load, part) for load in free.loads if load.name in pinned for part in load.on]
     places = [attached(load, part, sketch) for load, part in cut if part.body in group]
     return np.unique(np.round(np.reshape(places, (-1, 2)), 12), axis=0)
 
