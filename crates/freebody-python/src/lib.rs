@@ -8,6 +8,7 @@ mod trajectory;
 use freebody::balance::Balance;
 use freebody::compile::{coupling_card, Compiled};
 use freebody::joints::{Joint, Kind};
+use freebody::scalar::real::sin_cos;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::hint::black_box;
@@ -36,8 +37,8 @@ fn cards() -> String {
 fn time_chain(n: usize, repeats: usize) -> PyResult<f64> {
     let compiled = Compiled::new(&freebody::benchmark::chain_model(n)).map_err(errors::model)?;
     let mut balance = Balance::new(&compiled.mechanism, &[]);
-    let q: Vec<f64> = (0..n).map(|i| 0.1 * (i as f64).sin()).collect();
-    let u: Vec<f64> = (0..n).map(|i| 0.2 * (i as f64).cos()).collect();
+    let q: Vec<f64> = (0..n).map(|i| 0.1 * sin_cos(i as f64).0).collect();
+    let u: Vec<f64> = (0..n).map(|i| 0.2 * sin_cos(i as f64).1).collect();
     let mut u_dot = vec![0.0; n];
     let mut solve = || {
         balance.place(0.0, black_box(&q), &u);

@@ -3,6 +3,7 @@
 use crate::balance::{Balance, Row, Source, Trouble, CLOSED, OPEN};
 use crate::gauges::Law;
 use crate::kinematics::{jet, Moving};
+use crate::scalar::real;
 
 /// What an initial state is asked to be.
 #[derive(Clone, Debug, Default)]
@@ -127,7 +128,8 @@ fn descend(balance: &mut Balance, t: f64, held: &[(String, Law, f64)], q: &mut V
 }
 
 fn norm(balance: &Balance, rows: &[(Row, f64)]) -> f64 {
-    rows.iter().map(|(row, gap)| (gap / balance.row_unit(row)).powi(2)).sum::<f64>().sqrt()
+    let square = |(row, gap): &(Row, f64)| (gap / balance.row_unit(row)) * (gap / balance.row_unit(row));
+    rows.iter().map(square).sum::<f64>().sqrt()
 }
 
 fn on_branch(balance: &mut Balance, t: f64, q: &[f64], wish: &Wish) -> bool {
@@ -250,7 +252,7 @@ fn cannot_assemble(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Tro
             Some(k) => (wish.held[k].0.clone(), None),
         };
         match gaps.iter_mut().find(|known| known.0 == name) {
-            Some((_, _, g)) => *g = g.hypot(*gap),
+            Some((_, _, g)) => *g = real::hypot(*g, *gap),
             None => gaps.push((name, path, gap.abs())),
         }
     }

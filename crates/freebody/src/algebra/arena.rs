@@ -4,6 +4,7 @@ use super::atom::{Atom, AtomId, Factor, Function};
 use super::coefficient::Coefficient;
 use super::pretty::Known;
 use super::ratio::Ratio;
+use crate::scalar::real;
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -96,8 +97,8 @@ impl Arena {
             Atom::Letter(_) => f64::NAN,
             Atom::Pi => std::f64::consts::PI,
             Atom::Prime(p) => *p as f64,
-            Atom::Cos(of) => self.value(*of).cos(),
-            Atom::Sin(of) => self.value(*of).sin(),
+            Atom::Cos(of) => real::sin_cos(self.value(*of)).1,
+            Atom::Sin(of) => real::sin_cos(self.value(*of)).0,
             Atom::Group(of) => self.value(*of),
             Atom::Call(function, of) => {
                 let arguments: Vec<f64> = of.iter().map(|&id| self.value(id)).collect();
@@ -108,10 +109,10 @@ impl Arena {
     /// The value of a function.
     pub(super) fn call(&self, function: &Function, x: &[f64]) -> f64 {
         match function {
-            Function::Exp => x[0].exp(),
-            Function::Ln => x[0].ln(),
+            Function::Exp => real::exp(x[0]),
+            Function::Ln => real::ln(x[0]),
             Function::Abs => x[0].abs(),
-            Function::Atan2 => x[0].atan2(x[1]),
+            Function::Atan2 => real::atan2(x[0], x[1]),
             Function::Named(name, order) => self.rules.get(name).map_or(f64::NAN, |rule| rule(x[0], *order)),
         }
     }
@@ -212,8 +213,8 @@ impl Arena {
 pub(super) fn raised(base: f64, exponent: Ratio) -> f64 {
     match exponent.parts() {
         (1, 1) => base,
-        (n, 1) => base.powi(n as i32),
+        (n, 1) => real::powi(base, n as i32),
         (1, 2) => base.sqrt(),
-        (n, d) => base.powf(n as f64 / d as f64),
+        (n, d) => real::powf(base, n as f64 / d as f64),
     }
 }

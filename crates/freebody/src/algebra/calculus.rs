@@ -4,6 +4,7 @@ use super::arena::{raised, Arena, SumId};
 use super::atom::{Atom, AtomId, Function, Letter};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
+use crate::scalar::real;
 use std::collections::{BTreeSet, HashMap};
 
 impl Arena {
@@ -175,8 +176,8 @@ impl Arena {
             Atom::Letter(letter) => values(letter),
             Atom::Pi | Atom::Prime(_) => self.atom_value(id),
             Atom::Group(of) => self.evaluate(*of, values, known),
-            Atom::Cos(of) => self.evaluate(*of, values, known).cos(),
-            Atom::Sin(of) => self.evaluate(*of, values, known).sin(),
+            Atom::Cos(of) => real::sin_cos(self.evaluate(*of, values, known)).1,
+            Atom::Sin(of) => real::sin_cos(self.evaluate(*of, values, known)).0,
             Atom::Call(function, of) => {
                 let x: Vec<f64> = of.iter().map(|&x| self.evaluate(x, values, known)).collect();
                 self.call(function, &x)

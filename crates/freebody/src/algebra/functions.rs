@@ -4,6 +4,7 @@ use super::arena::{Arena, Rule, SumId};
 use super::atom::{Atom, AtomId, Function};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
+use crate::scalar::real;
 use std::rc::Rc;
 
 impl Arena {
@@ -41,7 +42,7 @@ impl Arena {
                     self.negate(right)
                 }
             }
-            _ => self.direction(y, x, across.atan2(along)),
+            _ => self.direction(y, x, real::atan2(across, along)),
         }
     }
     fn direction(&mut self, y: SumId, x: SumId, value: f64) -> SumId {

@@ -4,6 +4,7 @@ use super::arena::{Arena, MonomialId, SumId, Term};
 use super::atom::{inverted, joined, with_exponent, Atom, Factor, Function};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
+use crate::scalar::real;
 
 impl Arena {
     pub(crate) fn add(&mut self, a: SumId, b: SumId) -> SumId {
@@ -120,7 +121,7 @@ impl Arena {
             let (whole, pulled) = match self.atom(id).clone() {
                 Atom::Prime(p) if e.floor() != 0 => {
                     let number = Ratio::whole(p).power(e.floor()).map(Coefficient::Exact);
-                    let number = number.unwrap_or(Coefficient::Float((p as f64).powi(e.floor() as i32)));
+                    let number = number.unwrap_or(Coefficient::Float(real::powi(p as f64, e.floor() as i32)));
                     (e.floor(), self.constant(number))
                 }
                 Atom::Group(of) if e >= Ratio::ONE => (e.floor(), self.repeat(of, e.floor())),

@@ -1,7 +1,7 @@
 //! The number read as a symbol.
 
 use super::{with, Letter, Ratio, Rule, SumId, Tree};
-use crate::scalar::Scalar;
+use crate::scalar::{real, Scalar};
 use std::collections::HashMap;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -47,7 +47,7 @@ impl Symbol {
     /// A fraction raises a positive base.
     fn rational_power(self, exponent: Ratio) -> Self {
         let (n, d) = exponent.parts();
-        let value = if d == 1 { self.value.powi(n as i32) } else { self.value.powf(exponent.value()) };
+        let value = if d == 1 { real::powi(self.value, n as i32) } else { real::powf(self.value, exponent.value()) };
         Symbol::new(with(|arena| arena.power(self.id, exponent)), value)
     }
     /// Whether it vanishes identically.
@@ -166,20 +166,20 @@ impl Scalar for Symbol {
         Symbol::new(with(|arena| arena.number(value)), value)
     }
     fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = self.value.sin_cos();
+        let (s, c) = real::sin_cos(self.value);
         with(|arena| (Symbol::new(arena.sin(self.id), s), Symbol::new(arena.cos(self.id), c)))
     }
     fn sqrt(self) -> Self {
         Symbol::new(with(|arena| arena.sqrt(self.id)), self.value.sqrt())
     }
     fn exp(self) -> Self {
-        Symbol::new(with(|arena| arena.exp(self.id)), self.value.exp())
+        Symbol::new(with(|arena| arena.exp(self.id)), real::exp(self.value))
     }
     fn ln(self) -> Self {
-        Symbol::new(with(|arena| arena.ln(self.id)), self.value.ln())
+        Symbol::new(with(|arena| arena.ln(self.id)), real::ln(self.value))
     }
     fn atan2(self, x: Self) -> Self {
-        Symbol::new(with(|arena| arena.atan2(self.id, x.id)), self.value.atan2(x.value))
+        Symbol::new(with(|arena| arena.atan2(self.id, x.id)), real::atan2(self.value, x.value))
     }
     fn powi(self, n: i32) -> Self {
         self.rational_power(Ratio::whole(n.into()))

@@ -29,7 +29,7 @@ impl Balance<'_> {
             return false;
         }
         let rows = self.m.closures.iter().map(|&j| self.m.joints[j].rows.len()).sum::<usize>() + self.m.drives.len();
-        let dense = 4.0 * n * n * rows as f64 + 2.0 * n.powi(3);
+        let dense = 4.0 * n * n * rows as f64 + 2.0 * n * n * n;
         let (factor, _) = self.pattern();
         factor.flops() < dense
     }

@@ -221,7 +221,7 @@ pub(super) fn column_scales(at: Placed<'_>, length: f64) -> Vec<f64> {
 pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
     (0..g.rows())
         .map(|i| {
-            let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c).powi(2)).sum::<f64>().sqrt();
+            let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c) * (x * c)).sum::<f64>().sqrt();
             if norm > 0.0 {
                 1.0 / norm
             } else {

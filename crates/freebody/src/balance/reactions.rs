@@ -5,6 +5,7 @@ use super::Balance;
 use crate::kinematics::{relative, JointView, Placed};
 use crate::mechanism::{Mechanism, Rubbing};
 use crate::plane::{vec2, Vec2, Wrench};
+use crate::scalar::real;
 use crate::solve::{Matrix, Orthogonal};
 
 /// The reaction of a joint on its second body: force in fixed axes and couple about the joint's point.
@@ -92,7 +93,7 @@ impl JointLoad {
     }
     /// The force along and across the first body's marker.
     pub fn in_joint_axes(&self) -> Vec2 {
-        let (sin, cos) = self.axes.sin_cos();
+        let (sin, cos) = real::sin_cos(self.axes);
         vec2(cos * self.force.x + sin * self.force.y, cos * self.force.y - sin * self.force.x)
     }
 }

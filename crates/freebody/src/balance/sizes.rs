@@ -48,7 +48,7 @@ impl Balance<'_> {
             for k in 0..b.freedom {
                 part = part.max(self.k.columns[i][k].v.norm() * self.solved.nu_dot[b.start + k].abs());
             }
-            let spin = self.solved.bodies[i].w.abs().max(self.k.twist[i].w.powi(2));
+            let spin = self.solved.bodies[i].w.abs().max(self.k.twist[i].w * self.k.twist[i].w);
             carried[i] = part;
             whole[i] = part.max(spin * self.arms[i].norm());
         }

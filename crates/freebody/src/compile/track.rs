@@ -4,6 +4,7 @@ use crate::builder::{Builder, Result};
 use crate::error::CompileError;
 use crate::mechanism::{Profile, Stretch, Touch, Track};
 use crate::plane::Vec2;
+use crate::scalar::real;
 use crate::spec;
 
 /// Sine of the turn between two stretches up to which there is no kink; difference of the radii at the two ends of an arc, over the
@@ -65,7 +66,7 @@ fn fault(stretch: &Stretch, before: Option<&Stretch>, arms: &[Vec2]) -> Option<(
     }
     let arm = |site: usize| arms[site];
     let [end, begin] = [before?.heading(&arm, 1), stretch.heading(&arm, 0)];
-    let turn = end.cross(begin).atan2(end.dot(begin));
+    let turn = real::atan2(end.cross(begin), end.dot(begin));
     (turn.abs() > SMOOTH).then(|| {
         let what = format!("begins with a kink of {:.6}°", turn.to_degrees());
         (what, "let it go on along the tangent, or make two contacts of two tracks")

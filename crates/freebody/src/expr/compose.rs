@@ -3,6 +3,7 @@
 
 use super::function::{power, Function};
 use super::tree::{Condition, Expr, Op};
+use crate::scalar::real;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// How far back an equal operation is looked for.
@@ -36,7 +37,7 @@ impl<L: Clone + PartialEq> Expr<L> {
     /// The angle of the point (x, self), radians in (−π, π].
     pub fn atan2(self, x: Self) -> Self {
         match (self.literal(), x.literal()) {
-            (Some(y), Some(x)) => Self::constant(y.atan2(x)),
+            (Some(y), Some(x)) => Self::constant(real::atan2(y, x)),
             _ => self.join(x, Op::Atan2),
         }
     }
@@ -49,7 +50,7 @@ impl<L: Clone + PartialEq> Expr<L> {
         match (self.literal(), n) {
             (_, 0) => Self::constant(1.0),
             (_, 1) => self,
-            (Some(base), _) => Self::constant(base.powi(n)),
+            (Some(base), _) => Self::constant(real::powi(base, n)),
             _ => self.extend(|a| Op::Whole(a, n)),
         }
     }

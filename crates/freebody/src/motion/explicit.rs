@@ -3,6 +3,7 @@
 use super::dense::Segment;
 use super::method::{Counted, Failure, Point, Stepper};
 use super::norm::{measure, Norm};
+use crate::scalar::real;
 
 /// The numbers of an explicit method of s stages. Stage s (counted from 0) is the rate at the end
 /// of the step; the stages of the dense output come after it.
@@ -71,7 +72,7 @@ impl Explicit {
             measure(&self.y, &self.weights)
         });
         match norms.collect::<Vec<_>>()[..] {
-            [main, tempering] if main > 0.0 => main * main / main.hypot(0.1 * tempering),
+            [main, tempering] if main > 0.0 => main * main / real::hypot(main, 0.1 * tempering),
             [main, ..] => main,
             [] => 0.0,
         }
@@ -136,7 +137,7 @@ struct Stiffness {
 impl Stiffness {
     fn note(&mut self, limit: f64, h: f64, (k, y): (&[f64], &[f64]), to: &Point) {
         let distance =
-            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt() };
+            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() };
         if h.abs() * distance(k, &to.dy) > limit * distance(y, &to.y) {
             *self = Self { suspicions: self.suspicions + 1, clear: 0 };
             return;

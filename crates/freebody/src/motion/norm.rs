@@ -2,6 +2,7 @@
 
 use super::method::Point;
 use super::system::System;
+use crate::scalar::real;
 
 /// The error norm: relative accuracy of every component, down to a physical floor.
 ///
@@ -47,7 +48,8 @@ impl Norm {
 pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
     let (mut sum, mut top) = (0.0, 0.0_f64);
     for (value, weight) in values.iter().zip(weights) {
-        let square = (value / weight).powi(2);
+        let ratio = value / weight;
+        let square = ratio * ratio;
         sum += square;
         top = top.max(square);
     }
@@ -72,7 +74,7 @@ pub(super) fn first_step<E>(
     let steepest = d1.max(measure(&bend, &weights) / h0);
     let h1 = match steepest <= 1e-15 {
         true => (h0 * 1e-3).max(1e-6),
-        false => (0.01 / steepest).powf(1.0 / f64::from(estimate_order)),
+        false => real::powf(0.01 / steepest, 1.0 / f64::from(estimate_order)),
     };
     Ok(sign * h1.min(100.0 * h0))
 }

@@ -1,5 +1,7 @@
 //! The length of the next step.
 
+use crate::scalar::real;
+
 /// Proportional-integral step control (HNW I, IV.2 in part II; Gustafsson 1991): after an error e,
 /// in units of the tolerance, h ← 0.9·h·e^(−0.85/k)·e₋₁^(0.2/k), between 0.2·h and 6·h.
 pub(super) struct Pace {
@@ -34,7 +36,7 @@ impl Pace {
     pub fn accepted(&mut self, error: f64) {
         let Some(exponent) = self.exponent else { return };
         let error = error.max(1e-10);
-        let factor = 0.9 * error.powf(-0.85 * exponent) * self.last_error.powf(0.2 * exponent);
+        let factor = 0.9 * real::powf(error, -0.85 * exponent) * real::powf(self.last_error, 0.2 * exponent);
         let most = if self.was_rejected { 1.0 } else { 6.0 };
         let factor = factor.clamp(0.2, most);
         if factor < 1.0 || factor > self.growth_threshold {
@@ -47,7 +49,7 @@ impl Pace {
     /// After a step of length `h` whose error was too large.
     pub fn rejected(&mut self, h: f64, error: f64) {
         let exponent = self.exponent.unwrap_or(0.0);
-        self.h = h * (0.9 * error.powf(-exponent)).clamp(0.2, 0.9);
+        self.h = h * (0.9 * real::powf(error, -exponent)).clamp(0.2, 0.9);
         self.was_rejected = true;
     }
 

@@ -4,6 +4,7 @@ use super::dense::Segment;
 use super::linear::Lu;
 use super::method::{Counted, Failure, Method, Point, Stepper};
 use super::norm::{measure, Norm};
+use crate::scalar::real;
 
 /// Hairer & Wanner, *Solving ODEs II*, IV.8: simplified Newton iterations on the 3n equations of
 /// the stages, error estimate (8.20), collocation polynomial as dense output.
@@ -138,7 +139,7 @@ impl Radau {
                 return Ok(theta);
             }
             let left = (ITERATIONS - 1 - iteration) as i32;
-            if theta >= 1.0 || theta.powi(left) / (1.0 - theta) * size > tolerance && iteration > 0 {
+            if theta >= 1.0 || real::powi(theta, left) / (1.0 - theta) * size > tolerance && iteration > 0 {
                 break;
             }
             last = size;

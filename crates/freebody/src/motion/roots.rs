@@ -1,5 +1,6 @@
 //! Zeros of functions of one variable.
 
+use crate::scalar::real;
 use std::f64::consts::PI;
 
 /// Samples per step of each switching function.
@@ -12,7 +13,7 @@ const MARGIN: f64 = 1e-7;
 pub(super) fn chebyshev_points() -> [f64; SAMPLES] {
     std::array::from_fn(|j| match 2 * j + 1 {
         SAMPLES => 0.0,
-        _ => -(PI * j as f64 / (SAMPLES - 1) as f64).cos(),
+        _ => -real::sin_cos(PI * j as f64 / (SAMPLES - 1) as f64).1,
     })
 }
 
@@ -23,7 +24,7 @@ pub(super) fn chebyshev(values: &[f64; SAMPLES]) -> [f64; SAMPLES] {
     let end = |index: usize| if index == 0 || index == last { 0.5 } else { 1.0 };
     std::array::from_fn(|k| {
         let angle = |j: usize| PI * ((k * (last - j)) % (2 * last)) as f64 / last as f64;
-        let sum: f64 = (0..SAMPLES).map(|j| end(j) * values[j] * angle(j).cos()).sum();
+        let sum: f64 = (0..SAMPLES).map(|j| end(j) * values[j] * real::sin_cos(angle(j)).1).sum();
         2.0 / last as f64 * end(k) * sum
     })
 }
@@ -105,7 +106,7 @@ pub(super) fn bracketed<E>(mut f: impl FnMut(f64) -> Result<f64, E>, a: (f64, f6
 fn chandrupatla(new: (f64, f64), old: (f64, f64), third: (f64, f64)) -> f64 {
     let xi = (new.0 - old.0) / (third.0 - old.0);
     let phi = (new.1 - old.1) / (third.1 - old.1);
-    if !(phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi) {
+    if !(phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi) {
         return 0.5;
     }
     let slant = (third.0 - new.0) / (old.0 - new.0);

@@ -5,7 +5,7 @@ use super::{Way, Winding};
 use crate::kinematics::Poses;
 use crate::mechanism::{Cord, End, Guide, Mechanism};
 use crate::plane::{vec2, Vec2};
-use crate::scalar::Scalar;
+use crate::scalar::{real, Scalar};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A string at one configuration, as if it were taut.
@@ -117,7 +117,7 @@ fn round_at<T: Scalar>(
         Way::Wound => Round { site: centre, off: Vec2::zero(), radius: radius.scale(sense) },
         Way::Back => Round { site: centre, off: Vec2::zero(), radius: radius.scale(-sense) },
         Way::Pivot => {
-            let (sin, cos) = phase.sin_cos();
+            let (sin, cos) = real::sin_cos(phase);
             let outward = poses.pose(m.body_of(centre)).turn.apply(vec2(T::of(cos), T::of(sin)));
             Round { site: centre, off: outward * radius, radius: T::zero() }
         }

@@ -6,6 +6,7 @@ use crate::kinematics::Poses;
 use crate::mechanism::{Cord, End, Guide, Mechanism};
 use crate::mode::Piece;
 use crate::plane::{vec2, Vec2};
+use crate::scalar::real;
 use std::f64::consts::FRAC_PI_2;
 
 /// A string at one configuration, drawn as if it were taut.
@@ -54,7 +55,7 @@ impl Cord {
             poses.pose(m.body_of(round.site)).place(poses.arm(round.site)) + round.off
         };
         let touch = |i: usize, angle: f64| {
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = real::sin_cos(angle);
             centre(i) + vec2(sin, -cos) * layout.rounds[i].radius
         };
         let drum = |end: usize| {

@@ -85,20 +85,20 @@ impl Scalar for f64 {
         f64::sqrt(self)
     }
     fn exp(self) -> Self {
-        f64::exp(self)
+        real::exp(self)
     }
     fn ln(self) -> Self {
-        f64::ln(self)
+        real::ln(self)
     }
     fn atan2(self, x: Self) -> Self {
-        f64::atan2(self, x)
+        real::atan2(self, x)
     }
     #[inline(always)]
     fn powi(self, n: i32) -> Self {
-        f64::powi(self, n)
+        real::powi(self, n)
     }
     fn powf(self, exponent: Self) -> Self {
-        f64::powf(self, exponent)
+        real::powf(self, exponent)
     }
     #[inline(always)]
     fn value(self) -> f64 {

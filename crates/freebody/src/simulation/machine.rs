@@ -181,7 +181,7 @@ impl<'m> Machine<'m> {
         let mut scales: Vec<f64> = (0..n).map(|i| unit(i).max(q[i].abs())).collect();
         scales.extend((0..n).map(|i| unit(i) * pace));
         let mass: f64 = self.balance.n.mass.iter().sum::<f64>() + self.balance.n.inertia[1..].iter().sum::<f64>();
-        let energy = (mass.max(1e-300) * (length * pace).powi(2)).max(self.balance.kinetic_energy());
+        let energy = (mass.max(1e-300) * length * pace * length * pace).max(self.balance.kinetic_energy());
         scales.resize(self.scales.len(), energy);
         // A gap is told to the round-off of places.
         let far = |i: usize| if m.coordinate(i).dimension == "m" { q[i].abs() / length } else { 0.0 };
@@ -283,7 +283,7 @@ impl System for Machine<'_> {
     /// the velocities, once for the accelerations that close it. Within a step the independence may fall to a third.
     fn noise(&self) -> f64 {
         if self.delicate {
-            100.0 * f64::EPSILON / self.independence.powi(3)
+            100.0 * f64::EPSILON / (self.independence * self.independence * self.independence)
         } else {
             0.0
         }

@@ -3,6 +3,7 @@
 use super::super::atom::{AtomId, Factor};
 use super::super::coefficient::Coefficient;
 use super::super::ratio::Ratio;
+use crate::scalar::real;
 use std::rc::Rc;
 
 /// A sum of products of free factors: sines and cosines may stand as powers and products.
@@ -50,7 +51,7 @@ impl Product {
     /// A whole power.
     pub(super) fn raised(mut self, e: Ratio) -> Product {
         let number = self.number.exact().and_then(|exact| exact.power(e.parts().0)).map(Coefficient::Exact);
-        let number = number.unwrap_or(Coefficient::Float(self.number.value().powi(e.parts().0 as i32)));
+        let number = number.unwrap_or(Coefficient::Float(real::powi(self.number.value(), e.parts().0 as i32)));
         self.cost = self.cost + self.factors.len() + number_cost(number) - number_cost(self.number);
         self.number = number;
         self.factors.iter_mut().for_each(|factor| factor.1 = factor.1.times(e).unwrap_or(factor.1));

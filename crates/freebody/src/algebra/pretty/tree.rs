@@ -3,6 +3,7 @@
 use super::super::atom::Letter;
 use super::super::coefficient::Coefficient;
 use super::super::ratio::Ratio;
+use crate::scalar::real;
 use serde::Serialize;
 
 /// A number of a tree.
@@ -114,17 +115,17 @@ impl Tree {
             Tree::Sym { sym, dots } => letters(&Letter::new(sym, *dots)),
             Tree::Add { add } => add.iter().map(value).sum(),
             Tree::Mul { mul } => mul.iter().map(value).product(),
-            Tree::Pow { pow: (base, exponent) } => value(base).powf(fraction(exponent)),
+            Tree::Pow { pow: (base, exponent) } => real::powf(value(base), fraction(exponent)),
             Tree::Fn { name, args } => {
                 let x: Vec<f64> = args.iter().map(value).collect();
                 match name.as_str() {
-                    "cos" => x[0].cos(),
-                    "sin" => x[0].sin(),
-                    "tan" => x[0].tan(),
-                    "exp" => x[0].exp(),
-                    "ln" => x[0].ln(),
+                    "cos" => real::sin_cos(x[0]).1,
+                    "sin" => real::sin_cos(x[0]).0,
+                    "tan" => real::sin_cos(x[0]).0 / real::sin_cos(x[0]).1,
+                    "exp" => real::exp(x[0]),
+                    "ln" => real::ln(x[0]),
                     "abs" => x[0].abs(),
-                    "atan2" => x[0].atan2(x[1]),
+                    "atan2" => real::atan2(x[0], x[1]),
                     _ => functions(name, &x),
                 }
             }

@@ -124,7 +124,8 @@ impl Strike<'_> {
         let work = terms().map(|(b, a, p)| 0.5 * (b + a) * p).sum();
         let scale: f64 = terms().map(|(b, a, p)| 0.5 * (b.abs() + a.abs()) * p.abs()).sum();
         // Large impulses that all but cancel must not hide a gain.
-        let energy = |i: usize| if self.g[(i, i)] > 0.0 { self.before[i].powi(2) / self.g[(i, i)] } else { 0.0 };
+        let energy =
+            |i: usize| if self.g[(i, i)] > 0.0 { self.before[i] * self.before[i] / self.g[(i, i)] } else { 0.0 };
         let gains = work > GAIN * scale || work > GROSS * (0..2 * k).map(energy).sum::<f64>();
         Impulses { normal: p[..k].to_vec(), tangent: p[k..].to_vec(), after, work, gains }
     }

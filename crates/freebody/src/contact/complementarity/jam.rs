@@ -37,7 +37,7 @@ pub fn jam(problem: &Problem, slips: &[f64], moment: f64) -> Result<Option<Impul
         struck => struck?,
     };
     // Where all go on sliding, the impulses over the moment are forces that were there to be found.
-    let ends = |i: usize| impulses.after[k + i] * before[k + i] <= STOPPED * before[k + i].powi(2);
+    let ends = |i: usize| impulses.after[k + i] * before[k + i] <= STOPPED * before[k + i] * before[k + i];
     let slid = |i: usize| impulses.normal[i] > 0.0 && matches!(problem.grips[i], Grip::Sliding { .. });
     let jumps = (0..k).any(|i| slid(i) && ends(i));
     Ok(jumps.then_some(impulses))

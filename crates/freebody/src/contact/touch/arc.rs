@@ -5,7 +5,7 @@ use crate::kinematics::Poses;
 use crate::mechanism::{Arc, Disk, Mechanism};
 use crate::mode::Border;
 use crate::plane::{vec2, Vec2};
-use crate::scalar::Scalar;
+use crate::scalar::{real, Scalar};
 use std::f64::consts::PI;
 
 const ARC: usize = 0;
@@ -33,9 +33,9 @@ impl Arc {
     fn seen(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> (f64, f64) {
         let half = 0.5 * (poses.slot(self.ends[1]) - poses.slot(self.ends[0]));
         let (start, to) = (self.towards(m, poses, 1), poses.span(self.centre, disk.centre, m));
-        let (sin, cos) = half.sin_cos();
+        let (sin, cos) = real::sin_cos(half);
         let middle = vec2(start.x * cos - start.y * sin, start.x * sin + start.y * cos);
-        (half, middle.cross(to).atan2(middle.dot(to)))
+        (half, real::atan2(middle.cross(to), middle.dot(to)))
     }
 
     pub(super) fn piece(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk) -> usize {
