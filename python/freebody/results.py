@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from freebody.symbolic.symbols import GREEK
+
 Array = NDArray[np.float64]
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
@@ -20,11 +22,6 @@ ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
-GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
-    "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
-    "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
-}  # fmt: skip
 _CALLS_BY_UNIT = {
     "m": "x y distance along across centre_x centre_y",
     "m/s": "speed vx vy",

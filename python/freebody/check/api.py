@@ -67,6 +67,9 @@ class Checker:
 
     def _equations(self, text: str, letters: Declared | None) -> Verdict:
         case = self.case(text, letters)
+        return replace(self._judged(case, text), notes=case.meaning.letters.notes(case.program))
+
+    def _judged(self, case: Case, text: str) -> Verdict:
         try:
             check_dimensions(case.program, case.meaning.letters.dimensions)
         except DimensionError as error:

@@ -39,7 +39,7 @@ class Described:
         if given is None or not all(isinstance(part, int | float) for part in given) or given[0] != 0 or given[1] == 0:
             return None
         taken = {p["name"] for p in self.spec["parameters"]} | set(self.start.coordinates)
-        name = next(name for name in ("g", "gravity", "gravity_") if name not in taken)
+        name = next(name for name in ("g", "gravity", "gravity2") if name not in taken)
         self.spec["parameters"] += [{"name": name, "value": -given[1], "unit": "m/s^2"}]
         self.spec["gravity"] = [0.0, f"-{name}"]
         self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})

@@ -13,15 +13,16 @@ from freebody.model.errors import Complaint
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.model.writer import Writer
+from freebody.symbolic.symbols import folded
 
 from .declared import Array, Meaning, Reader
-from .language.alphabet import folded
 from .language.dimensions import DimensionError, check_dimensions
 from .language.errors import StatementError
 from .language.nodes import Letter, Program, walk
 from .language.parser import parse, parse_expression
 from .language.spelling import spell as written
 from .language.tokens import Names
+from .printed import printed, renamed
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -79,6 +80,7 @@ class Letters:
             self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
         self.writer = Writer(lowered.root, self.named, {})
         self.about = mechanism.source().about
+        self._bodies = frozenset(spell(body["name"]) for body in self.about["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         for name, said in (declared or {}).items():
             self._declare(name, said)
@@ -145,14 +147,17 @@ class Letters:
 
     def _learn_printed(self) -> bool:
         """Those of printed equations join the others, which go before them; whether there are any that did not before."""
-        from .printed import printed
-
         taken = {folded(name) for name in self.meanings}
         new = {name: said for name, said in printed(self.mechanism).items() if folded(name) not in taken}
         for name, said in new.items():
             with suppress(Complaint):
                 self._declare(name, said)
         return bool(new)
+
+    def notes(self, program: Program) -> tuple[str, ...]:
+        """Of each letter of a program that usually means something else what that is called here."""
+        used = {folded(n.name) for n in walk(program) if isinstance(n, Letter)}
+        return tuple(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used)
 
     def _reading(self, text: str) -> Meaning | None:
         try:
@@ -272,7 +277,7 @@ class Letters:
                 raise complaint from None
 
     def _written_out(self, token: str, is_call: bool) -> str:
-        if is_call or token in self.named.values:
+        if is_call or token in self.named.values or token in self._bodies:
             return token
         name = token if token in self.meanings else self._spellings.find(folded(token)) if "." not in token else None
         found = self.meanings.get(name[0] if isinstance(name, tuple) else name or "")

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from freebody import _core
-from freebody.equations.names import unicode_name
 from freebody.equations.tree import Add, Mul, Num, Sym, Tree
 from freebody.model.errors import Complaint
 from freebody.model.names import spell
+from freebody.symbolic.symbols import Renamed, unicode_name
 
 if TYPE_CHECKING:
     from freebody.equations.derivation.told import Subject
@@ -27,43 +27,61 @@ def printed(mechanism: Builder) -> Mapping[str, str]:
 
     try:
         subject = Subject(mechanism.source(), mechanism.start()[0])
-        found = [*_loads(subject), *_numbers(subject), *_bodies(subject), *_whole(subject), *_directions(subject)]
+        found = [*_loads(subject), *_given(subject), *_numbers(subject), *_bodies(subject), *_whole(subject), *_directions(subject)]
     except (_core.MotionError, Complaint):
         return {}
     return dict(found)
 
 
-def _loads(subject: Subject) -> Iterator[tuple[str, str]]:
-    from freebody.naming import load_names
+def renamed(mechanism: Builder) -> list[Renamed]:
+    """What is not called by its usual name, because something else is. Nothing where the model does not start."""
+    from freebody.equations.derivation.told import Subject
 
-    names = load_names(subject.free.loads, subject.source)
+    try:
+        return list(Subject(mechanism.source(), mechanism.start()[0]).symbols.renamed.values())
+    except (_core.MotionError, Complaint):
+        return []
+
+
+def _loads(subject: Subject) -> Iterator[tuple[str, str]]:
+    names = subject.symbols.loads
     for load in subject.free.loads:
         if load.symbol in names:
             one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
             yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
 
 
+def _given(subject: Subject) -> Iterator[tuple[str, str]]:
+    """Parameters and coordinates of which another is written alike."""
+    for name in subject.symbols.renamed:
+        if name in subject.symbols.names and subject.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
+            yield subject.symbols.names[name].unicode(), spell(name)
+
+
 def _numbers(subject: Subject) -> Iterator[tuple[str, str]]:
     """Masses and inertias that are numbers in the model."""
     for name, entry in subject.table.items():
         if entry["kind"] == "number":
-            yield unicode_name(name), f"{entry['value']!r} {entry['unit']}"
+            yield subject.symbols.names[name].unicode(), f"{entry['value']!r} {entry['unit']}"
 
 
 def _bodies(subject: Subject) -> Iterator[tuple[str, str]]:
     """Places, velocities and accelerations of mass centres, and angles."""
     for body in subject.source.about["bodies"]:
         said, name = spell(body["name"]), body["name"]
-        yield from ((unicode_name(f"{letter}_{name}"), f"{letter}({said}.G)") for letter in "xy")
-        for letter, read in (("r", ""), ("v", "v"), ("a", "a")):
-            yield unicode_name(f"{letter}_{name}"), f"[{read}x({said}.G), {read}y({said}.G)]"
-        if not body["particle"]:
-            yield unicode_name(f"phi_{name}"), f"angle({said})"
-            yield unicode_name(f"alpha_{name}"), f"alpha({said})"
+        read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
+        read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
+        yield from ((subject.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
+        for stem, long, meant in (("x", "place_x", f"x({said}.G)"), ("y", "place_y", f"y({said}.G)"), ("phi", "angle", f"angle({said})")):
+            yield from ((unicode_name(f"{each}_{name}"), meant) for each in (stem, long))
 
 
 def _whole(subject: Subject) -> Iterator[tuple[str, str]]:
-    yield from (("E_k", "kinetic()"), ("E_p", "potential()"), ("L_x", "momentum_x()"), ("L_y", "momentum_y()"))
+    from freebody.equations.derivation.conserved import energies
+
+    yield from ((name.text, meant) for name, meant in zip(energies(subject), ("kinetic()", "potential()"), strict=True))
+    for axis in "xy":
+        yield subject.symbols.quantity(f"L_{axis}", f"momentum along {axis}").unicode(), f"momentum_{axis}()"
     yield from ((f"H/{point}", _momentum(spell(point))) for point in subject.points)
     for point in list(subject.points)[:1]:
         yield "H/G", f"{_momentum(spell(point))} - {_carried(spell(point))}"
@@ -83,7 +101,9 @@ def _directions(subject: Subject) -> Iterator[tuple[str, str]]:
     from freebody.equations.derivation.opening import directions
 
     turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
-    for pair in directions(subject).pairs:
+    named = directions(subject)
+    yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))
+    for pair in named.pairs:
         if (angle := _said(pair.angle, turning)) is not None:
             c, s = f"cos({angle})", f"sin({angle})"
             around = (f"[{c}, {s}]", f"[-{s}, {c}]", f"[-{c}, -{s}]", f"[{s}, -{c}]")

@@ -80,6 +80,8 @@ class Verdict:
     evidence: Evidence | None = None
     untested: tuple[str, ...] = ()
     true: str = ""
+    notes: tuple[str, ...] = ()
+    """What the statement calls by a name that means something else in this model."""
     parts: tuple[Verdict, ...] = field(default=(), repr=False)
 
     @property
@@ -98,7 +100,7 @@ class Verdict:
             lines.append(str(self.evidence))
         if self.untested:
             lines.append(f"nothing was learnt about {', '.join(f'`{term}`' for term in self.untested)}")
-        return lines
+        return [*lines, *self.notes]
 
     def __str__(self) -> str:
         return "\n  ".join([self.kind.value, *self.details])
@@ -122,7 +124,7 @@ def judged(case: Case) -> Verdict:
     assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
     untested = tuple(term for part in parts for term in part.untested)
     true = "\n  ".join(dict.fromkeys(part.true for part in parts if part.true))
-    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true, tuple(parts))
+    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true, parts=tuple(parts))
 
 
 def judged_one(case: Case, equation: Equation) -> Verdict:

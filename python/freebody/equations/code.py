@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 from freebody.equations.emit import LANGUAGES, Language, Writer
 from freebody.equations.letters import Letters
-from freebody.equations.names import ascii_name
 from freebody.equations.tree import PI, Entries, Sym, Tree, symbols
+from freebody.symbolic.symbols import ascii_name
 
 _WORDS_OF_C = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
@@ -96,6 +96,7 @@ def _header(letters: Letters, arrays: Sequence[str]) -> list[str]:
             letter = letters[name]
             unit = f" [{letter.unit}]" if letter.unit else ""
             lines.append(f"    {array}[{place}] {name}{unit}{f': {letter.doc}' if letter.doc else ''}")
+    lines += (str(said) for name, said in letters.renamed.items() if name in letters)
     return lines
 
 

@@ -12,9 +12,9 @@ from fractions import Fraction
 from freebody.equations import breaking, layout
 from freebody.equations.breaking import ROOM
 from freebody.equations.letters import Letters
-from freebody.equations.names import latex_name, upright
 from freebody.equations.printer import Printer
 from freebody.equations.tree import Entries, Fn, Sym, Tree
+from freebody.symbolic.symbols import latex_name, upright
 
 ROW = " \\\\\n"
 """Between two rows of an equation."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from freebody.equations.names import Name
 from freebody.equations.tree import Sym
+from freebody.symbolic.symbols import Name, Renamed
 
 KINDS = ("coordinate", "parameter", "time", "unknown", "constant", "indeterminate")
 
@@ -30,6 +30,8 @@ class Letters(Mapping[str, Letter]):
     """The letters of some equations by name, in the order of the model. A name that is not there reads as a parameter."""
 
     table: Mapping[str, Letter] = field(default_factory=dict)
+    renamed: Mapping[str, Renamed] = field(default_factory=dict)
+    """Those that are not written as usual, because that means something else."""
 
     @classmethod
     def read(cls, data: Mapping[str, Mapping[str, Any]]) -> Letters:

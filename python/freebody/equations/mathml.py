@@ -8,7 +8,7 @@ import html
 import re
 from collections.abc import Callable, Iterator, Mapping
 
-from freebody.equations.names import GREEK
+from freebody.symbolic.symbols import GREEK
 
 _TOKEN = re.compile(r"\\([a-zA-Z]+|.)|(\d+(?:\.\d+)?)|(.)", re.S)
 _OPERATORS = {

@@ -10,9 +10,9 @@ from fractions import Fraction
 
 from freebody.equations import layout
 from freebody.equations.letters import Letters
-from freebody.equations.names import ascii_name, superscript, unicode_name
 from freebody.equations.printer import Printer
 from freebody.equations.tree import Add, Fn, Num, Sym, Tree
+from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
 
 WIDTH = 100
 _VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}

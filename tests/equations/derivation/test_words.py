@@ -9,11 +9,11 @@ from freebody import _core
 from freebody.balances.reasons import agree
 from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
-from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.opening import degrees, directions
 from freebody.equations.derivation.told import Subject
 from freebody.equations.tree import Sym, evaluate, minus, symbols
 from freebody.free_body import GROUND
+from freebody.naming import load_words
 
 LADDER = """
 freebody: 1

@@ -4,7 +4,7 @@ use super::equation::linear_in;
 use super::motion::acceleration;
 
 use super::vectors::tree_by;
-use super::{sizes, Letters};
+use super::{own_letter, sizes, Letters};
 use crate::algebra::{Letter, Symbol, Tree};
 use crate::balance::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{follow_presses, loads, Load, Size};
@@ -27,19 +27,20 @@ impl Letters<'_> {
         let mut free = Free { k: self.k.clone(), bodies: self.bodies.clone(), coordinates: vec![] };
         for i in 1..self.m.bodies.len() {
             let body = &self.m.bodies[i];
-            let mut named = |word: &str, values: [Symbol; 3]| -> [Symbol; 3] {
-                let name = format!("{word}_{}", body.name);
+            let mut named = |word: &str, long: &str, values: [Symbol; 3]| -> [Symbol; 3] {
+                let names = [format!("{word}_{}", body.name), format!("{long}_{}", body.name)];
+                let name = own_letter(self.m.parameters.iter().map(|p| p.name.as_str()), &names);
                 let told = [0, 1, 2].map(|d| Symbol::letter(Letter::new(&name, d as u8), values[d].value()));
                 free.coordinates.push(name);
                 told
             };
             let (arm, twist, pin) = (self.arm(i), self.k.twist[i], self.bodies[i]);
             let (r, v, a) = (self.centre(i), twist.at(arm), acceleration(pin, arm, twist.w));
-            let x = named("x", [r.x, v.x, a.x]);
-            let y = named("y", [r.y, v.y, a.y]);
+            let x = named("x", "place_x", [r.x, v.x, a.x]);
+            let y = named("y", "place_y", [r.y, v.y, a.y]);
             let angle = match body.particle {
                 true => [self.k.pose[i].turn.angle, Symbol::zero(), Symbol::zero()],
-                false => named("phi", [self.k.pose[i].turn.angle, twist.w, pin.w]),
+                false => named("phi", "angle", [self.k.pose[i].turn.angle, twist.w, pin.w]),
             };
             let turn = Turn::by(angle[0]);
             let to_pin = -turn.apply(self.n.centre[i]);

@@ -40,8 +40,19 @@ pub struct Letters<'m> {
     loads: Vec<Load<Symbol>>,
     /// The size of each load: a letter where it is unknown.
     sizes: Vec<Symbol>,
-    /// Letters of numbers that the model leaves without a name, with value and unit.
-    named: Vec<(String, f64, &'static str)>,
+    /// Letters of numbers that the model leaves without a name.
+    named: Vec<Named>,
+}
+
+/// A letter that a number gets which the model leaves without a name.
+struct Named {
+    letter: String,
+    value: f64,
+    unit: &'static str,
+    /// The names that it may have, the usual one first.
+    names: [String; 2],
+    /// What it is.
+    doc: String,
 }
 
 impl<'m> Letters<'m> {
@@ -101,31 +112,43 @@ impl<'m> Letters<'m> {
     }
 }
 
+/// A letter for what the model does not name: the first that is not taken, with `_` or without.
+fn own_letter<'a>(taken: impl Iterator<Item = &'a str>, names: &[String; 2]) -> String {
+    let plain = |name: &str| name.replace('_', "");
+    let taken: Vec<String> = taken.map(plain).collect();
+    let numbered = (2..).map(|i| format!("{}{i}", names[1]));
+    names.iter().cloned().chain(numbered).find(|name| !taken.contains(&plain(name))).unwrap_or_default()
+}
+
 /// Gives letters to numbers that the model leaves without a name: g, masses and inertias; answers which.
 fn name_numbers(
     m: &Mechanism,
     n: &Numbers,
     named: &dyn Fn(&str, u8, f64) -> Symbol,
     slots: &mut [Symbol],
-) -> Vec<(String, f64, &'static str)> {
+) -> Vec<Named> {
     let mut told = vec![];
-    let mut name = |slot: usize, name: String, unit: &'static str| {
+    let mut name = |slot: usize, names: [String; 2], unit: &'static str, doc: String| {
         let value = n.slots[slot];
         if m.slots[slot].literal().is_some() && value != 0.0 {
-            slots[slot] = named(&name, 0, value.abs()).scale(value.signum());
-            told.push((name, value.abs(), unit));
+            let coordinates = (0..m.freedom()).map(|i| m.coordinate(i).name.as_str());
+            let letter = own_letter(m.parameters.iter().map(|p| p.name.as_str()).chain(coordinates), &names);
+            slots[slot] = named(&letter, 0, value.abs()).scale(value.signum());
+            told.push(Named { letter, value: value.abs(), unit, names, doc });
         }
     };
     let [x, y] = m.gravity;
     if n.slots[x] == 0.0 || n.slots[y] == 0.0 {
-        name(x, "g".into(), "m/s^2");
-        name(y, "g".into(), "m/s^2");
+        for slot in [x, y] {
+            name(slot, ["g".into(), "gravity".into()], "m/s^2", "gravity".into());
+        }
     }
     for body in m.bodies.iter().filter(|body| body.pieces.len() == 1) {
-        let piece = &body.pieces[0];
-        name(piece.mass, format!("m_{}", body.name), "kg");
+        let (piece, of) = (&body.pieces[0], &body.name);
+        name(piece.mass, [format!("m_{of}"), format!("mass_{of}")], "kg", format!("mass of {of}"));
         if let Some(slot) = piece.inertia {
-            name(slot, format!("I_{}", body.name), "kg*m^2");
+            let doc = format!("inertia about the mass centre of {of}");
+            name(slot, [format!("I_{of}"), format!("inertia_{of}")], "kg*m^2", doc);
         }
     }
     told
@@ -176,7 +199,7 @@ impl Letters<'_> {
     fn table(&self) -> Value {
         let mut table = serde_json::Map::new();
         let mut add = |name: &str, kind: &str, value: f64, unit: &str| {
-            table.entry(name.to_string()).or_insert(json!({"kind": kind, "value": value, "unit": unit}));
+            table.insert(name.to_string(), json!({"kind": kind, "value": value, "unit": unit}));
         };
         for i in 0..self.m.freedom() {
             let c = self.m.coordinate(i);
@@ -185,15 +208,16 @@ impl Letters<'_> {
         for (p, x) in self.m.parameters.iter().zip(&self.n.p) {
             add(&p.name, "parameter", x.value(), &p.unit);
         }
-        for letter in &self.named {
-            add(&letter.0, "number", letter.1, letter.2);
-        }
         for (load, size) in self.loads.iter().zip(&self.sizes) {
             if matches!(load.size, Size::Unknown | Size::ByLaw) {
                 add(&load.symbol, "unknown", size.value(), "");
             }
         }
         add("t", "time", self.t.value(), "s");
+        for n in &self.named {
+            let told = json!({"kind": "number", "value": n.value, "unit": n.unit, "names": n.names, "doc": n.doc});
+            table.insert(n.letter.clone(), told);
+        }
         Value::Object(table)
     }
 }

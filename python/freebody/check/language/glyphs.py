@@ -7,8 +7,9 @@ import unicodedata
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from freebody.symbolic.symbols import LATEX_WORDS, READ, dots, folded, plain
+
 from ...model.names import nearest
-from .alphabet import LATEX_WORDS, NAMES, dots, folded, plain
 from .errors import Span, StatementError
 
 
@@ -260,7 +261,7 @@ def _plain_glyph(char: str, span: Span) -> Glyph:
     if form.startswith("<sub>"):
         return Glyph(Kind.LOW, plain(base), span)
     if base in "'’′″":
-        return Glyph(Kind.PRIME, NAMES.get(base, base), span)
+        return Glyph(Kind.PRIME, READ.get(base, base), span)
     if (base.isalpha() and char not in _SAME) or base == "∑":
-        return Glyph(Kind.WORD, plain(base), span, dots(char), base in NAMES and base not in "ℓıȷΣ∑")
+        return Glyph(Kind.WORD, plain(base), span, dots(char), base in READ and base not in "ℓıȷΣ∑")
     return Glyph(Kind.SIGN, _SAME.get(char, char), span)

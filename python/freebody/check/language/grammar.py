@@ -7,9 +7,10 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from freebody.symbolic.symbols import folded
+
 from ...model import units
 from ...model.errors import Complaint
-from .alphabet import folded
 from .derivatives import derivative
 from .errors import Span, StatementError
 from .evaluate import ARGUMENTS
@@ -378,7 +379,9 @@ class Line:
             return None
         start = self.row[self.at - 1].span[1]
         if upright := _UPRIGHT.match(self.text, start):
-            return self.unit_of(upright[1].replace(r"\cdot", "·"), start, upright.end())
+            # A word with a subscript, or one that is a letter here, is printed upright as well.
+            named = self.text.startswith("_", upright.end()) or (len(upright[1]) > 1 and self.names.find(folded(upright[1])))
+            return None if named else self.unit_of(upright[1].replace(r"\cdot", "·"), start, upright.end())
         for end in reversed(self.unit_ends(start)):
             if found := self.unit_of(self.text[start:end], start, end):
                 return found

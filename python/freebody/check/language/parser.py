@@ -18,7 +18,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from .alphabet import folded
+from freebody.symbolic.symbols import folded
+
 from .derivatives import derivative, partial
 from .errors import StatementError
 from .grammar import CLOSES, RELATIONS, SIGNED, Line

@@ -7,7 +7,8 @@ import re
 import unicodedata
 from collections.abc import Callable, Sequence
 
-from .alphabet import SIGNS
+from freebody.symbolic.symbols import GREEK
+
 from .nodes import (
     Assignment,
     Call,
@@ -219,7 +220,7 @@ def _tex_letter(letter: Letter) -> str:
     found = _NAME.fullmatch(letter.name)
     if not found:
         return rf"\mathrm{{{letter.name}}}" if not letter.dots else rf"{_LATEX_DOTS[letter.dots]}{{\mathrm{{{letter.name}}}}}"
-    base = "\\" + found[1] if found[1] in SIGNS else found[1] if len(found[1]) == 1 else rf"\mathrm{{{found[1]}}}"
+    base = "\\" + found[1] if found[1] in GREEK else found[1] if len(found[1]) == 1 else rf"\mathrm{{{found[1]}}}"
     index = found[2] or found[3]
     dotted = rf"{_LATEX_DOTS[letter.dots]}{{{base}}}" if letter.dots else base
     return dotted + (f"_{{{index}}}" if index else "") + found[4]

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from .alphabet import folded
+from freebody.symbolic.symbols import folded
+
 from .errors import Span, StatementError
 from .evaluate import FUNCTIONS
 from .glyphs import Glyph, Kind, glyphs

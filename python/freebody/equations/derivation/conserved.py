@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 from freebody.equations.derivation import momenta
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.tree import Sym, Tree, add, read, symbols
-
-_KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
 
 _CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
 
@@ -26,6 +26,13 @@ def energy(subject: Subject) -> tuple[Tree, Tree, str]:
     return kinetic, potential, _losses(subject, told["without_potential"], symbols(kinetic, potential))
 
 
+def energies(subject: Subject) -> tuple[Written, Written]:
+    """How the kinetic and the potential energy are written."""
+    kinetic, potential = (subject.symbols.quantity(f"E_{word[0]}", f"{word} energy") for word in ("kinetic", "potential"))
+    made = (Written(name.unicode(), re.sub("(?<=^E_)([kp])$", r"\\mathrm{\1}", name.latex())) for name in (kinetic, potential))
+    return next(made), next(made)
+
+
 def _losses(subject: Subject, without: list[str], letters: set[Sym]) -> str:
     motions = [load.name for load in subject.free.loads if load.kind == "motion"]
     laws = {letter.name for letter, _ in subject.laws}
@@ -39,7 +46,8 @@ def _losses(subject: Subject, without: list[str], letters: set[Sym]) -> str:
 
 def _energy(subject: Subject) -> list[Block]:
     kinetic, potential, why = energy(subject)
-    made: list[Block] = [Equation(_KINETIC, kinetic, "The kinetic and the potential energy"), Equation(_POTENTIAL, potential)]
+    left, right = energies(subject)
+    made: list[Block] = [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
     if why:
         return [*made, Paragraph(f"Their sum is not conserved: {why}.")]
     return [*made, Paragraph(_CONSERVED)]

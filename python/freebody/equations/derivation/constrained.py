@@ -13,6 +13,7 @@ from freebody.equations.document import Block, Equation, Figure, Heading, Matric
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import Linear
 from freebody.equations.tree import Tree, is_zero, negative, read
+from freebody.symbolic.symbols import Name, Renamed
 
 _BLOCKS = Written(
     "[M −W; G 0] [a; λ]",
@@ -27,6 +28,8 @@ _LEGEND = (
 _CAPTION = "Every body by itself: its mass centre from the origin, its angle from the x axis. What is 0 now is drawn a little further on."
 
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
+_STARTS = {"place_x": "x", "place_y": "y", "angle": "phi", "x": "x", "y": "y", "phi": "phi"}
+"""How a letter of the core begins: the long words where a parameter of the model has the usual name."""
 
 
 def constrained(subject: Subject) -> tuple[Form, Letters]:
@@ -40,7 +43,7 @@ def constrained(subject: Subject) -> tuple[Form, Letters]:
         made += closing.section(rows, names, everywhere=True)
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
-    letters = _letters(names, subject.letters)
+    letters = _letters(names, subject)
     form = Form.of(letters, equations + closing.printed(rows), [])
     made += _in_blocks(form.system, len(equations))
     return replace(form, blocks=tuple(made)), letters
@@ -98,14 +101,19 @@ def _balance(data: dict) -> Printed:
     return Printed(f"{where} for {data['body']}", left, right, Linear.read(data["linear"]))
 
 
-def _letters(names: list[str], known: Letters) -> Letters:
+def _letters(names: list[str], subject: Subject) -> Letters:
     found: dict[str, Letter] = {}
+    known, renamed = subject.letters, dict(subject.letters.renamed)
     for name in names:
-        word, _, body = name.partition("_")
+        word, body = next((word, name.removeprefix(f"{start}_")) for start, word in _STARTS.items() if name.startswith(f"{start}_"))
         unit, doc = _WHAT[word]
         found[name] = Letter(name, "coordinate", unit, doc.format(body))
+        usual = f"{word}_{body}"
+        if name != usual:
+            renamed[name] = Renamed(Name.parse(usual), f"the parameter {usual}", doc.format(body), Name.parse(name))
     rest = {letter.name: letter for letter in known.values() if letter.kind != "coordinate"}
-    return Letters(found | rest)
+    rest |= {letter.name: replace(letter, kind="parameter") for letter in known.values() if letter.written and letter.name not in rest}
+    return Letters(found | rest, renamed)
 
 
 def _introduction(names: list[str]) -> str:

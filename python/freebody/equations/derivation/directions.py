@@ -12,8 +12,8 @@ from freebody.equations.collect import factored
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
 from freebody.equations.document import Vector, Words, Written
-from freebody.equations.names import latex_name, subscript, unicode_name
 from freebody.equations.tree import PI, Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
+from freebody.symbolic.symbols import Name, Taken, latex_name, subscript, unicode_name
 
 
 @dataclass(frozen=True)
@@ -60,27 +60,20 @@ class Direction:
         """Name of the second."""
         return f"n_{self.below}"
 
-    def sentence(self) -> Words:
-        """What it is."""
+    def sentence(self, axes: Sequence[str]) -> Words:
+        """What it is, where the unit vectors along x, along y and across the plane are called ``axes``."""
         if self.link:
             quarters = self.quarters - 4 * (self.quarters == 3)
-            ahead = add(self.angle, mul(number(Fraction(quarters, 2)), Sym(PI)))
-            where = f" points along {self.link.name}, from {self.link.first} to {self.link.second}, at the angle "
-            return [
-                unit(self.along),
-                where,
-                ahead,
-                " from i, counter-clockwise; ",
-                unit(self.across),
-                " = k × ",
-                unit(self.along),
-                ".",
-            ]
-        at = ["at the angle ", self.angle, " from i, counter-clockwise"]
-        where = [f"along the x axis of {joined(self.owners)}, "] if self.owners else []
-        if self.turning and not self.owners:
-            where = [f"(turning with {joined(self.turning)}) "]
-        return [unit(self.along), " points ", *where, *at, "; ", unit(self.across), " = k × ", unit(self.along), "."]
+            where = [f"along {self.link.name}, from {self.link.first} to {self.link.second}, "]
+            angle = add(self.angle, mul(number(Fraction(quarters, 2)), Sym(PI)))
+        else:
+            angle, where = self.angle, []
+            if self.owners:
+                where = [f"along the x axis of {joined(self.owners)}, "]
+            elif self.turning:
+                where = [f"(turning with {joined(self.turning)}) "]
+        across = [unit(self.across), f" = {axes[2]} × ", unit(self.along), "."]
+        return [unit(self.along), " points ", *where, "at the angle ", angle, f" from {axes[0]}, counter-clockwise; ", *across]
 
 
 @dataclass(frozen=True)
@@ -89,6 +82,8 @@ class Directions:
 
     pairs: tuple[Direction, ...]
     moving: frozenset[str]
+    axes: tuple[str, str, str] = ("i", "j", "k")
+    """Unit vectors along the fixed axes x and y, and across the plane."""
 
     @classmethod
     def of(
@@ -98,9 +93,12 @@ class Directions:
         moving: Collection[str],
         links: Sequence[Link] = (),
         values: Mapping[Sym, float] | None = None,
+        symbols: Taken | None = None,
     ) -> Directions:
         """The pairs for some vectors (``moving`` letters change with time), named after bodies that turn with them, after the
-        link that they are along, after the letter of the angle, or numbered; ``values`` of the letters tell links."""
+        link that they are along, after the letter of the angle, or numbered; ``values`` of the letters tell links, ``symbols``
+        what names mean something else."""
+        symbols = symbols or Taken()
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
         bodies = [body for body in motions if not body.particle]
         owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
@@ -115,13 +113,14 @@ class Directions:
             named = [_word(body) for body in (*owners[angle], *turning[angle], *([link.name] if link else []))]
             named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
             taken = {pair.below for pair in made}
+            taken |= {word for word in named if any(symbols.owner(Name(stem, (word,))) for stem in "λn")}
             below = next((word for word in named if word not in taken), str(len(made) + 1))
             made.append(Direction(below, angle, owners[angle], turning[angle], link, quarters))
-        return cls(tuple(made), frozenset(moving))
+        return cls(tuple(made), frozenset(moving), axes(symbols))
 
     def vector(self, arrow: Arrow) -> Vector:
         """A vector in these directions and i, j."""
-        parts: list[tuple[Tree, str]] = [(arrow.i, "i"), (arrow.j, "j")]
+        parts: list[tuple[Tree, str]] = [(arrow.i, self.axes[0]), (arrow.j, self.axes[1])]
         told = {part.angle: part for part in arrow.parts}
         for pair in (pair for pair in self.pairs if pair.angle in told):
             x, y = told[pair.angle].along, told[pair.angle].across
@@ -140,6 +139,14 @@ class Directions:
             found.append((_rate(pair.along), Vector(((rate, pair.across),))))
             found.append((_rate(pair.across), Vector(((mul(number(-1), rate), pair.along),))))
         return found
+
+
+def axes(symbols: Taken) -> tuple[str, str, str]:
+    """The unit vectors along the fixed axes and across the plane: i, j, k, or e_x, e_y, e_z where the model has such letters."""
+    what = {"i": "the unit vector along x", "j": "the unit vector along y", "k": "the unit vector across the plane"}
+    names = (symbols.give(what[letter], Name(letter), Name("e", (axis,))) for letter, axis in zip("ijk", "xyz", strict=True))
+    x, y, z = (name.unicode() for name in names)
+    return x, y, z
 
 
 def unit(name: str) -> Written:

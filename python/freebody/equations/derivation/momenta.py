@@ -12,12 +12,13 @@ from freebody.balances.reasons import Place, agree, why_absent
 from freebody.balances.states import wandering
 from freebody.equations.collect import factored, quotient
 from freebody.equations.derivation.balancing import size
-from freebody.equations.derivation.meaning import joined, load_words
+from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Equation, Paragraph, Written
-from freebody.equations.names import upright
 from freebody.equations.tree import Add, Tree, add, evaluate, is_negative, is_zero, negative, power, symbols
 from freebody.free_body import Load
+from freebody.naming import load_words
+from freebody.symbolic.symbols import upright
 
 _ABSENT = 1e-9
 """Part of a load below which it has none in a balance."""
@@ -69,11 +70,12 @@ def _letter(subject: Subject, found: Lasting) -> Written:
     whole = len(found.bodies) == len(subject.free.bodies)
     point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
     if whole and isinstance(along, str):
-        return Written(f"L_{along}", f"L_{along}")
+        name = subject.symbols.quantity(f"L_{along}", f"momentum along {along}")
+        return Written(name.unicode(), name.latex())
     if whole and point:
         return Written(f"H/{point}", rf"H_{{/{upright(point)}}}")
-    plain = "H" if found.turns else "L"
-    return Written(plain, plain)
+    name = subject.symbols.quantity(*("H", "angular momentum") if found.turns else ("L", "momentum"))
+    return Written(name.unicode(), name.latex())
 
 
 def _written(subject: Subject, balance: Balance) -> Tree:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from freebody.equations.derivation.meaning import joined, plain
 from freebody.equations.derivation.told import Arrow, Motion, Subject
 from freebody.equations.document import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
 from freebody.equations.letters import Letter, Letters
-from freebody.equations.names import latex_name, superscript, unicode_name
 from freebody.equations.tree import Sym, is_zero
+from freebody.naming import Symbols
+from freebody.symbolic.symbols import superscript
 
 _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
 
@@ -73,12 +75,12 @@ def sketch(subject: Subject) -> Figure:
 def kinematics(subject: Subject) -> list[Block]:
     """Position, velocity and acceleration of every mass centre in named unit directions."""
     named = directions(subject)
-    made: list[Block] = [Heading("Kinematics"), Paragraph(_axes(subject.motions))]
+    made: list[Block] = [Heading("Kinematics"), Paragraph(_axes(subject.motions, *named.axes))]
     if named.pairs:
-        made += [Paragraph("Unit directions that turn:"), Bullets([pair.sentence() for pair in named.pairs])]
+        made += [Paragraph("Unit directions that turn:"), Bullets([pair.sentence(named.axes) for pair in named.pairs])]
         made += [Equation(left, right) for left, right in named.rates() if not subject.at_rest]
     for body in subject.motions:
-        made += _body(body, named)
+        made += _body(body, named, subject.symbols)
     return made
 
 
@@ -87,7 +89,7 @@ def directions(subject: Subject, arrows: Sequence[Arrow] = ()) -> Directions:
     motions = subject.motions
     names = [c["name"] for c in subject.coordinates]
     arrows = arrows or [a for b in motions for a in (b.r, b.v, b.a)]
-    return Directions.of(motions, arrows, [*names, "t"], _links(subject), subject.values)
+    return Directions.of(motions, arrows, [*names, "t"], _links(subject), subject.values, subject.symbols.taken)
 
 
 def _links(subject: Subject) -> list[Link]:
@@ -112,6 +114,8 @@ def letters(known: Letters, used: Collection[str]) -> list[Block]:
     if unknown:
         rows = [([Sym(letter.name)], letter.doc) for letter in unknown]
         made.append(Table(("letter", "what it is"), rows, "Unknown:"))
+    if renamed := list(map(str, known.renamed.values())):
+        made.append(Paragraph(" ".join(renamed)))
     return [Heading("Letters"), *made] if made else []
 
 
@@ -139,20 +143,20 @@ def _count(number: int) -> str:
     return "One coordinate tells" if number == 1 else f"{number} coordinates tell"
 
 
-def _axes(motions: Sequence[Motion]) -> str:
+def _axes(motions: Sequence[Motion], x: str, y: str, z: str) -> str:
     massless = [body.body for body in motions if is_zero(body.mass)]
-    said = "i and j are unit vectors along the fixed axes x and y, k = i × j. r, v and a are those of mass centres."
+    said = f"{x} and {y} are unit vectors along the fixed axes x and y, {z} = {x} × {y}. r, v and a are those of mass centres."
     return said + (f" {joined(massless)} {'has' if len(massless) == 1 else 'have'} no mass." if massless else "")
 
 
-def _body(body: Motion, directions: Directions) -> list[Block]:
-    named = [(letter, getattr(body, letter)) for letter in "rva"]
-    made: list[Block] = [
-        Equation(Written(unicode_name(f"{letter}_{body.body}"), rf"\mathbf{{{letter}}}_{{{latex_name(body.body)}}}"), directions.vector(arrow),
-                 f"For {body.body}" if letter == "r" else "")
-        for letter, arrow in named
-    ]  # fmt: skip
+def _body(body: Motion, directions: Directions, symbols: Symbols) -> list[Block]:
+    made: list[Block] = []
+    for stem in "rva":
+        name = symbols.of_body(stem, body.body)
+        bold = replace(name, stem="@").latex().replace("@", rf"\mathbf{{{name.stem}}}")
+        lead = f"For {body.body}" if stem == "r" else ""
+        made.append(Equation(Written(name.unicode(), bold), directions.vector(getattr(body, stem)), lead))
     if not body.particle:
-        alpha = Written(unicode_name(f"alpha_{body.body}"), rf"\alpha_{{{latex_name(body.body)}}}")
-        made.append(Equation(alpha, body.alpha))
+        alpha = symbols.of_body("alpha", body.body)
+        made.append(Equation(Written(alpha.unicode(), alpha.latex()), body.alpha))
     return made

@@ -17,6 +17,7 @@ from freebody.equations.linear import Linear
 from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
 from freebody.free_body import GROUND, FreeBodies
 from freebody.instant import State
+from freebody.naming import Symbols
 from freebody.source import Source
 
 Question = Mapping[str, Any]
@@ -240,6 +241,11 @@ class Subject:
     def laws(self) -> list[tuple[Sym, Tree]]:
         """Loads that follow from others by a law that is not linear, with what they are."""
         return [(Sym(law["load"]), read(law["tree"])) for law in self._told([])["laws"]]
+
+    @cached_property
+    def symbols(self) -> Symbols:
+        """How everything is written."""
+        return Symbols.of(self.source, self.free.loads, self.table)
 
     @cached_property
     def letters(self) -> Letters:

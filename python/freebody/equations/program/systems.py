@@ -13,9 +13,9 @@ from freebody.equations.linear import Linear, linear_in
 from freebody.equations.tree import ZERO, Sym, Tree, negative, read
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
+from freebody.naming import Symbols
 from freebody.source import Source
 
-_NUMBERS = {"m": "mass", "I": "inertia about the mass centre"}
 Matrix = tuple[tuple[Tree, ...], ...]
 Row = tuple[Tree, ...]
 
@@ -108,9 +108,10 @@ def _letters(source: Source, free: FreeBodies, table: Mapping[str, Mapping[str, 
     given = {item["name"]: item["value"] for item in json.loads(source.spec)["parameters"]}
     found += [Letter(name, "parameter", table[name]["unit"], _formula(value, given)) for name, value in given.items()]
     unnamed = (name for name, entry in table.items() if entry["kind"] == "number")
-    found += [Letter(name, "constant", table[name]["unit"], _number(name)) for name in unnamed]
+    found += [Letter(name, "constant", table[name]["unit"], table[name]["doc"]) for name in unnamed]
     found += [Letter(load.symbol, "unknown", "", _said(load)) for load in free.loads if load.unknown and not load.follows]
-    return Letters({letter.name: letter for letter in (*found, Letter("t", "time", "s"))})
+    renamed = Symbols.of(source, free.loads, table).renamed
+    return Letters({letter.name: letter for letter in (*found, Letter("t", "time", "s"))}, renamed)
 
 
 def _formula(value: str | float, names: Collection[str]) -> str:
@@ -123,8 +124,3 @@ def _said(load: Load) -> str:
     if load.kind != "joint":
         return f"what {load.name} takes"
     return f"{load.card.name} of {load.name} on {load.of[-1]}, from {load.of[0]}"
-
-
-def _number(name: str) -> str:
-    stem, _, body = name.partition("_")
-    return f"{_NUMBERS[stem]} of {body}" if body else "gravity"

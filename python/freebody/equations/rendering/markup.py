@@ -29,9 +29,9 @@ from freebody.equations.document import (
 from freebody.equations.latex import ROW, LatexPrinter, aligned, latex, matrix_latex, sides_latex
 from freebody.equations.letters import Letters
 from freebody.equations.mathml import broken, mathml
-from freebody.equations.names import GREEK, SPELT, escaped, latex_name
 from freebody.equations.rendering.matrices import Named, fitted, has_matrices
 from freebody.equations.tree import Add, Tree, is_zero
+from freebody.symbolic.symbols import GREEK, SPELT, escaped, latex_name
 
 _ACROSS = 80
 """Columns of text that an equation of matrices may take."""

@@ -21,9 +21,9 @@ from freebody.equations.document import (
     pieces,
 )
 from freebody.equations.letters import Letter, Letters
-from freebody.equations.names import Name
 from freebody.equations.text import columns, text
 from freebody.equations.tree import Sym, Tree, is_zero
+from freebody.symbolic.symbols import Name
 
 _STEPS = (24, 12, 6, 3, 0)
 """Columns that an entry may take, tried one after another until the line is not too wide."""

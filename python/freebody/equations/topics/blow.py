@@ -17,11 +17,9 @@ from freebody.equations.answers import AGREES
 from freebody.equations.collect import quotient
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
-from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.told import Balance, Row, Subject
 from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import linear_in
-from freebody.equations.names import Name
 from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, moving_names
 from freebody.equations.tree import (
@@ -43,7 +41,8 @@ from freebody.equations.tree import (
 )
 from freebody.equations.tree import replace as put
 from freebody.free_body import GROUND, FreeBodies, Load
-from freebody.naming import ImpulseNaming
+from freebody.naming import ImpulseNaming, load_words
+from freebody.symbolic.symbols import Name
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -61,7 +61,7 @@ def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) ->
         Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"])
     )
     made += [Equation(Sym("omega"), read(told["omega"])), Equation(Sym("alpha"), read(told["alpha"]))]
-    made += [Paragraph(pair.sentence()) for pair in directions.pairs]
+    made += [Paragraph(pair.sentence(directions.axes)) for pair in directions.pairs]
 
     def told_as(name: str, word: str, what: str) -> Equation:
         return Equation(_vector(name), directions.vector(arrows[word]), what)

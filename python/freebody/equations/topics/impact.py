@@ -11,7 +11,7 @@ import numpy as np
 from freebody.balances.reasons import agree
 from freebody.equations.collect import collected
 from freebody.equations.derivation.balancing import Stated, dropped
-from freebody.equations.derivation.meaning import joined, load_words
+from freebody.equations.derivation.meaning import joined
 from freebody.equations.document import (
     Block,
     Bullets,
@@ -31,6 +31,7 @@ from freebody.equations.topics.jumps import Solution, jumps
 from freebody.equations.topics.rows import Rows
 from freebody.equations.tree import ZERO, Num, Sym, is_zero, symbols
 from freebody.free_body import Load
+from freebody.naming import load_words
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -12,6 +12,7 @@ import numpy as np
 
 from freebody.equations.collect import quotient
 from freebody.equations.derivation.balancing import Stated
+from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
@@ -22,6 +23,7 @@ from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
 from freebody.equations.tree import ZERO, Num, Sym, Tree, add, evaluate, is_zero, minus, mul, negative, read, symbols, walk
 from freebody.results import Array
+from freebody.symbolic.symbols import Name
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -31,7 +33,6 @@ Coefficients: TypeAlias = Mapping[Sym, Tree]
 _MOST_SIGNS = 400
 """Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for in letters."""
 _SAMPLES, _NOTHING = 3, 1e-8
-_KINETIC, _POTENTIAL = Written("E_k", r"E_\mathrm{k}"), Written("E_p", r"E_\mathrm{p}")
 
 
 @dataclass(frozen=True)
@@ -111,27 +112,29 @@ def lagrange(mechanism: Builder, state: State) -> Document:
     """Energies, Lagrange's equations with generalised forces, and how each is made of balance equations."""
     subject = subject_of(mechanism, state)
     kinetic, potential, found = equations(subject)
-    made: list[Block] = [Heading("Energies"), Equation(_KINETIC, kinetic), Equation(_POTENTIAL, potential)]
-    made += [Heading("Lagrange's equations"), Paragraph(_introduction(subject))]
+    left, right = energies(subject)
+    made: list[Block] = [Heading("Energies"), Equation(left, kinetic), Equation(right, potential)]
+    made += [Heading("Lagrange's equations"), Paragraph(_introduction(subject, left.text, right.text))]
     for each in found:
         name = ["For ", Sym(each.coordinate)]
-        made.append(Equation(_momentum(each.coordinate), each.momentum, name))
+        made.append(Equation(_momentum(left, subject.symbols.names[each.coordinate]), each.momentum, name))
         made.append(Equation(each.left, each.force))
     return document(subject, "Lagrange's equations", made + _equality(subject, found))
 
 
-def _introduction(subject: Subject) -> Words:
-    said = "d/dt ∂E_k/∂q̇ − ∂E_k/∂q + ∂E_p/∂q = Q for every coordinate q, where Q is the power of all that has no potential for a unit of q̇."
+def _introduction(subject: Subject, kinetic: str, potential: str) -> Words:
+    said = (
+        f"d/dt ∂{kinetic}/∂q̇ − ∂{kinetic}/∂q + ∂{potential}/∂q = Q for every coordinate q, "
+        "where Q is the power of all that has no potential for a unit of q̇."
+    )
     if not subject.rows:
         return f"{said} No reaction is in Q: none does work in any motion of the coordinates."
     holding = list(dict.fromkeys(row.name for row in subject.rows))
     return f"{said} The coordinates are not free: what {joined(holding)} exerts is in Q, and unknown."
 
 
-def _momentum(coordinate: str) -> Written:
-    from freebody.equations.names import latex_name, unicode_name
-
-    return Written(f"∂E_k/∂{unicode_name(coordinate, 1)}", rf"\partial E_\mathrm{{k}}/\partial {latex_name(coordinate, 1)}")
+def _momentum(kinetic: Written, coordinate: Name) -> Written:
+    return Written(f"∂{kinetic.text}/∂{coordinate.unicode(1)}", rf"\partial {kinetic.latex}/\partial {coordinate.latex(1)}")
 
 
 def _equality(subject: Subject, found: Sequence[Lagrange]) -> list[Block]:

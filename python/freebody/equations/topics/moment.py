@@ -113,6 +113,6 @@ def _agree(one: Tree, other: Tree) -> None:
 
 
 def _written(stem: str, point: str, latex: str = "") -> Written:
-    from freebody.equations.names import latex_name
+    from freebody.symbolic.symbols import latex_name
 
     return Written(f"{stem}/{point}" if point else stem, f"{latex or stem}_{{/{latex_name(point)}}}" if point else latex or stem)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from freebody.equations.collect import factored
-from freebody.equations.derivation.meaning import load_words
 from freebody.equations.derivation.told import Arrow, Balance, Subject
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
 from freebody.equations.letters import Letter
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
 from freebody.equations.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 from freebody.free_body import GROUND
+from freebody.naming import load_words
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -133,7 +133,7 @@ class Desk:
             "all bodies" if len(group) == len(self.free.bodies) > CROWD else " + ".join(group),
             panels,
             per_newton,
-            notes,
+            notes + self.labels.renamed,
             vanishes=self.effective and not terms,
             unit=self.labels.unit,
             apart=Panel(drawn, [], (), oriented=False) if crowd and drawn.dimensions else None,

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from freebody.equations.latex import latex
-from freebody.equations.names import Name, unicode_name
 from freebody.equations.text import columns, text
 from freebody.equations.tree import Add, Sym, is_zero, symbols
 from freebody.free_body import Load
 from freebody.naming import Naming
+from freebody.symbolic.symbols import Name, unicode_name
 
 _LONGEST = 8  # columns of an expression that is written out for a mass
 
@@ -47,16 +47,23 @@ class Labels:
             return self.of(load)
         return replace(name, below=name.below[:-1]).latex()
 
+    @property
+    def renamed(self) -> list[str]:
+        """Sentences about what is not written as usual, as far as it has been asked for."""
+        return list(map(str, self.naming.symbols.taken.renamed.values()))
+
     def mass(self, body: str) -> str:
         """Of a body's mass: its letter, or a short expression of letters."""
         tree = self.naming.bodies[body][0]
         short = symbols(tree) and not isinstance(tree, Add) and columns(text(tree)) <= _LONGEST
-        return latex(tree) if short else letter(f"m_{body}")
+        return latex(tree, self.naming.letters) if short else self.naming.symbols.of_body("m", body).latex()
 
     def inertia(self, body: str) -> str:
         """Of a body's inertia about its mass centre."""
         tree = self.naming.bodies[body][1]
-        return latex(tree) if isinstance(tree, Sym) else letter(f"I_{body}")
+        if isinstance(tree, Sym):
+            return latex(tree, self.naming.letters)
+        return self.naming.symbols.of_body("I", body).latex()
 
     def acceleration(self, body: str, alone: bool) -> str:
         """Of the acceleration of a body's mass centre, by itself or among several."""
@@ -68,7 +75,9 @@ class Labels:
 
     def angular(self, body: str, alone: bool) -> str:
         """Of the angular acceleration of a body, by itself or among several."""
-        return self._of_body("alpha", body, alone).latex()
+        taken, wanted = self.naming.symbols.taken, self._of_body("alpha", body, alone)
+        what = "the angular acceleration" + f" of {body}" * bool(wanted.below)
+        return taken.give(what, wanted, Name("angular acceleration", wanted.below)).latex()
 
     def _of_body(self, stem: str, body: str, alone: bool) -> Name:
         heavy = [mass for mass, _ in self.naming.bodies.values() if not is_zero(mass)]

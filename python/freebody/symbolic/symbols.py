@@ -1,17 +1,37 @@
-"""Names of letters as they are printed: ``theta1`` is θ₁, ``m_rod`` has a subscript, ``pivot.x`` belongs to the pivot."""
+"""Symbols and their glyphs: how a name is printed (``theta1`` is θ₁, ``m_rod`` has a subscript, ``pivot.x`` belongs to the pivot),
+and which spellings are one symbol: θ, theta and \\theta; m1, m_1, m₁ and m_{1}."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+import unicodedata
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
-from freebody.results import GREEK as SMALL_GREEK
-
-GREEK = SMALL_GREEK | {
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
+    "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
+    "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
     "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ",
     "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
 SPELT = {sign: word for word, sign in GREEK.items()}
+READ: dict[str, str] = {
+    **{sign.upper(): word.capitalize() for word, sign in GREEK.items() if word.islower()},
+    **SPELT, "ο": "omicron", "Ο": "Omicron", "ϑ": "theta", "ϕ": "phi", "ϵ": "epsilon", "ϱ": "rho", "ς": "sigma", "ϖ": "pi",
+    "µ": "mu", "ℓ": "l", "Σ": "sum", "∑": "sum", "ı": "i", "ȷ": "j", "′": "'", "’": "'", "″": "''",
+}  # fmt: skip
+"""A sign that people write, and how its name is spelled with plain letters."""
+LATEX_WORDS: dict[str, str] = {
+    **{name: name for name in (*GREEK, "omicron")},
+    **{f"var{name}": name for name in ("theta", "phi", "epsilon", "rho", "sigma", "pi")},
+    **{"ell": "l", "imath": "i", "jmath": "j", "sum": "sum", "prime": "'"},
+}
+"""LaTeX commands that are letters."""
+_MARKS = {"\u0307": 1, "\u0308": 2, "\u20db": 3}
+_NUMBERED = re.compile(r"[_{},\s]")
+_EPS = re.compile(r"eps(?=\d*$)")
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _FROM_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -127,3 +147,85 @@ def _word(text: str) -> str:
 
 def _braced(text: str) -> str:
     return text if len(text) == 1 else f"{{{text}}}"
+
+
+# -- what people write ---------------------------------------------------------------------------
+
+
+def plain(char: str) -> str:
+    """One character of a name in plain spelling; subscripts come down, marks above are dropped."""
+    if char in READ:
+        return READ[char]
+    base = unicodedata.normalize("NFD", char)[0]
+    kind, _, code = unicodedata.decomposition(base).rpartition("> ")
+    if kind == "<sub":
+        base = chr(int(code, 16))
+    return READ.get(base, base)
+
+
+@lru_cache(4096)
+def folded(name: str) -> str:
+    """The spelling by which names are compared: ``m₁``, ``m_1`` → ``m1``; ``θ_A`` → ``thetaA``; ``eps``, ``ε`` → ``epsilon``."""
+    spelt = _NUMBERED.sub("", "".join(plain(c) for c in name if not unicodedata.combining(c)))
+    return "epsilon" + spelt[3:] if _EPS.match(spelt) else spelt
+
+
+def dots(char: str) -> int:
+    """How many dots the character and its marks carry: 1 for ṙ, 2 for ÿ."""
+    return sum(_MARKS.get(c, 0) for c in unicodedata.normalize("NFD", char))
+
+
+# -- one symbol, one meaning ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Renamed:
+    """``what`` is not written by its ``usual`` name, which means something else, but as ``name``."""
+
+    usual: Name
+    meaning: str
+    what: str
+    name: Name
+
+    def __str__(self) -> str:
+        return f"Here {self.usual.unicode()} is {self.meaning}; {self.what} is written {self.name.unicode()}."
+
+
+@dataclass
+class Taken:
+    """The symbols that are given away, each with one meaning; ``renamed`` are those, by what they mean, that are not the usual."""
+
+    owners: dict[str, tuple[str, str]] = field(default_factory=dict)
+    renamed: dict[str, Renamed] = field(default_factory=dict)
+
+    def give(self, what: str, *wanted: Name, key: str = "") -> Name:
+        """The first of some names that reads like none before, or the last of them numbered, for ``what`` it shall mean.
+
+        What asks again by the same ``key``, which is ``what`` by default, gets the same."""
+        key = key or what
+        name = next(name for name in _variants(wanted) if self._key(name) in ("", key))
+        if name != wanted[0]:
+            self.renamed[key] = Renamed(wanted[0], self.owner(wanted[0]), what, name)
+        self.owners |= dict.fromkeys(_spellings(name), (key, what))
+        return name
+
+    def _key(self, name: Name) -> str:
+        return next((self.owners[each][0] for each in _spellings(name) if each in self.owners), "")
+
+    def owner(self, name: Name) -> str:
+        """What a name means already; empty where nothing reads like it."""
+        return next((self.owners[each][1] for each in _spellings(name) if each in self.owners), "")
+
+
+def _variants(names: Sequence[Name]) -> Iterator[Name]:
+    yield from names
+    number = 2
+    while True:
+        yield replace(names[-1], below=(*names[-1].below, str(number)))
+        number += 1
+
+
+def _spellings(name: Name) -> set[str]:
+    """How a name may be read from text, from plain text and from LaTeX."""
+    latex = re.sub(r"\\(?:text|mathrm)\b|[\\.\s]", "", name.latex())
+    return {folded(name.unicode()), folded(name.ascii()), folded(latex)}
