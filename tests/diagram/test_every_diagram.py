@@ -14,7 +14,7 @@ from freebody import catalogue
 from freebody.equations import Letter, Letters, Sym, latex
 from freebody.free_body import FreeBodies
 from freebody.model import Mechanism
-from freebody.naming import load_names
+from freebody.naming import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.layout import AIR, extent
 from freebody.views.shapes import dense
@@ -126,7 +126,7 @@ def test_a_load_has_one_letter_on_diagrams_and_in_equations(model):
     """LaTeX of its symbol printed with the letters of the model; a pair of loads has two letters."""
     loads = {load.symbol: load for load in FreeBodies.read(free_bodies(model)).loads}
     source = mechanism(model).source()
-    names = load_names(loads.values(), source)
+    names = Symbols.of(source, loads.values(), {}).loads
     letters = Letters({symbol: Letter(symbol, "unknown", written=name) for symbol, name in names.items()})
     printed = {symbol: latex(Sym(symbol), letters) for symbol in names}
     for cut in drawn(model).cuts:
