@@ -1,27 +1,28 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
-use crate::balance::Source;
+use crate::balance::{Count, Source};
 use crate::joints::Joint as _;
-use crate::mechanism::{Joint, Level, Mechanism, Part, Rubbing};
+use crate::mechanism::{Drive, Joint, Level, Mechanism, Part, Rubbing};
+use crate::mode::Mode;
 use crate::numbers::Numbers;
 use serde_json::{json, Map, Value};
 
 /// Bodies, parameters, coordinates, joints, forces, motions, events and notes.
 pub fn describe(m: &Mechanism) -> Value {
-    let numbers = m.bind(&m.parameters_with(&[]));
+    let (numbers, start) = (m.bind(&m.parameters_with(&[])), Mode::free(m));
     json!({
         "name": m.name,
         "bodies": bodies(m, &numbers),
         "parameters": parameters(m, &numbers),
         "coordinates": coordinates(m, &numbers, true),
         "closure_coordinates": coordinates(m, &numbers, false),
-        "joints": m.joints.iter().map(|j| joint(m, j)).collect::<Vec<_>>(),
-        "forces": m.forces.iter().map(|f| json!({"name": f.name, "type": f.word, "conservative": f.potential.is_some(), "cases": f.has_cases()})).collect::<Vec<_>>(),
-        "motions": motions(m),
+        "joints": (0..m.joints.len()).map(|j| joint(m, &start, j)).collect::<Vec<_>>(),
+        "forces": (0..m.forces.len()).map(|f| force(m, &start, f)).collect::<Vec<_>>(),
+        "motions": motions(m, &start),
         "limits": m.groups.iter().map(|g| json!({"name": g.name, "type": g.word, "engaged": g.engaged,
             "first": m.bodies[g.ends[0]].name, "second": m.bodies[g.ends[1]].name})).collect::<Vec<_>>(),
         "events": m.events.iter().map(|e| &e.name).collect::<Vec<_>>(),
-        "freedom": count(m),
+        "freedom": count(m, &start),
         "notes": notes(m, &numbers),
     })
 }
@@ -91,35 +92,44 @@ fn direction_at(degrees: f64) -> String {
     format!("the direction at {}°", (degrees * 1e9).round() / 1e9)
 }
 
-fn joint(m: &Mechanism, j: &Joint) -> Value {
+fn joint(m: &Mechanism, start: &Mode, index: usize) -> Value {
+    let j = &m.joints[index];
     let card = j.kind.card();
     let [first, second] = m.ends(j).map(|b| m.bodies[b].name.clone());
     json!({
         "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(),
+        "engaged": start.has(m.part_of(index)),
         "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
         "reaction": j.rows.iter().map(|&r| card.rows[r].load.name).collect::<Vec<_>>(), "couple": j.couple,
     })
 }
 
-fn motions(m: &Mechanism) -> Vec<Value> {
+fn force(m: &Mechanism, start: &Mode, index: usize) -> Value {
+    let f = &m.forces[index];
+    json!({
+        "name": f.name, "type": f.word, "conservative": f.is_conservative(), "cases": f.has_cases(),
+        "engaged": start.has(Part::Force(index)),
+    })
+}
+
+fn motions(m: &Mechanism, start: &Mode) -> Vec<Value> {
     let level = |l: Level| match l {
         Level::Position => "position",
         Level::Velocity => "velocity",
         Level::Acceleration => "acceleration",
     };
-    let motions = m.drives.iter().filter(|d| !d.coupling);
-    motions.map(|d| json!({"name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none()})).collect()
+    let motions = m.drives.iter().enumerate().filter(|(_, d)| !d.coupling);
+    let told = |(i, d): (usize, &Drive)| {
+        let engaged = start.has(Part::Drive(i));
+        json!({"name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none(), "engaged": engaged})
+    };
+    motions.map(told).collect()
 }
 
-/// Grübler's count: coordinates of the bodies less rows of the joints and couplings.
-fn count(m: &Mechanism) -> Value {
-    let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
-    let there = |part: Part| !m.idle.contains(&part);
-    let drives = || (0..m.drives.len()).filter(|&d| there(Part::Drive(d)));
-    let couplings = drives().filter(|&d| m.drives[d].coupling).count();
-    let joints = (0..m.joints.len()).filter(|&j| there(Part::Joint(j)));
-    let rows = joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings;
-    json!({"count": bodies as i64 - rows as i64, "bodies": bodies, "rows": rows, "driven": drives().count() - couplings})
+/// Grübler's count at the start.
+fn count(m: &Mechanism, start: &Mode) -> Value {
+    let Count { bodies, rows, driven } = Count::of(m, start);
+    json!({"count": bodies as i64 - rows as i64, "bodies": bodies, "rows": rows, "driven": driven})
 }
 
 /// What is modelled, ignored and assumed.

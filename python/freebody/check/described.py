@@ -120,7 +120,7 @@ class Described:
         """Rates that can be given at will."""
         state = self.first
         solved = self.core.instant(state.p, state.t, state.q, state.u)
-        given = sum(motion["level"] != "acceleration" for motion in self.spec["motions"])
+        given = sum(motion["engaged"] and motion["level"] != "acceleration" for motion in self.spec["motions"])
         return max(int(json.loads(solved.rank)["freedom"]) - given, 0)
 
     @cached_property

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3
+_LATER = {True: "", False: "comes later"}
 
 
 def dumped(data: Any) -> str:
@@ -259,7 +260,8 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
         return
     bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in about["bodies"]]
     joints = [
-        (j["name"], j["type"], f"{j['first']} – {j['second']}", "closes a loop" if j["cut"] else "") for j in about["joints"]
+        (j["name"], j["type"], f"{j['first']} – {j['second']}", "closes a loop" if j["cut"] else "", _LATER[j["engaged"]])
+        for j in about["joints"]
     ]
     put(
         table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
@@ -268,7 +270,7 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
             ["coordinate", "unit", "what it measures"],
             [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]],
         ),
-        table("joints", ["joint", "type", "between", ""], joints),
+        table("joints", ["joint", "type", "between", "", ""], joints),
         table(
             "contacts, strings and stops",
             ["", "type", "between", ""],
@@ -277,16 +279,19 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
                     x["name"],
                     x["type"],
                     "" if x["type"] == "stop" else f"{x['first']} – {x['second']}",
-                    "" if x["engaged"] else "comes later",
+                    _LATER[x["engaged"]],
                 )
                 for x in about["limits"]
             ],
         ),
-        table("forces", ["force", "type"], [(f["name"], f["type"]) for f in about["forces"]]),
+        table("forces", ["force", "type", ""], [(f["name"], f["type"], _LATER[f["engaged"]]) for f in about["forces"]]),
         table(
             "prescribed motions",
-            ["motion", "level", ""],
-            [(m["name"], m["level"], "" if m["ideal"] else "does work of its own") for m in about["motions"]],
+            ["motion", "level", "", ""],
+            [
+                (m["name"], m["level"], "" if m["ideal"] else "does work of its own", _LATER[m["engaged"]])
+                for m in about["motions"]
+            ],
         ),
         freedom,
         *(f"• {note}" for note in about["notes"]),

@@ -37,7 +37,7 @@ class _Search:
         self.names = [c["name"] for c in source.about["coordinates"]]
         free = FreeBodies.read(self.core.free_bodies(touching.p, touching.t, touching.q, touching.u))
         closing = Closing(source, touching, free)
-        self.closing = closing if closing.closed and not source.about["motions"] else None
+        self.closing = closing if closing.closed and not any(m["engaged"] for m in source.about["motions"]) else None
 
     def found(self) -> State | None:
         try:

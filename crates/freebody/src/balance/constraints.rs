@@ -4,7 +4,7 @@
 use super::rows::{closing_rows, joint_rows, pair};
 use super::{Balance, Row, Source, Trouble};
 use crate::kinematics::{relative, JointView, Placed};
-use crate::mechanism::{Joint, Part};
+use crate::mechanism::Joint;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Jet, Scalar};
 use crate::solve::{Factor, Lu, Matrix, Pattern};
@@ -63,7 +63,7 @@ impl Balance<'_> {
     fn all_rows(&self) -> Vec<Row> {
         let at = self.at();
         let mut rows = vec![];
-        for (j, joint) in self.m.joints.iter().enumerate().filter(|(j, _)| at.mode.has(Part::Joint(*j))) {
+        for (j, joint) in at.joints() {
             match (joint.rows.is_empty(), joint.curve.is_some()) {
                 (true, _) => {}
                 (_, true) => rows.push(curve_row(at, j).0),

@@ -1,56 +1,51 @@
 //! Energy and momentum of a state.
 
-use super::{load, Balance};
-use crate::expr::Env;
-use crate::gauges::Leaf;
-use crate::kinematics::Config;
-use crate::mechanism::Part;
+use super::Balance;
+use crate::kinematics::{Placed, State};
 use crate::plane::{vec2, Vec2};
+use crate::scalar::Scalar;
+
+/// Kinetic energy of a body, J.
+pub fn kinetic<S: Scalar>(at: Placed<'_, S>, body: usize) -> S {
+    let twist = at.k.twist[body];
+    let v = twist.at(at.centre_arm(body));
+    (at.n.mass[body] * v.dot(v) + at.n.inertia[body] * twist.w * twist.w).scale(0.5)
+}
+
+/// Potential energy of gravity (zero at the origin) and of the conservative forces in place, J.
+pub fn potential<S: Scalar>(at: Placed<'_, S>) -> S {
+    let (mut gravity, mut elastic) = (S::zero(), S::zero());
+    for body in 1..at.m.bodies.len() {
+        gravity += -at.n.mass[body] * at.n.gravity.dot(at.mass_centre(body));
+    }
+    for potential in at.forces().filter_map(|(_, force)| force.potential.as_ref()) {
+        elastic += potential.eval(&State(at));
+    }
+    gravity + elastic
+}
 
 impl Balance<'_> {
-    /// From the pin of a body to its mass centre, fixed axes.
-    fn centre_arm(&self, body: usize) -> Vec2 {
-        self.k.pose[body].turn.apply(self.n.centre[body])
-    }
-
     /// Place and velocity of a body's mass centre.
     pub fn centre(&self, body: usize) -> (Vec2, Vec2) {
-        let arm = self.centre_arm(body);
+        let arm = self.at().centre_arm(body);
         (self.k.pose[body].at + arm, self.k.twist[body].at(arm))
     }
 
     /// Acceleration of a body's mass centre in the last solution.
     pub fn centre_acceleration(&self, body: usize) -> Vec2 {
-        let arm = self.centre_arm(body);
+        let arm = self.at().centre_arm(body);
         let w = self.k.twist[body].w;
         self.solved.bodies[body].at(arm) - arm * (w * w)
     }
 
-    /// Kinetic energy of a body, J.
-    pub fn kinetic(&self, body: usize) -> f64 {
-        let (v, w) = (self.centre(body).1, self.k.twist[body].w);
-        0.5 * (self.n.mass[body] * v.dot(v) + self.n.inertia[body] * w * w)
-    }
-
     /// Kinetic energy of all bodies, J.
     pub fn kinetic_energy(&self) -> f64 {
-        (1..self.m.bodies.len()).map(|i| self.kinetic(i)).sum()
+        (1..self.m.bodies.len()).map(|body| kinetic(self.at(), body)).sum()
     }
 
-    /// Potential energy of gravity (zero at the origin) and of the forces that have one, J.
+    /// Potential energy, J.
     pub fn potential_energy(&self) -> f64 {
-        let at = self.at();
-        let weight = |i: usize| -self.n.mass[i] * self.n.gravity.dot(self.centre(i).0);
-        let gravity: f64 = (1..self.m.bodies.len()).map(weight).sum();
-        let env = Config { poses: &at, m: self.m, mode: &self.mode };
-        let acting = self.m.forces.iter().enumerate().filter(|(f, _)| self.mode.has(Part::Force(*f)));
-        let elastic = acting.filter_map(|(_, f)| f.potential.as_ref());
-        gravity + elastic.map(|p| p.eval::<f64, dyn Env<f64, Leaf>>(&env)).sum::<f64>()
-    }
-
-    /// Power of each force, W.
-    pub fn force_powers(&self) -> Vec<f64> {
-        self.m.forces.iter().map(|f| load::force_power(self.at(), f)).collect()
+        potential(self.at())
     }
 
     /// Momentum of all bodies, kg·m/s.

@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 /// From the pin of each body to its mass centre, fixed axes.
 pub fn centre_arms<S: Scalar>(at: Placed<'_, S>, out: &mut [Vec2<S>]) {
     for (i, arm) in out.iter_mut().enumerate() {
-        *arm = at.k.pose[i].turn.apply(at.n.centre[i]);
+        *arm = at.centre_arm(i);
     }
 }
 
@@ -17,7 +17,7 @@ pub fn loads<S: Scalar>(at: Placed<'_, S>, arms: &[Vec2<S>], out: &mut [Wrench<S
     for (i, load) in out.iter_mut().enumerate() {
         *load = Wrench::force(at.n.gravity * at.n.mass[i], arms[i]);
     }
-    for (_, force) in at.m.forces.iter().enumerate().filter(|(f, _)| at.mode.has(Part::Force(*f))) {
+    for (_, force) in at.forces() {
         add_force(at, force, out);
     }
 }
@@ -25,27 +25,33 @@ pub fn loads<S: Scalar>(at: Placed<'_, S>, arms: &[Vec2<S>], out: &mut [Wrench<S
 /// Adds the loads of one force.
 pub fn add_force<S: Scalar>(at: Placed<'_, S>, force: &Force, out: &mut [Wrench<S>]) {
     for pull in &force.pulls {
-        let value = pull_value(at, pull);
-        for &body in &pull.bodies {
-            out[body] += gradient(at, &pull.gauge, body) * value;
+        for (body, load) in pulled(at, pull) {
+            out[body] += load;
         }
     }
     for push in &force.pushes {
-        let (arm, f) = push_value(at, push);
-        out[at.m.body_of(push.site)] += Wrench::force(f, arm);
+        let (body, arm, f) = pushed(at, push);
+        out[body] += Wrench::force(f, arm);
     }
 }
 
-/// How strongly a pull acts, N or N·m.
-pub fn pull_value<S: Scalar>(at: Placed<'_, S>, pull: &Pull) -> S {
-    pull.value.eval(&State(at))
+/// The loads of a pull on its bodies, at their pins.
+pub fn pulled<'a, S: Scalar>(at: Placed<'a, S>, pull: &'a Pull) -> impl Iterator<Item = (usize, Wrench<S>)> + 'a {
+    let value = pull_value(at, pull);
+    pull.bodies.iter().map(move |&body| (body, gradient(at, &pull.gauge, body) * value))
 }
 
-/// Where a push acts, from the pin of its body, and its force, both in fixed axes.
-fn push_value<S: Scalar>(at: Placed<'_, S>, push: &Push) -> (Vec2<S>, Vec2<S>) {
-    let turn = at.k.pose[at.m.body_of(push.site)].turn;
+/// The body on which a push acts, where, from its pin, and the force, both in fixed axes.
+pub fn pushed<S: Scalar>(at: Placed<'_, S>, push: &Push) -> (usize, Vec2<S>, Vec2<S>) {
+    let body = at.m.body_of(push.site);
+    let turn = at.k.pose[body].turn;
     let f = vec2(push.x.eval(&State(at)), push.y.eval(&State(at)));
-    (turn.apply(at.n.arms[push.site]), if push.with_body { turn.apply(f) } else { f })
+    (body, turn.apply(at.n.arms[push.site]), if push.with_body { turn.apply(f) } else { f })
+}
+
+/// How strongly a pull acts, N or N·m.
+fn pull_value<S: Scalar>(at: Placed<'_, S>, pull: &Pull) -> S {
+    pull.value.eval(&State(at))
 }
 
 fn pull_power<S: Scalar>(at: Placed<'_, S>, pull: &Pull) -> S {
@@ -58,41 +64,43 @@ fn pull_power<S: Scalar>(at: Placed<'_, S>, pull: &Pull) -> S {
 }
 
 fn push_power<S: Scalar>(at: Placed<'_, S>, push: &Push) -> S {
-    let (arm, f) = push_value(at, push);
-    f.dot(at.k.twist[at.m.body_of(push.site)].at(arm))
+    let (body, arm, f) = pushed(at, push);
+    f.dot(at.k.twist[body].at(arm))
 }
 
-/// The power of one force at the present motion, W.
-pub fn force_power<S: Scalar>(at: Placed<'_, S>, force: &Force) -> S {
+/// The power of a force at the present motion, W; 0 where it is not in place.
+pub fn force_power<S: Scalar>(at: Placed<'_, S>, force: usize) -> S {
+    power(at, force, |_| true)
+}
+
+/// The power of a force at the present motion without what its potential accounts for, W.
+pub fn unaccounted_power<S: Scalar>(at: Placed<'_, S>, force: usize) -> S {
+    power(at, force, |pull| !pull.conservative)
+}
+
+/// The power of those pulls of a force that `counts` names, and of its pushes.
+fn power<S: Scalar>(at: Placed<'_, S>, force: usize, counts: impl Fn(&Pull) -> bool) -> S {
     let mut power = S::zero();
-    for pull in &force.pulls {
-        power += pull_power(at, pull);
-    }
-    for push in &force.pushes {
-        power += push_power(at, push);
+    if at.mode.has(Part::Force(force)) {
+        let force = &at.m.forces[force];
+        for pull in force.pulls.iter().filter(|pull| counts(pull)) {
+            power += pull_power(at, pull);
+        }
+        for push in &force.pushes {
+            power += push_power(at, push);
+        }
     }
     power
 }
 
-/// The power of one force at the present motion without what its potential accounts for, W.
-///
-/// A force with a potential pulls first along it; what it pulls beside that (a damper) is told here.
-pub fn unaccounted_power<S: Scalar>(at: Placed<'_, S>, force: &Force) -> S {
-    let from = usize::from(force.potential.is_some());
-    let mut power = S::zero();
-    for pull in &force.pulls[from..] {
-        power += pull_power(at, pull);
+/// The size of a force as its user gave it: the value of its laws together, N or N·m; 0 where it is not in place.
+pub fn force_value(at: Placed<'_, f64>, force: usize) -> f64 {
+    if !at.mode.has(Part::Force(force)) {
+        return 0.0;
     }
-    for push in &force.pushes {
-        power += push_power(at, push);
-    }
-    power
-}
-
-/// The size of a force as its user gave it: the value of its laws together, N or N·m.
-pub fn force_value(at: Placed<'_, f64>, force: &Force) -> f64 {
+    let force = &at.m.forces[force];
     let pulls: f64 = force.pulls.iter().map(|p| pull_value(at, p)).sum();
-    let pushes: f64 = force.pushes.iter().map(|p| push_value(at, p).1.norm()).sum();
+    let pushes: f64 = force.pushes.iter().map(|p| pushed(at, p).2.norm()).sum();
     pulls + pushes
 }
 

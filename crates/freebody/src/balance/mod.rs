@@ -28,11 +28,12 @@ mod teeth;
 
 pub use blows::Blow;
 pub use constraints::curve_row;
+pub use energy::{kinetic, potential};
 pub use instant::{Instant, LimitLoad, Observer};
 pub use limits::{Holding, Reached, Scale};
-pub use load::{add_force, effective, force_power, force_value, pull_value, unaccounted_power};
+pub use load::{add_force, effective, force_power, force_value, pulled, pushed, unaccounted_power};
 pub(crate) use project::{CLOSED, OPEN};
-pub use rank::{Freedom, Labels, SelfStress};
+pub use rank::{Count, Freedom, Labels, SelfStress};
 pub use reactions::JointLoad;
 pub use rows::{closing_rows, drive_row, gap_row, joint_rows, rub_row, slide_row, Row, Source, Spread};
 pub use sizes::Sizes;

@@ -9,8 +9,8 @@ use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Balance, Row, Source};
 use crate::kinematics::Placed;
-use crate::mechanism::Part;
-use crate::mode::Hold;
+use crate::mechanism::{Mechanism, Part};
+use crate::mode::{Hold, Mode};
 use crate::plane::Wrench;
 use crate::solve::{Matrix, Orthogonal};
 
@@ -61,6 +61,31 @@ pub struct SelfStress {
     pub groups: Vec<[f64; 4]>,
 }
 
+/// What Grübler's formula counts of the parts in place.
+#[derive(Clone, Copy, Debug)]
+pub struct Count {
+    /// Coordinates of all bodies.
+    pub bodies: usize,
+    /// Rows of joints and couplings.
+    pub rows: usize,
+    /// Prescribed motions.
+    pub driven: usize,
+}
+
+impl Count {
+    /// That of a mechanism in a mode.
+    pub fn of(m: &Mechanism, mode: &Mode) -> Self {
+        let joints = (0..m.joints.len()).filter(|&j| mode.has(Part::Joint(j)));
+        let drives = (0..m.drives.len()).filter(|&d| mode.has(Part::Drive(d)));
+        let (couplings, motions): (Vec<usize>, Vec<usize>) = drives.partition(|&d| m.drives[d].coupling);
+        Count {
+            bodies: m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum(),
+            rows: joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings.len(),
+            driven: motions.len(),
+        }
+    }
+}
+
 fn degrees(number: usize) -> String {
     if number == 1 {
         "1 degree".into()
@@ -105,20 +130,14 @@ impl Freedom {
 impl Balance<'_> {
     /// Degrees of freedom at the present state, and whether constraints that are redundant here are so nearby.
     pub fn freedom(&mut self) -> Freedom {
-        let m = self.m;
-        let bodies: usize = m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum();
-        let drives = || (0..m.drives.len()).filter(|&d| self.mode.has(Part::Drive(d)));
-        let couplings = drives().filter(|&d| m.drives[d].coupling).count();
-        let joints = (0..m.joints.len()).filter(|&j| self.mode.has(Part::Joint(j)));
-        let (rows, driven) =
-            (joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings, drives().count() - couplings);
+        let Count { bodies, rows, driven } = Count::of(self.m, &self.mode);
         let (rank, uncertain) = self.closing_rank();
         let closing = self.geometric().len();
         let redundant = closing - rank;
         let always_redundant = if redundant == 0 { 0 } else { closing - self.nearby_rank(rank) };
         Freedom {
             count: bodies as i64 - rows as i64,
-            here: m.freedom() - rank,
+            here: self.m.freedom() - rank,
             rows,
             redundant,
             always_redundant,

@@ -63,7 +63,7 @@ pub fn closing_rows<S: Scalar>(at: Placed<'_, S>, base: Base<S>) -> Vec<Row<S>> 
     for &joint in at.m.closures.iter().filter(|&&j| at.mode.has(Part::Joint(j))) {
         joint_rows(at, joint, base, &mut rows);
     }
-    for drive in (0..at.m.drives.len()).filter(|&d| at.mode.has(Part::Drive(d))) {
+    for (drive, _) in at.drives() {
         rows.push(drive_row(at, drive, base));
     }
     for (limit, held) in at.mode.limits.iter().enumerate() {

@@ -50,7 +50,7 @@ pub(super) fn elastic(gauge: Law, fields: &mut Fields, rest: &str) -> Result<For
 
 fn drag(gauge: Law, damping: Law) -> Pull {
     let rate = gauge.clone().rate().expect("a gauge of the configuration has a rate");
-    Pull { gauge, value: -(damping * rate), bodies: vec![] }
+    Pull { gauge, value: -(damping * rate), bodies: vec![], conservative: false }
 }
 
 /// A spring, with a damper beside it if wished.

@@ -1,12 +1,11 @@
 //! Loads that a state determines: weights, and the forces of the model.
 
-use super::{along_gauge, mass_centre, Load, Origin, Part, Size};
-use crate::balance::Spread;
+use super::{along_gauge, Load, Origin, Part, Size};
+use crate::balance::{pulled, pushed, Spread};
 use crate::expr::spell;
 use crate::joints::LoadCard;
-use crate::kinematics::{gradient, Placed, State};
-use crate::mechanism::{Mechanism, Part as Piece, Push};
-use crate::plane::vec2;
+use crate::kinematics::Placed;
+use crate::mechanism::Mechanism;
 use crate::scalar::Scalar;
 
 const WEIGHT: LoadCard = LoadCard::force("weight", "weight", "W");
@@ -18,7 +17,7 @@ pub fn weights<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
             continue;
         }
         let force = at.n.gravity * at.n.mass[body];
-        let parts = vec![Part { body, point: mass_centre(at, body), force, couple: S::zero() }];
+        let parts = vec![Part { body, point: at.mass_centre(body), force, couple: S::zero() }];
         let symbol = format!("{}.weight", spell(&of.name));
         let (origin, card) = (Origin::Weight(body), WEIGHT);
         out.push(Load { origin, symbol, card, number: None, of: [0, body], parts, size: Size::Known });
@@ -33,7 +32,7 @@ fn weightless(m: &Mechanism, body: usize) -> bool {
 
 /// Every force of the model that is in place, all that it does together.
 pub fn forces<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
-    for (index, force) in at.m.forces.iter().enumerate().filter(|(f, _)| at.mode.has(Piece::Force(*f))) {
+    for (index, force) in at.forces() {
         let several = force.cards.len() > 1;
         let load = |k: usize, parts: Vec<Part<S>>| Load {
             origin: Origin::Force(index, k),
@@ -45,21 +44,13 @@ pub fn forces<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
             size: Size::Known,
         };
         for (k, pull) in force.pulls.iter().enumerate() {
-            let value = crate::balance::pull_value(at, pull);
-            let spread: Spread<S> = pull.bodies.iter().map(|&b| (b, gradient(at, &pull.gauge, b) * value)).collect();
-            let parts = along_gauge(at, &pull.gauge, &spread);
-            out.push(load(k, parts));
+            let spread: Spread<S> = pulled(at, pull).collect();
+            out.push(load(k, along_gauge(at, &pull.gauge, &spread)));
         }
         for (k, push) in force.pushes.iter().enumerate() {
-            out.push(load(force.pulls.len() + k, vec![pushed(at, push)]));
+            let (body, arm, f) = pushed(at, push);
+            let part = Part { body, point: at.k.pose[body].at + arm, force: f, couple: S::zero() };
+            out.push(load(force.pulls.len() + k, vec![part]));
         }
     }
-}
-
-fn pushed<S: Scalar>(at: Placed<'_, S>, push: &Push) -> Part<S> {
-    let body = at.m.body_of(push.site);
-    let pose = at.k.pose[body];
-    let f = vec2(push.x.eval(&State(at)), push.y.eval(&State(at)));
-    let force = if push.with_body { pose.turn.apply(f) } else { f };
-    Part { body, point: pose.place(at.n.arms[push.site]), force, couple: S::zero() }
 }

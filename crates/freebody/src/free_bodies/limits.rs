@@ -1,7 +1,7 @@
 //! Loads of contacts, stops and strings, and of friction in joints.
 
 use super::reactions::loaded;
-use super::{along_gauge, ground_takes, joint_place, mass_centre, part, Load, Origin, Part, Size};
+use super::{along_gauge, ground_takes, joint_place, part, Load, Origin, Part, Size};
 use crate::balance::{gap_row, rub_row, slide_row, Row, Source};
 use crate::expr::spell;
 use crate::joints::{Joint as _, LoadCard};
@@ -79,7 +79,7 @@ fn told<S: Scalar>(at: Placed<'_, S>, limit: usize, row: &Row<S>) -> Vec<Part<S>
         Gap::Cord(cord) => {
             let place = |body: usize| {
                 let site = cord.sites().find(|&site| at.m.body_of(site) == body);
-                site.map_or(mass_centre(at, body), |site| at.pose(body).place(at.arm(site)))
+                site.map_or(at.mass_centre(body), |site| at.pose(body).place(at.arm(site)))
             };
             let mut parts: Vec<Part<S>> = row.loads().iter().map(|&(b, w)| part(at, b, w, place(b))).collect();
             if cord.sites().any(|site| at.m.body_of(site) == 0) {

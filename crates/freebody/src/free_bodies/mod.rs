@@ -14,7 +14,7 @@ use crate::balance::Source;
 use crate::gauges::{Law, Leaf};
 use crate::joints::LoadCard;
 use crate::kinematics::{relative, JointView, Placed, Poses};
-use crate::mechanism::Rubbing;
+use crate::mechanism::{Mechanism, Rubbing};
 use crate::mode::Hold;
 use crate::plane::{Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -24,7 +24,7 @@ use crate::scalar::Scalar;
 pub enum Origin {
     /// Gravity on a body.
     Weight(usize),
-    /// A force of the model: its pull or push of a number, of which the first is that of its potential, if it has one.
+    /// A force of the model: its pull or push of a number, pulls first.
     Force(usize, usize),
     /// The force of a pin of a joint along fixed axes: 0 for x, 1 for y.
     Pin(usize, usize),
@@ -36,6 +36,17 @@ pub enum Origin {
     Pressed(usize),
     /// Friction of a joint that slides.
     Rubbing(usize),
+}
+
+impl Origin {
+    /// Whether the work of the load is in the potential energy.
+    pub fn is_conservative(self, m: &Mechanism) -> bool {
+        match self {
+            Origin::Weight(_) => true,
+            Origin::Force(force, number) => m.forces[force].pulls.get(number).is_some_and(|pull| pull.conservative),
+            _ => false,
+        }
+    }
 }
 
 /// What one load does to one body.
@@ -115,11 +126,6 @@ pub fn follow_presses<S: Scalar>(at: Placed<'_, S>, loads: &mut [Load<S>], value
     }
 }
 
-/// The mass centre of a body, fixed axes.
-pub fn mass_centre<S: Scalar>(at: Placed<'_, S>, body: usize) -> Vec2<S> {
-    at.k.pose[body].at + at.k.pose[body].turn.apply(at.n.centre[body])
-}
-
 /// A load at the pin of a body, told as a force at a point and a couple beside it.
 fn part<S: Scalar>(at: Placed<'_, S>, body: usize, at_pin: Wrench<S>, point: Vec2<S>) -> Part<S> {
     let there = at_pin.seen_from(at.k.pose[body].at - point);
@@ -158,7 +164,7 @@ fn place_on<S: Scalar>(at: Placed<'_, S>, gauge: &Law, body: usize) -> Vec2<S> {
     match (&sites[..], joint) {
         ([site], _) => at.pose(body).place(at.arm(*site)),
         ([], Some(joint)) => joint_place(at, joint),
-        ([], None) | ([_, _, ..], _) => mass_centre(at, body),
+        ([], None) | ([_, _, ..], _) => at.mass_centre(body),
     }
 }
 

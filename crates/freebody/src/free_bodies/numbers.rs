@@ -1,6 +1,6 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
-use super::{follow_presses, loads, mass_centre, Load, Origin, Part, Size};
+use super::{follow_presses, loads, Load, Origin, Part, Size};
 use crate::balance::{closing_rows, Balance, Labels, Source, Trouble};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
@@ -67,7 +67,7 @@ fn at_centre(arm: Vec2, pin: Twist, w: f64) -> [f64; 3] {
 fn body(balance: &Balance<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) -> Value {
     let (at, m) = (balance.at(), balance.m);
     let (body, pose, twist) = (&m.bodies[i], at.k.pose[i], at.k.twist[i]);
-    let centre = mass_centre(at, i);
+    let centre = at.mass_centre(i);
     let arm = centre - pose.at;
     let origin = m.sites.iter().position(|s| s.body == i).expect("every body has its origin as a site");
     let found = at_centre(arm, balance.solved().bodies[i], twist.w);

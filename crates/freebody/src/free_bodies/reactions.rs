@@ -5,16 +5,13 @@ use crate::balance::{curve_row, drive_row, joint_rows, Row, Source};
 use crate::expr::spell;
 use crate::joints::{Joint as _, LoadCard};
 use crate::kinematics::{Placed, Poses};
-use crate::mechanism::{Joint, Part as Piece};
+use crate::mechanism::Joint;
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 
 /// The components of the reaction of every joint in place, on its second body.
 pub fn joints<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
-    for (index, joint) in at.m.joints.iter().enumerate() {
-        if joint.rows.is_empty() || !at.mode.has(Piece::Joint(index)) {
-            continue;
-        }
+    for (index, joint) in at.joints().filter(|(_, joint)| !joint.rows.is_empty()) {
         let (of, mut rows) = (at.m.ends(joint), vec![]);
         let place = match joint.curve {
             Some(_) => {
@@ -73,7 +70,7 @@ pub(super) fn loaded<S: Scalar>(at: Placed<'_, S>, row: &Row<S>, place: Vec2<S>)
 
 /// What drives every motion and what every coupling passes.
 pub fn drives<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
-    for (index, drive) in at.m.drives.iter().enumerate().filter(|(d, _)| at.mode.has(Piece::Drive(*d))) {
+    for (index, drive) in at.drives() {
         let row = drive_row(at, index, None);
         let parts = along_gauge(at, drive.by.as_ref().unwrap_or(&drive.of), row.loads());
         let first = if parts.len() > 1 { parts[1].body } else { 0 };

@@ -2,7 +2,7 @@
 
 use super::{JointView, Kinematics};
 use crate::joints::{Joint as _, Relative};
-use crate::mechanism::{Joint, Mechanism};
+use crate::mechanism::{Drive, Force, Joint, Mechanism, Part};
 use crate::mode::Mode;
 use crate::numbers::Numbers;
 use crate::plane::{Pose, Turn, Twist, Vec2, Wrench};
@@ -80,7 +80,30 @@ impl<S: Scalar> Poses<S> for Placed<'_, S> {
     }
 }
 
-impl<S: Scalar> Placed<'_, S> {
+impl<'a, S: Scalar> Placed<'a, S> {
+    /// The joints in place, with their numbers.
+    pub fn joints(&self) -> impl Iterator<Item = (usize, &'a Joint)> {
+        let mode = self.mode;
+        self.m.joints.iter().enumerate().filter(|(j, _)| mode.has(Part::Joint(*j)))
+    }
+    /// The couplings and prescribed motions in place, with their numbers.
+    pub fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> {
+        let mode = self.mode;
+        self.m.drives.iter().enumerate().filter(|(d, _)| mode.has(Part::Drive(*d)))
+    }
+    /// The forces in place, gravity apart, with their numbers.
+    pub fn forces(&self) -> impl Iterator<Item = (usize, &'a Force)> {
+        let mode = self.mode;
+        self.m.forces.iter().enumerate().filter(|(f, _)| mode.has(Part::Force(*f)))
+    }
+    /// From the pin of a body to its mass centre, fixed axes.
+    pub fn centre_arm(&self, body: usize) -> Vec2<S> {
+        self.k.pose[body].turn.apply(self.n.centre[body])
+    }
+    /// The mass centre of a body, fixed axes.
+    pub fn mass_centre(&self, body: usize) -> Vec2<S> {
+        self.k.pose[body].at + self.centre_arm(body)
+    }
     /// −1 for a distance that the tree carries below 0, which its measure cannot tell; else 1.
     fn side(&self, joint: usize, k: usize) -> f64 {
         let j = &self.m.joints[joint];

@@ -4,44 +4,29 @@ use super::equation::Test;
 use super::vectors::{tree, tree_by};
 use super::Letters;
 use crate::algebra::{Letter, Symbol};
+use crate::balance::{kinetic, potential, Source};
 use crate::free_bodies::Origin;
-use crate::kinematics::State;
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
 
 impl Letters<'_> {
     fn kinetic(&self) -> Symbol {
-        let mut sum = Symbol::zero();
-        for i in self.m.listed_bodies() {
-            let twist = self.k.twist[i];
-            let v = twist.at(self.arm(i));
-            sum += self.n.mass[i] * v.dot(v);
-            if !self.m.bodies[i].particle {
-                sum += self.n.inertia[i] * twist.w * twist.w;
+        (1..self.m.bodies.len()).fold(Symbol::zero(), |sum, body| sum + kinetic(self.at(), body))
+    }
+
+    /// Kinetic and potential energy, and the names of the forces, compliant contacts among them, whose work is not in it.
+    pub(super) fn energy(&self) -> Value {
+        let mut without: Vec<&str> = vec![];
+        for load in self.loads.iter().filter(|load| !load.origin.is_conservative(self.m)) {
+            match load.origin {
+                Origin::Force(force, _) => without.push(&self.m.forces[force].name),
+                Origin::Pressed(limit) => without.push(Source::Limit(limit).name(self.m)),
+                _ => {}
             }
         }
-        sum.scale(0.5)
-    }
-
-    fn potential(&self) -> Symbol {
-        let mut sum = Symbol::zero();
-        for i in self.m.listed_bodies() {
-            sum -= self.n.gravity.dot(self.centre(i)) * self.n.mass[i];
-        }
-        for potential in self.m.forces.iter().filter_map(|f| f.potential.as_ref()) {
-            sum += potential.eval(&State(self.at()));
-        }
-        sum
-    }
-
-    /// Kinetic energy, and the potential energy of gravity and of all forces that have one.
-    pub(super) fn energy(&self) -> Value {
-        let without = self.m.forces.iter().filter(|f| f.potential.is_none()).map(|f| &f.name);
-        json!({
-            "kinetic": tree(self.kinetic()), "potential": tree(self.potential()),
-            "without_potential": without.collect::<Vec<_>>(), "motions": self.m.drives.iter().map(|d| &d.name).collect::<Vec<_>>(),
-        })
+        without.dedup();
+        json!({"kinetic": tree(self.kinetic()), "potential": tree(potential(self.at())), "without_potential": without})
     }
 
     fn letter(&self, i: usize, dots: u8) -> Letter {
@@ -59,7 +44,7 @@ impl Letters<'_> {
 
     /// Of every coordinate d/dt ∂T/∂q̇ − ∂T/∂q + ∂V/∂q and the generalised force of all that has no potential.
     pub(super) fn lagrange(&self) -> Value {
-        let (kinetic, potential) = (self.kinetic(), self.potential());
+        let (kinetic, potential) = (self.kinetic(), potential(self.at()));
         let of = |i: usize| {
             let q = self.letter(i, 0);
             let momentum = kinetic.derivative(&self.letter(i, 1));
@@ -82,12 +67,7 @@ impl Letters<'_> {
         let rate = self.letter(i, 1);
         let mut sum = Symbol::zero();
         for (load, &size) in self.loads.iter().zip(&self.sizes) {
-            let stored = match load.origin {
-                Origin::Weight(_) => true,
-                Origin::Force(force, number) => number == 0 && self.m.forces[force].potential.is_some(),
-                _ => false,
-            };
-            if stored {
+            if load.origin.is_conservative(self.m) {
                 continue;
             }
             for part in load.parts.iter().filter(|part| part.body > 0) {

@@ -9,7 +9,6 @@ use crate::algebra::{Letter, Symbol, Tree};
 use crate::balance::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{follow_presses, loads, Load, Size};
 use crate::kinematics::{Kinematics, Placed};
-use crate::mechanism::Part;
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
@@ -81,10 +80,8 @@ impl Letters<'_> {
     /// What all joints, motions and limits ask of bodies that are free otherwise; pins along fixed axes.
     fn free_rows(&self, free: &Free, at: Placed<'_, Symbol>) -> Vec<Row<Symbol>> {
         let mut rows = vec![];
-        for (index, joint) in self.m.joints.iter().enumerate() {
-            if joint.curve.is_none() && !joint.rows.is_empty() && at.mode.has(Part::Joint(index)) {
-                joint_rows(at, index, Some(&free.bodies), &mut rows);
-            }
+        for (index, _) in at.joints().filter(|(_, joint)| joint.curve.is_none() && !joint.rows.is_empty()) {
+            joint_rows(at, index, Some(&free.bodies), &mut rows);
         }
         let tree = |row: &Row<Symbol>| matches!(row.source, Source::Joint(..));
         rows.extend(closing_rows(at, Some(&free.bodies)).into_iter().filter(|row| !tree(row)));

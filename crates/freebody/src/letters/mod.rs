@@ -96,12 +96,12 @@ impl<'m> Letters<'m> {
 
     /// The mass centre of a body.
     fn centre(&self, body: usize) -> Vec2<Symbol> {
-        crate::free_bodies::mass_centre(self.at(), body)
+        self.at().mass_centre(body)
     }
 
     /// From the pin of a body to its mass centre.
     fn arm(&self, body: usize) -> Vec2<Symbol> {
-        self.k.pose[body].turn.apply(self.n.centre[body])
+        self.at().centre_arm(body)
     }
 
     /// The letters of what is unknown: accelerations, then loads.

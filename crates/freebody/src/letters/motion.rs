@@ -5,7 +5,6 @@ use super::vectors::{tell, tree};
 use super::Letters;
 use crate::algebra::{Letter, Symbol};
 use crate::balance::{closing_rows, Row, Source, Trouble};
-use crate::free_bodies::mass_centre;
 use crate::joints::Joint as _;
 use crate::kinematics::Kinematics;
 use crate::plane::{Twist, Vec2};
@@ -22,7 +21,7 @@ impl Letters<'_> {
                 "body": body.name, "particle": body.particle,
                 "mass": tree(self.n.mass[i]), "inertia": tree(self.n.inertia[i]),
                 "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(pin.w),
-                "r": self.vector(mass_centre(self.at(), i)), "v": self.vector(twist.at(arm)),
+                "r": self.vector(self.centre(i)), "v": self.vector(twist.at(arm)),
                 "a": self.vector(acceleration(pin, arm, twist.w)),
             })
         };

@@ -14,7 +14,7 @@ pub struct Force {
     pub pulls: Vec<Pull>,
     /// Loads in a direction.
     pub pushes: Vec<Push>,
-    /// Its potential energy, J; a force without one accounts for its work.
+    /// The potential energy of its conservative pulls, J; the work of all else is accounted for.
     pub potential: Option<Law>,
     /// What each of its pulls and pushes is, in this order.
     pub cards: Vec<LoadCard>,
@@ -23,12 +23,17 @@ pub struct Force {
 impl Force {
     /// A law on a gauge.
     pub fn pulling(gauge: Law, value: Law, potential: Option<Law>) -> Self {
-        Force { pulls: vec![Pull { gauge, value, bodies: vec![] }], potential, ..Force::default() }
+        let conservative = potential.is_some();
+        Force { pulls: vec![Pull { gauge, value, bodies: vec![], conservative }], potential, ..Force::default() }
     }
     /// The laws that it evaluates.
     pub fn laws(&self) -> impl Iterator<Item = &Law> {
         let pulls = self.pulls.iter().flat_map(|p| [&p.gauge, &p.value]);
         pulls.chain(self.pushes.iter().flat_map(|p| [&p.x, &p.y])).chain(&self.potential)
+    }
+    /// Whether its potential accounts for all its work.
+    pub fn is_conservative(&self) -> bool {
+        self.pushes.is_empty() && self.pulls.iter().all(|pull| pull.conservative)
     }
     /// Whether its law has cases, like `max` or `if`.
     pub fn has_cases(&self) -> bool {
@@ -46,6 +51,8 @@ pub struct Pull {
     pub value: Law,
     /// The bodies on which the gauge depends.
     pub bodies: Vec<usize>,
+    /// Whether the potential of its force accounts for its work.
+    pub conservative: bool,
 }
 
 /// A force at a point.

@@ -75,7 +75,7 @@ impl<'m> Machine<'m> {
     /// A mechanism at given parameters.
     pub fn new(balance: Balance<'m>, p: &[f64]) -> Self {
         let m = balance.m;
-        let worked = (0..m.forces.len()).filter(|&f| m.forces[f].potential.is_none() || m.forces[f].pulls.len() > 1);
+        let worked = (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative());
         let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
         let rubs = !m.rubs.is_empty() || m.limits.iter().any(|limit| limit.friction.is_some());
@@ -245,8 +245,7 @@ impl System for Machine<'_> {
         dy[..n].copy_from_slice(self.balance.at().u);
         self.balance.accelerations(&mut dy[n..2 * n]);
         for (i, &f) in self.worked.iter().enumerate() {
-            let force = &self.balance.m.forces[f];
-            dy[2 * n + i] = crate::balance::unaccounted_power(self.balance.at(), force);
+            dy[2 * n + i] = crate::balance::unaccounted_power(self.balance.at(), f);
         }
         if !self.driven.is_empty() {
             let powers = self.balance.drive_powers();

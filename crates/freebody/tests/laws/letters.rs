@@ -88,7 +88,10 @@ fn questions(bench: &Bench) -> Vec<Question> {
             json!({"ask": "equation", "bodies": [name], "about": "centre"}),
         ]
     });
-    let all: Vec<Value> = coordinates.chain(each).chain([json!({"ask": "lagrange"}), json!({"ask": "rows"})]).collect();
+    let all: Vec<Value> = coordinates
+        .chain(each)
+        .chain([json!({"ask": "lagrange"}), json!({"ask": "rows"}), json!({"ask": "energy"})])
+        .collect();
     serde_json::from_value(Value::Array(all)).unwrap()
 }
 
@@ -113,7 +116,8 @@ fn equations(answers: &Value) -> Vec<(String, &Value)> {
 fn equations_told_at_one_state_hold_at_another() {
     let mut told = 0;
     for seed in 0..MECHANISMS / 2 {
-        let recipe = Recipe { odd: false, bodies: recipe(seed).bodies.min(BODIES), ..recipe(seed) };
+        let recipe = recipe(seed);
+        let recipe = Recipe { odd: false, bodies: recipe.bodies.min(BODIES), idle: seed % 2 == 1, ..recipe };
         let bench = Bench::new(&recipe.draw(seed, HOME));
         let mut balance = bench.balance();
         let mut rng = Rng::new(seed);
@@ -134,6 +138,11 @@ fn equations_told_at_one_state_hold_at_another() {
         let mut numbers = numbers(&mut balance, &bench, &state);
         for (name, letter) in answers["letters"].as_object().unwrap() {
             numbers.entry((name.clone(), 0)).or_insert(letter["value"].as_f64().unwrap());
+        }
+        let energies = answers["answers"].as_array().unwrap().last().unwrap();
+        for (what, known) in [("kinetic", balance.kinetic_energy()), ("potential", balance.potential_energy())] {
+            let (x, size) = value(&energies[what], &numbers);
+            assert!((x - known).abs() <= ROUND_OFF * size.max(1.0), "seed {seed}: {what} energy {x} for {known}");
         }
         for (what, residual) in equations(&answers["answers"]) {
             assert!(!residual.to_string().contains("null"), "seed {seed}, {what} is undefined: {}", bench.told());

@@ -21,6 +21,8 @@ pub struct Recipe {
     pub own_directions: bool,
     /// Odd zeros and senses of the coordinates, absolute angles.
     pub odd: bool,
+    /// Whether some forces, motions and joints that close loops are not in place.
+    pub idle: bool,
 }
 
 /// The motion of `base`, to which all else is joined as if it were ground.
@@ -99,6 +101,18 @@ impl Recipe {
             let rigid: Vec<String> = bodies[1..].iter().filter(|b| !thrown.is_particle(b)).cloned().collect();
             let body = rng.of(&rigid).clone();
             self.drive(&mut thrown, &format!("m{i}"), &body, rng);
+        }
+        let Spec { joints, forces, motions, .. } = &mut thrown.model.0;
+        // What runs along a curve has no place on it before it is there.
+        let on_curve = |word: &str| ["cam", "curved_slot"].contains(&word);
+        let loops = joints.iter_mut().filter(|joint| joint.name.starts_with("loop") && !on_curve(&joint.kind));
+        let loops = loops.map(|joint| &mut joint.engaged);
+        let others = forces
+            .iter_mut()
+            .map(|f| &mut f.engaged)
+            .chain(motions.iter_mut().filter(|m| m.name != "hold").map(|m| &mut m.engaged));
+        for engaged in loops.chain(others).filter(|_| self.idle) {
+            *engaged = rng.chance(0.6);
         }
         thrown
     }
@@ -266,6 +280,16 @@ impl Bench {
         let p = compiled.mechanism.parameters_with(&[]);
         let q = thrown.coordinates(&compiled.mechanism, &compiled.mechanism.bind(&p));
         Bench { compiled, q, p }
+    }
+
+    /// The same model, left out of it what is not in place.
+    pub fn without_idle(thrown: &Thrown) -> Self {
+        let mut thrown = thrown.clone();
+        let Spec { joints, forces, motions, .. } = &mut thrown.model.0;
+        joints.retain(|joint| joint.engaged);
+        forces.retain(|force| force.engaged);
+        motions.retain(|motion| motion.engaged);
+        Bench::new(&thrown)
     }
 
     pub fn balance(&self) -> Balance<'_> {

@@ -3,7 +3,7 @@
 use crate::model::*;
 use crate::random::*;
 use crate::rng::Rng;
-use freebody::balance::{force_power, unaccounted_power, Balance, Instant, Route};
+use freebody::balance::{force_power, force_value, unaccounted_power, Balance, Instant, JointLoad, Route};
 use freebody::kinematics::gradient;
 
 pub const MECHANISMS: u64 = 30;
@@ -27,6 +27,7 @@ pub fn recipe(seed: u64) -> Recipe {
         motions: rng.below(3),
         own_directions: seed % 3 == 0,
         odd: true,
+        idle: seed % 5 == 2,
     }
 }
 
@@ -149,9 +150,8 @@ fn energy_changes_by_the_power_put_in() {
             terms.push(n.mass[b] * v.dot(balance.centre_acceleration(b) - n.gravity));
             terms.push(n.inertia[b] * w * balance.solved().bodies[b].w);
         }
-        for force in &m.forces {
-            terms.push(-unaccounted_power(at, force));
-            let Some(potential) = &force.potential else { continue };
+        terms.extend((0..m.forces.len()).map(|force| -unaccounted_power(at, force)));
+        for potential in at.forces().filter_map(|(_, force)| force.potential.as_ref()) {
             terms.extend(m.bodies_of(potential).into_iter().map(|b| gradient(at, potential, b).power(at.k.twist[b])));
         }
         terms.extend(balance.drive_powers().iter().map(|p| -p));
@@ -161,6 +161,54 @@ fn energy_changes_by_the_power_put_in() {
         let size = terms.iter().fold(transmitted, |m: f64, x| m.max(x.abs()));
         assert!(left.abs() < AGREE * size, "{told}: {left:e} of {size:e} W is unaccounted for");
     });
+}
+
+/// What is not in place is as if it were not in the model: the motion, the reactions, the energies, the powers.
+#[test]
+fn what_is_not_in_place_does_nothing() {
+    let mut idle = 0;
+    for seed in 0..MECHANISMS {
+        let thrown = Recipe { idle: true, forces: 6, ..recipe(seed) }.draw(seed, HOME);
+        let (whole, bare) = (Bench::new(&thrown), Bench::without_idle(&thrown));
+        let (mut with, mut without) = (whole.balance(), bare.balance());
+        let state = bare.state(&mut without, &mut Rng::new(seed), REACH).expect("a state");
+        with.place(0.0, &whole.q, &vec![0.0; whole.q.len()]);
+        with.take_phases();
+        for balance in [&mut with, &mut without] {
+            balance.place(state.t, &state.q, &state.u);
+        }
+        let told = format!("seed {seed}, {}", whole.told());
+        let [a, b] = [&mut with, &mut without]
+            .map(|balance| balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}")));
+        assert!(apart(&motion(&a), &motion(&b), 1.0) < AGREE, "{told}");
+        let named = |balance: &Balance, joints: bool, now: &Instant| -> Vec<(String, [f64; 3])> {
+            let joint =
+                |(j, l): (usize, &JointLoad)| (balance.m.joints[j].name.clone(), [l.force.x, l.force.y, l.couple]);
+            let drive = |(d, f): (usize, &f64)| (balance.m.drives[d].name.clone(), [*f, 0.0, 0.0]);
+            let all = now.joints.iter().enumerate().map(joint).take(if joints { usize::MAX } else { 0 });
+            all.chain(now.drives.iter().enumerate().map(drive)).collect()
+        };
+        let sure = a.determinate.iter().flatten().all(|&sure| sure);
+        let (mine, theirs) = (named(&with, sure, &a), named(&without, sure, &b));
+        let most = theirs.iter().flat_map(|(_, load)| load).fold(1.0_f64, |most, x| most.max(x.abs()));
+        for (name, load) in mine {
+            let other = theirs.iter().find(|(n, _)| *n == name).map_or([0.0; 3], |(_, load)| *load);
+            assert!((0..3).all(|i| (load[i] - other[i]).abs() < AGREE * most), "{told}: {name}: {load:?} {other:?}");
+        }
+        for (what, x, y) in [
+            ("kinetic", with.kinetic_energy(), without.kinetic_energy()),
+            ("potential", with.potential_energy(), without.potential_energy()),
+        ] {
+            assert!((x - y).abs() <= 1e-13 * x.abs().max(1.0), "{told}: {what} {x} {y}");
+        }
+        for (f, force) in with.m.forces.iter().enumerate() {
+            let there = thrown.model.0.forces.iter().any(|spec| spec.name == force.name && spec.engaged);
+            idle += usize::from(!there);
+            let powers = [force_power(with.at(), f), unaccounted_power(with.at(), f), force_value(with.at(), f)];
+            assert!(there || powers == [0.0; 3], "{told}: {}: {powers:?}", force.name);
+        }
+    }
+    assert!(idle > 50, "{idle}");
 }
 
 /// Where joints do no work, the acceleration of coordinate i for a unit load on j is that of j for a unit load on i.
@@ -268,13 +316,13 @@ fn inverse_dynamics_undoes_forward_dynamics() {
 fn power_is_load_times_velocity() {
     every_state(recipe, 4, |bench, balance, _, told, _| {
         let m = &bench.compiled.mechanism;
-        for force in &m.forces {
-            let at = balance.at();
+        let at = balance.at();
+        for (f, force) in at.forces() {
             let mut on = vec![freebody::plane::Wrench::zero(); m.bodies.len()];
             freebody::balance::add_force(at, force, &mut on);
             let terms: Vec<f64> = on.iter().zip(&at.k.twist).map(|(w, v)| w.power(*v)).collect();
             let size = terms.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
-            let (power, told_by_law) = (terms.iter().sum::<f64>(), force_power(at, force));
+            let (power, told_by_law) = (terms.iter().sum::<f64>(), force_power(at, f));
             assert!((power - told_by_law).abs() <= 1e-13 * size, "{told}: {}: {power} {told_by_law}", force.name);
         }
     });

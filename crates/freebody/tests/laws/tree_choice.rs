@@ -50,6 +50,7 @@ fn the_tree_does_not_matter() {
             motions: 0,
             own_directions: false,
             odd: false,
+            idle: false,
         };
         let thrown = recipe.draw(seed, HOME);
         let mut renamed = thrown.clone();

@@ -40,7 +40,8 @@ def configuration(subject: Subject) -> list[Block]:
 
 def _reservations(subject: Subject) -> list[str]:
     """What holds for a while only, and does not show in the equations."""
-    cases = [force["name"] for force in subject.source.about["forces"] if force["cases"]]
+    acting = {load.name for load in subject.free.loads if load.kind == "force"}
+    cases = [force["name"] for force in subject.source.about["forces"] if force["cases"] and force["name"] in acting]
     said = [f"The law of {joined(cases)} has cases: it stands here as it is at this state."] if cases else []
     if opening := [event["name"] for event in json.loads(subject.source.spec).get("events", []) if event.get("opening")]:
         said.append(f"At the start of a motion {joined(opening)} happens; the equations are those before.")

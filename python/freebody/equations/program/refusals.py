@@ -31,9 +31,10 @@ def check(source: Source, free: FreeBodies) -> None:
                 f"{section}.{item['name']} {what}, and one formula holds in one of its states only; "
                 "leave it out, or put a joint that holds it closed (a hinge, a slot, a link) in its place"
             )
-    for joint in spec["joints"]:
+    here = {**spec, **{section: [item for item in spec[section] if item.get("engaged", True)] for section in _LAWS}}
+    for joint in here["joints"]:
         _check_joint(joint)
-    _check_laws(spec)
+    _check_laws(here)
     lost = [load.symbol for load in free.loads if load.unknown and not load.determinate]
     if lost:
         raise CannotGenerate(

@@ -21,7 +21,7 @@ from freebody.equations.linear import linear_in
 from freebody.equations.simplify import equal
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
-from freebody.equations.tree import ZERO, Num, Sym, Tree, add, evaluate, is_zero, minus, mul, negative, read, symbols, walk
+from freebody.equations.tree import ZERO, Add, Num, Sym, Tree, add, evaluate, is_zero, minus, mul, negative, read, symbols, walk
 from freebody.results import Array
 from freebody.symbolic.symbols import Name
 
@@ -33,6 +33,8 @@ Coefficients: TypeAlias = Mapping[Sym, Tree]
 _MOST_SIGNS = 400
 """Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for in letters."""
 _SAMPLES, _NOTHING = 3, 1e-8
+_ROUND_OFF = 1e-6
+"""Part of the largest term of an equation, whose terms are multiplied out and cancel, that is round-off."""
 
 
 @dataclass(frozen=True)
@@ -161,8 +163,18 @@ def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated
 
 
 def _at_state(subject: Subject, found: Sequence[Lagrange]) -> str:
+    """How far the accelerations and loads of the balances satisfy Lagrange's equations. Raises ``RuntimeError`` where they do not."""
     values, tables = subject.values, subject.tables
-    largest = max(abs(float(evaluate(each.residual, values, tables))) for each in found)
+    largest = 0.0
+    for each in found:
+        terms = each.residual.terms if isinstance(each.residual, Add) else (each.residual,)
+        sizes = [float(evaluate(term, values, tables)) for term in terms]
+        largest = max(largest, abs(sum(sizes)))
+        if abs(sum(sizes)) > _ROUND_OFF * max(map(abs, sizes)):
+            raise RuntimeError(
+                f"Lagrange's equation of {each.coordinate} and the balance equations disagree by {abs(sum(sizes)):.1e} N or N·m, so "
+                "none of them is printed: this is a fault of freebody, please report the model"
+            )
     return (
         "How they are made of balance equations is too long to be told in letters. The accelerations and loads of the balances "
         f"satisfy them at this state to {largest:.1e} N or N·m."
