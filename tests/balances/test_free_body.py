@@ -2,17 +2,15 @@
 
 from itertools import chain as flat
 from itertools import combinations, pairwise
-from pathlib import Path
 
 import numpy as np
 import planar
 import pytest
+import store
+from store import SYSTEMS, WITHOUT_ANSWER, every
 
-import freebody as fb
-from freebody import catalogue
 from freebody.free_body import FreeBodies, Indeterminate
 
-SYSTEMS = Path(__file__).parents[2] / "systems"
 MODELS = {
     "double pendulum": lambda rng: planar.chain(rng, 2),
     "chain of four, driven": lambda rng: planar.driven_chain(rng, 4),
@@ -29,7 +27,7 @@ FILES = ["GEN-FOURBAR/model", "GEN-SLIDER/model", "19.3.16/driven", "EX-ARM/mode
 @pytest.fixture(params=[*MODELS, *FILES])
 def free(request):
     if request.param in FILES:
-        return fb.load(SYSTEMS / f"{request.param}.yaml").free_bodies()
+        return store.free_bodies(request.param)
     return FreeBodies.read(MODELS[request.param](np.random.default_rng(7)).text())
 
 
@@ -44,16 +42,14 @@ def test_the_loads_on_every_group_add_up_to_its_effective_side(free):
             np.testing.assert_allclose(free.acting(*group, about=about), free.effective(*group, about=about), atol=1e-10)
 
 
-CATALOGUE = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
-WITHOUT_ANSWER = {"19.3.23/idle"}  # a body without inertia moves freely: no instant, so no loads
 INDETERMINATE = {"GEN-CAR/model", "GEN-CAR/driveshaft", "GEN-SLIDER/dead_point"}  # what guides and loops share among themselves
-every_model = pytest.mark.parametrize("model", sorted(set(CATALOGUE) - WITHOUT_ANSWER))
+every_model = every(sorted(set(SYSTEMS) - WITHOUT_ANSWER))
 
 
 @every_model
 def test_of_every_model_the_loads_on_every_group_add_up(model):
     """To m a and its moment plus I α about any place; round-off is that of the largest force over the size of the mechanism."""
-    free = fb.load(CATALOGUE[model]).free_bodies()
+    free = store.free_bodies(model)
     places = np.array([body.G for body in free.bodies.values()] + [part.point for load in free.loads for part in load.on])
     parts = [(load.value, part) for load in free.loads if load.determinate for part in load.on]
     force = max((np.abs(value * np.array(part.force)).max() for value, part in parts), default=0.0)
@@ -73,8 +69,7 @@ def test_of_every_model_the_loads_on_every_group_add_up(model):
 def test_of_every_model_the_loads_give_the_motion(model):
     """m times the rate of the velocities that the run has, by differences over a thousandth of a while in which nothing switches.
     Those of the liveliest motions are good to 1e-3, of most to 1e-8."""
-    mechanism = fb.load(CATALOGUE[model])
-    run = mechanism.simulate()
+    run = store.run(model)
     changes = [run.t[0], *(change.t for change in run.changes), run.t[-1]]
     start, end = max(pairwise(changes), key=lambda pair: pair[1] - pair[0])
     t, h = 0.6 * start + 0.4 * end, 1e-3 * (end - start)
@@ -138,7 +133,9 @@ def test_a_body_that_is_not_there_is_named():
 
 def test_what_is_determined_is_the_same_in_loads_and_reactions():
     """Of a car whose frame and axle may press each other up and down by any amount, the thrust of the road is determined."""
-    car = fb.load(SYSTEMS / "GEN-CAR/model.yaml")
-    thrust, weight = (next(load for load in car.free_bodies().loads if load.symbol == name) for name in ("road.Fs", "road.Fn"))
+    car = store.mechanism("GEN-CAR/model")
+    thrust, weight = (
+        next(load for load in store.free_bodies("GEN-CAR/model").loads if load.symbol == name) for name in ("road.Fs", "road.Fn")
+    )
     assert thrust.determinate and not weight.determinate
     assert thrust.value == pytest.approx(car.solve(route="newton_euler").reactions["road"].Fx, rel=1e-12)

@@ -7,7 +7,7 @@ import re
 from functools import cache
 from pathlib import Path
 
-import pytest
+from store import every
 from typer.testing import CliRunner
 
 import freebody
@@ -16,7 +16,7 @@ from freebody.check.file import Judged, judge, read
 from freebody.cli import app
 
 FOLDER = Path(freebody.__file__).parent / "systems"
-FILES = sorted(FOLDER.glob("*/statements.yaml"))
+FILES = {path.parent.name: path for path in sorted(FOLDER.glob("*/statements.yaml"))}
 STATED = {
     "BLOCK": 8, "ARM": 5, "WEDGE": 11, "GUN": 9, "SLOPE": 6, "MOTOR": 4, "WHEEL": 4, "BAR": 14, "CART": 1, "LEGS": 1, "GEN": 2,
 }  # fmt: skip
@@ -29,25 +29,25 @@ def judged(path: Path) -> list[Judged]:
 
 
 def verdict(system: str, statement: str) -> Verdict:
-    return next(one.verdict for one in judged(FOLDER / system / "statements.yaml") if one.statement.id == statement)
+    return next(one.verdict for one in judged(FILES[system]) if one.statement.id == statement)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.parent.name)
-def test_statements_have_their_verdicts(path: Path) -> None:
-    assert all(statement.verdict for statement in read(path).statements)
-    wrong = [(one.statement.id, one.verdict.kind) for one in judged(path) if not one.as_expected]
+@every(FILES, "system")
+def test_statements_have_their_verdicts(system: str) -> None:
+    assert all(statement.verdict for statement in read(FILES[system]).statements)
+    wrong = [(one.statement.id, one.verdict.kind) for one in judged(FILES[system]) if not one.as_expected]
     assert not wrong
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.parent.name)
-def test_what_is_wrong_is_mended_or_shown(path: Path) -> None:
-    for one in judged(path):
+@every(FILES, "system")
+def test_what_is_wrong_is_mended_or_shown(system: str) -> None:
+    for one in judged(FILES[system]):
         if one.verdict.kind.name in ("WRONG", "DIMENSIONS"):
             assert one.verdict.mends or one.verdict.reason, one.statement.id
 
 
 def test_no_statement_is_left_out() -> None:
-    told = {re.sub("[a-z]$", "", statement.id) for path in FILES for statement in read(path).statements}
+    told = {re.sub("[a-z]$", "", statement.id) for path in FILES.values() for statement in read(path).statements}
     assert told == {f"{kind}-{number}" for kind, count in STATED.items() for number in range(1, count + 1)}
 
 
@@ -79,9 +79,10 @@ MENDS = {
 """What each mended equation must hold; each was found by hand from the mechanics of the system."""
 
 
-@pytest.mark.parametrize(("system", "statement"), MENDS, ids=lambda x: x)
-def test_the_wrong_term_is_mended(system: str, statement: str) -> None:
-    assert MENDS[system, statement] in verdict(system, statement).mends[0].equation
+@every(dict.fromkeys(system for system, _ in MENDS), "system")
+def test_the_wrong_term_is_mended(system: str) -> None:
+    for statement, term in ((name, term) for (of, name), term in MENDS.items() if of == system):
+        assert term in verdict(system, statement).mends[0].equation, statement
 
 
 def test_the_command_lists_statements_with_their_verdicts() -> None:

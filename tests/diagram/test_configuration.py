@@ -8,8 +8,8 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from store import SYSTEMS, every, mechanism, start
 
-from freebody import catalogue
 from freebody.equations.topics import topic
 from freebody.model import Mechanism
 from freebody.model.cards import joints
@@ -18,7 +18,6 @@ from freebody.views.diagram.names import letter
 from freebody.views.measures import measures
 from freebody.views.scene import sketch_of_state
 
-MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
 HEAD = """
 freebody: 1
 gravity: none
@@ -46,12 +45,11 @@ VALUES = np.array([0.8, 0.5, -1.1])
 
 @cache
 def drawn(model, picture=Configuration):
-    mechanism = Mechanism.load(MODELS[model])
-    state, notes = mechanism.start()
-    return picture(mechanism.source(notes), state)
+    state, notes = start(model)
+    return picture(mechanism(model).source(notes), state)
 
 
-every_model = pytest.mark.parametrize("model", sorted(MODELS))
+every_model = every(sorted(SYSTEMS))
 
 
 @every_model
@@ -100,8 +98,7 @@ def test_every_body_is_placed_by_itself(model):
 
 @pytest.mark.parametrize("model", ["GEN-FOURBAR/model", "19.3.20/model", "S19.19/model"])
 def test_the_sketch_with_constraints_has_their_coordinates(model):
-    mechanism = Mechanism.load(MODELS[model])
-    made = mechanism.equations("constraints")
+    made = mechanism(model).equations("constraints")
     told = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
     assert sorted(letter(name) for name in told) == sorted(each.text for each in drawn(model, Places).scenery.dimensions)
     html = made.document.html()
@@ -116,9 +113,9 @@ def pair(kind):
     """Source and state of a wheel on a joint."""
     names = ", ".join(f"q{i}" for i, _ in enumerate(joints()[kind].coordinates))
     text = HEAD.replace("TYPE", kind).replace("FIELDS", FIELDS[kind]).replace("NAMES", names)
-    mechanism = Mechanism.loads(text)
-    state, _ = mechanism.start()
-    return mechanism.source(), replace(state, q=VALUES[: len(state.q)].copy())
+    made = Mechanism.loads(text)
+    state, _ = made.start()
+    return made.source(), replace(state, q=VALUES[: len(state.q)].copy())
 
 
 @pytest.mark.parametrize("kind", FIELDS)
@@ -158,8 +155,8 @@ def test_a_direction_that_a_body_does_not_show_is_named():
 
 
 def test_it_is_in_every_derivation_of_what_moves():
-    mechanism = Mechanism.load("systems/19.3.3/model.yaml")
-    for document in (mechanism.equations().document, mechanism.equations("brute").document, topic(mechanism, "lagrange")):
+    model = mechanism("19.3.3/model")
+    for document in (model.equations().document, model.equations("brute").document, topic(model, "lagrange")):
         html = document.html()
         assert html.count("<svg") == 1 and "[Figure" not in html
         own = re.findall(r' id="([^"]*)"', html)

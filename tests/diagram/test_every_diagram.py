@@ -8,41 +8,26 @@ from itertools import combinations, permutations
 
 import numpy as np
 import pytest
+import store
 from matplotlib.transforms import Bbox
+from store import WITHOUT_ANSWER, every, mechanism
+from store import diagram as drawn
 
-from freebody import catalogue
 from freebody.equations import Letter, Letters, Sym, latex
 from freebody.free_body import FreeBodies
-from freebody.model import Mechanism
 from freebody.naming import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.layout import AIR, extent
 from freebody.views.shapes import dense
 
-MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
-WITHOUT_ANSWER = {"19.3.23/idle"}  # a body without inertia moves freely: no instant, so no loads
 LONG_LETTERS = {"GEN-CAR/driveshaft": 95}  # mm; "pinion bearing" and "axle" at the two ends of the car, and three more between
-every_model = pytest.mark.parametrize("model", sorted(set(MODELS) - WITHOUT_ANSWER))
-
-
-@cache
-def mechanism(model):
-    return Mechanism.load(MODELS[model])
-
-
-def drawn(model, of=None, to_scale=False):
-    return picture(model, of, to_scale)
-
-
-@cache
-def picture(model, of, to_scale):
-    return mechanism(model).diagram(of, to_scale=to_scale)
+every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER))
 
 
 @cache
 def free_bodies(model):
     """The bodies and loads as the core tells them."""
-    state, _ = mechanism(model).start()
+    state, _ = store.start(model)
     return mechanism(model).compile().free_bodies(state.p, state.t, state.q, state.u)
 
 
@@ -224,7 +209,7 @@ def test_there_are_tensions():
 def test_the_couple_of_a_motor_stands_at_its_joint(model):
     """The open circle goes round the joint, or has it within its radius along the body."""
     hinges = {j["name"]: (j["with"]["of"][1], {j["first"], j["second"]}) for j in joints(model) if j["type"] == "hinge"}
-    now = mechanism(model).solve()
+    now = store.instant(model)
     for cut in drawn(model).cuts:
         scale = cut.row.panels[0].scenery.scale
         for mark in cut.forces:
@@ -284,7 +269,7 @@ def test_a_sheet_is_no_wider_than_its_column(model):
     """160 mm, and for every body by itself also 85 mm, if the letters on one line leave room for the body; they are as large on both."""
     sheets = [drawn(model), drawn(model, "all"), drawn(model, None, True)]
     narrow = LONG_LETTERS.get(model, 85)
-    for sheet, column in [*((each, 160) for each in sheets), (mechanism(model).diagram(column=85), narrow)]:
+    for sheet, column in [*((each, 160) for each in sheets), (drawn(model, column=85.0), narrow)]:
         assert sheet.figure.get_size_inches()[0] * 25.4 <= column + 1e-6
         assert min(text.get_fontsize() for text in sheet.figure.axes[0].texts) >= 8.0
 
@@ -303,7 +288,7 @@ def test_no_leader_runs_through_a_label(model, of):
 @every_model
 def test_forces_of_hinges_touch_their_pins(model):
     """Or stand beside them, where another force has the same line."""
-    now = mechanism(model).solve()
+    now = store.instant(model)
     joints = {j["name"]: j["with"]["of"] for j in json.loads(mechanism(model).source().spec)["joints"] if j["type"] == "hinge"}
     for cut in drawn(model).cuts:
         scale = cut.row.panels[0].scenery.scale

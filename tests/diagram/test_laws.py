@@ -1,32 +1,30 @@
 """What stands below a symbolic diagram: the law of every force that is more than a letter, in the sense of its arrow."""
 
-import json
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 from matplotlib.mathtext import MathTextParser
+from store import SYSTEMS, every, mechanism, start
 
 import freebody as fb
-from freebody import catalogue
 from freebody.equations.derivation.told import Subject
 from freebody.equations.latex import latex
 from freebody.equations.tree import evaluate
 from freebody.free_body import FreeBodies
-from freebody.model import Mechanism
 from freebody.views.diagram import diagram
 from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.rows import MARGIN
 
-MODELS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
-FORCED = [name for name, path in MODELS.items() if json.loads(Mechanism.load(path).source().spec)["forces"]]
+FORCED = [name for name, path in SYSTEMS.items() if "\nforces:" in path.read_text(encoding="utf-8")]
 COLUMN = 453.0
 
 
+@cache
 def moved(model):
     """Source, a state off the start in all coordinates and rates, so that springs pull and motors turn, and what acts there."""
-    mechanism = Mechanism.load(MODELS[model])
-    source, (state, _) = mechanism.source(), mechanism.start()
+    source, (state, _) = mechanism(model).source(), start(model)
     rng = np.random.default_rng(3)
     for size in (0.05, 0.0):  # one that closes loops stays where they are closed
         try:
@@ -41,7 +39,7 @@ def drawn(source, state, free):
     return [mark.action for cut in diagram(source, state, free).cuts for mark in cut.forces if mark.action.kind == "force"]
 
 
-@pytest.mark.parametrize("model", FORCED)
+@every(FORCED)
 def test_a_law_is_what_acts_along_its_arrow(model):
     """Its letters put to numbers give the force, or the couple, of the load as data."""
     source, state, free = moved(model)
@@ -59,7 +57,7 @@ def test_a_law_is_what_acts_along_its_arrow(model):
             assert x and y  # aslant
 
 
-@pytest.mark.parametrize("model", FORCED)
+@every(FORCED)
 @pytest.mark.parametrize("column", [COLUMN, 241.0])
 def test_what_is_more_than_a_letter_is_told_and_can_be_printed(model, column):
     source, state, free = moved(model)
@@ -89,6 +87,6 @@ def test_a_spring_aslant_is_told_by_its_length():
 
 
 def test_nothing_is_told_below_a_diagram_to_scale():
-    mechanism = Mechanism.load(MODELS["19.3.20/model"])
-    assert mechanism.diagram("block").cuts[0].row.laws == [r"where $F_{\text{spring}} = k\,y$"]
-    assert not mechanism.diagram("block", to_scale=True).cuts[0].row.laws
+    spring = mechanism("19.3.20/model")
+    assert spring.diagram("block").cuts[0].row.laws == [r"where $F_{\text{spring}} = k\,y$"]
+    assert not spring.diagram("block", to_scale=True).cuts[0].row.laws

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import json
 import random
-import shutil
 import subprocess
 
 import numpy as np
@@ -95,7 +94,6 @@ def test_generated_numpy_has_the_same_values(trees):
     assert module["matrix"](many["q"], many["u"], many["p"], t, many["a"], many["r"]).shape == (2, 2, 3)
 
 
-@pytest.mark.skipif(not shutil.which("cc"), reason="no C compiler")
 def test_generated_c_compiles_cleanly_and_has_the_same_values(trees, tmp_path):
     (tmp_path / "made.c").write_text(generate({"vector": trees, "one": trees[-1]}, LETTERS, "c"))
     flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-O1", "-shared", "-fPIC", "-ffp-contract=off"]

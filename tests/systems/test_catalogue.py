@@ -4,13 +4,13 @@ import json
 import math
 
 import pytest
+from store import MODELS, every, mechanism
 
 from freebody import catalogue
 from freebody.catalogue import Answer, Asked, Question, ask
-from freebody.model import Mechanism
 
 
-@pytest.mark.parametrize("identity", [system.id for system in catalogue.systems()])
+@every([system.id for system in catalogue.systems()], "identity")
 def test_every_answer_agrees(identity):
     asked = list(catalogue.run(catalogue.find(identity)))
     wrong = [f"{q.label}: {q.failure}" for q in asked if q.failure]
@@ -30,10 +30,9 @@ def test_every_system_has_a_main_model():
         assert system.title
 
 
-def test_every_model_says_how_long_it_runs():
-    for system in catalogue.systems():
-        for path in system.models:
-            assert Mechanism.load(path).run_plan(None, {}).until > 0, path
+@every(MODELS)
+def test_every_model_says_how_long_it_runs(model):
+    assert mechanism(model).run_plan(None, {}).until > 0
 
 
 def test_digits():

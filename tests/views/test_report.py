@@ -94,10 +94,9 @@ def test_a_loaded_run_has_a_report(four_bar, tmp_path):
     assert "Peak reactions" in report_html(back)
 
 
+@pytest.mark.long
 def test_a_browser_shows_and_moves_it(tmp_path):
-    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    if chromium is None:
-        pytest.skip("no chromium is installed")
+    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))))
     page = write_report(run_double_pendulum(until=0.5, upper=EVIL), tmp_path / "report.html")
     flags = [
         "--headless",

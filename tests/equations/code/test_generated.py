@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from programs import FUNCTIONS, ROOT, State, in_c, in_python, model, needs_compiler, run, states
+from programs import FUNCTIONS, ROOT, State, in_c, in_python, model, run, states
 
 import freebody as fb
 
@@ -85,7 +85,6 @@ def test_python_gives_what_the_core_gives(path):
     check(in_python(path), in_python(path), path)
 
 
-@needs_compiler
 @pytest.mark.parametrize("path", MODELS)
 def test_c_gives_what_the_core_and_python_give(path, tmp_path):
     python = in_python(path)

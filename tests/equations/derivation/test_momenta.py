@@ -2,66 +2,43 @@
 
 import numpy as np
 import pytest
-from conftest import FILES, loaded, named, numbers, states
+from evaluated import numbers, rate
+from store import ANSWERED, MODELS, elsewhere, every, mechanism, start, subject
 
 import freebody as fb
-from freebody import _core
 from freebody.equations.derivation.momenta import momenta
 from freebody.equations.derivation.told import Subject
 from freebody.equations.tree import Sym, evaluate
 from freebody.instant import State
 
-STEP = 1e-5
-"""Of time, s; a central difference of a smooth quantity is then good to 1e-9 of its size."""
-
-
-def subject_of(mechanism):
-    return Subject(mechanism.source(), mechanism.start()[0])
-
 
 def told(text):
     """Bodies, the point or direction, and whether it turns, of all that is told of a model."""
-    found = momenta(subject_of(fb.Mechanism.loads(text)))
+    made = fb.Mechanism.loads(text)
+    found = momenta(Subject(made.source(), made.start()[0]))
     return {("+".join(each.found.bodies), each.found.twist.name) for each in found}
 
 
-def rate(tree, subject):
-    """d/dt along the motion, by central difference along the true accelerations; and its size."""
-    names, values = [c["name"] for c in subject.coordinates], numbers(subject)
-
-    def at(t):
-        moved = {Sym(n): values[Sym(n)] + t * values[Sym(n, 1)] + t * t / 2 * values[Sym(n, 2)] for n in names}
-        moved |= {Sym(n, 1): values[Sym(n, 1)] + t * values[Sym(n, 2)] for n in names}
-        return evaluate(tree, values | moved, subject.tables)
-
-    return (at(STEP) - at(-STEP)) / (2 * STEP), max(1.0, abs(at(0.0)))
-
-
-@pytest.mark.parametrize("path", FILES, ids=named)
-def test_what_is_told_has_no_rate_in_any_motion(path):
-    mechanism, start = loaded(path)
-    try:
-        mechanism.solve()
-    except _core.MotionError:
-        pytest.skip("the model has no motion at all")
-    found = momenta(Subject(mechanism.source(), start))
-    for subject in states(mechanism.source(), start):
+@every(ANSWERED)
+def test_what_is_told_has_no_rate_in_any_motion(model):
+    found = momenta(subject(model))
+    for at in elsewhere(model):
         for each in found:
-            change, size = rate(each.momentum, subject)
-            assert abs(change) < 1e-6 * size, f"{each.found.bodies} {each.found.twist.name}"
+            size = max(1.0, abs(evaluate(each.momentum, numbers(at), at.tables)))
+            assert abs(rate(each.momentum, at)) < 1e-9 * size, f"{each.found.bodies} {each.found.twist.name}"
 
 
-@pytest.mark.parametrize("name", ["19.3.15/model.yaml", "19.3.10/model.yaml", "19.3.5/model.yaml", "19.3.3/model.yaml"])
+@pytest.mark.parametrize("name", ["19.3.15/model", "19.3.10/model", "19.3.5/model", "19.3.3/model"])
 def test_what_is_told_is_constant_along_a_simulated_motion(name):
-    path = next(path for path in FILES if str(path).endswith(f"systems/{name}"))
-    mechanism, start = loaded(path)
-    source = mechanism.source()
-    run = mechanism.simulate(until=0.5, rtol=1e-10)
+    source, state = mechanism(name).source(), start(name)[0]
+    run = mechanism(name).simulate(until=0.5, rtol=1e-10)
     names = [c["name"] for c in source.about["coordinates"]]
-    for each in momenta(Subject(source, start)):
+    found = momenta(subject(name))
+    assert found
+    for each in found:
         values = []
         for t, q, u in zip(run.t, run.q, run.u, strict=True):
-            at = Subject(source, State(start.p, float(t), q, u))
+            at = Subject(source, State(state.p, float(t), q, u))
             letters = at.values | dict(zip(map(Sym, names), q, strict=True))
             values.append(evaluate(each.momentum, letters, at.tables))
         assert np.ptp(values) < 1e-7 * max(1.0, np.abs(values).max())
@@ -151,8 +128,7 @@ def test_along_a_frictionless_slope_the_momentum_is_kept_without_gravity_and_not
 
 
 def test_a_central_force_keeps_the_moment_of_momentum_about_its_centre_until_there_is_a_wind():
-    leash = next(path for path in FILES if str(path).endswith("systems/19.3.1/model.yaml"))
-    assert told(leash.read_text()) == {("particle", "ground.O")}
+    assert told(MODELS["19.3.1/model"].read_text()) == {("particle", "ground.O")}
 
 
 def test_every_reason_is_said_in_the_letters_of_the_equations():

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from conftest import FILES, ROOT, loaded, named, numbers
+import store
+from evaluated import numbers
+from store import ANSWERED, every, subject
 
 import freebody as fb
-from freebody import _core
 from freebody.balances.reasons import agree
 from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
@@ -15,6 +16,7 @@ from freebody.equations.tree import Sym, evaluate, minus, symbols
 from freebody.free_body import GROUND
 from freebody.naming import load_words
 
+every_model = every(ANSWERED)
 LADDER = """
 freebody: 1
 name: leaning ladder
@@ -63,42 +65,42 @@ def written(tmp_path):
     return load
 
 
+@every_model
 def test_a_load_in_a_balance_is_told_for_a_body_of_it(model):
-    for body in model.free.bodies:
-        for load in model.free.on(body):
+    free = subject(model).free
+    for body in free.bodies:
+        for load in free.on(body):
             said = load_words(load, [body])
             assert " on " not in said or f" on {body}" in said, said
 
 
+@every_model
 def test_a_push_or_pull_on_the_ground_is_told_for_the_body(model):
-    for load in model.free.loads:
+    for load in subject(model).free.loads:
         if load.kind in ("contact", "string"):
             assert f"on {GROUND}" not in load_words(load)
 
 
+@every_model
 def test_directions_along_links_are_along_them(model):
     """From the first end to the second: a tension pulls the second body against it."""
-    values = model.values
-    for pair in directions(model).pairs:
+    at = subject(model)
+    for pair in directions(at).pairs:
         if pair.link:
-            load = next(load for load in model.free.loads if load.name == pair.link.name and load.kind == "joint")
+            load = next(load for load in at.free.loads if load.name == pair.link.name and load.kind == "joint")
             pull = next(part.force for part in load.on if part.body == pair.link.second)
-            angle = evaluate(pair.angle, values, model.tables) + pair.quarters * np.pi / 2
+            angle = evaluate(pair.angle, at.values, at.tables) + pair.quarters * np.pi / 2
             assert [np.cos(angle), np.sin(angle)] == pytest.approx(-np.array(pull), abs=1e-12)
 
 
-@pytest.mark.parametrize("path", FILES, ids=named)
-def test_degrees_of_freedom_are_the_accelerations_that_what_is_closed_leaves(path):
+@every_model
+def test_degrees_of_freedom_are_the_accelerations_that_what_is_closed_leaves(model):
     """Rows of independent equations take one each: here by the null space, in the code by the rank."""
-    mechanism, start = loaded(path)
-    try:
-        subject = Subject(mechanism.source(), start)
-        rows = [row for row, told in zip(subject.free.rows, subject.rows, strict=True) if told.kind != "motion"]
-    except _core.MotionError:
-        pytest.skip("the model has no motion at all")
-    table = np.array([list(row.coefficients.values()) for row in rows]).reshape(-1, len(subject.coordinates))
+    at = subject(model)
+    rows = [row for row, told in zip(at.free.rows, at.rows, strict=True) if told.kind != "motion"]
+    table = np.array([list(row.coefficients.values()) for row in rows]).reshape(-1, len(at.coordinates))
     sizes = np.linalg.svd(table, compute_uv=False)
-    assert degrees(subject) == len(subject.coordinates) - int((sizes > 1e-7 * max(1.0, sizes.max(initial=0.0))).sum())
+    assert degrees(at) == len(at.coordinates) - int((sizes > 1e-7 * max(1.0, sizes.max(initial=0.0))).sum())
 
 
 def test_a_ladder_that_stands_has_no_freedom_and_its_foot_none_for_the_positions(written):
@@ -109,19 +111,15 @@ def test_a_ladder_that_stands_has_no_freedom_and_its_foot_none_for_the_positions
 
 def test_accelerations_that_are_not_unknown_are_given_with_what_gives_them(written):
     """Balances and closure together give what the full solve gives: nothing is left out."""
-    for mechanism, subject, want in [(*written(LADDER), "top.N"), (*of("examples/four_bar.yaml"), "B.Fx")]:
-        found, values = mechanism.equations(want=want), numbers(subject)
+    bars = store.mechanism("examples/four_bar"), subject("examples/four_bar")
+    for mechanism, at, want in [(*written(LADDER), "top.N"), (*bars, "B.Fx")]:
+        found, values = mechanism.equations(want=want), numbers(at)
         moving = {x for part in found.parts for x in symbols(part.residual) if x.dots == 2}
         assert moving <= set(found.unknowns) and found.content.system.is_square
         matrix, right = (
             [[evaluate(x, values) for x in row] for row in rows] for rows in (found.mass_matrix, [found.right_hand_side])
         )
         assert np.linalg.solve(matrix, right[0]) == pytest.approx([values[x] for x in found.unknowns], rel=1e-9, abs=1e-9)
-
-
-def of(path):
-    mechanism, start = loaded(ROOT / path)
-    return mechanism, Subject(mechanism.source(), start)
 
 
 def test_what_slides_has_a_balance_for_its_normal_force(written):
@@ -148,8 +146,8 @@ def test_a_bearing_that_rubs_has_a_couple_and_loses_energy(written):
 
 
 def test_a_motor_between_two_bodies_is_internal_to_both():
-    _, subject = of("systems/EX-ARM/held.yaml")
-    (equation,) = smallest_set("shoulder motor", nearby(subject.source, subject.state), subject.points).equations
+    arm = subject("EX-ARM/held")
+    (equation,) = smallest_set("shoulder motor", nearby(arm.source, arm.state), arm.points).equations
     why = {name: item.why for item in equation.dropped for name in item.unknowns}
     assert why["'elbow motor'.force"] == "they are internal to upper + forearm"
 
@@ -164,11 +162,11 @@ def test_reasons_agree_in_number():
 
 def test_a_bearing_that_rubs_has_a_balance_for_every_force_of_its_law(written):
     """As many equations and laws as unknowns, and all hold."""
-    mechanism, subject = written(BEARING)
+    mechanism, at = written(BEARING)
     found = mechanism.equations()
-    assert len(found.parts) + len(subject.laws) == len(found.unknowns) == 4
-    values = numbers(subject)
-    for tree in [*found.equations, *(minus(left, right) for left, right in subject.laws)]:
+    assert len(found.parts) + len(at.laws) == len(found.unknowns) == 4
+    values = numbers(at)
+    for tree in [*found.equations, *(minus(left, right) for left, right in at.laws)]:
         assert evaluate(tree, values) == pytest.approx(0, abs=1e-9)
     assert "make" in found.text() and "no reaction of a joint" in found.text()
 
@@ -195,6 +193,5 @@ def test_gears_turn_as_their_radii_whatever_the_angle_of_their_teeth(written):
 
 def test_a_joint_that_closes_a_loop_is_a_point_of_the_body_that_is_cut_free():
     """The slider's pin as the end of the rod: no arm with the way of the slider."""
-    mechanism, _ = loaded(ROOT / "systems/GEN-SLIDER/model.yaml")
-    (rod,) = (part for part in mechanism.equations().parts if part.title == "AMB about C for rod")
+    (rod,) = (part for part in store.mechanism("GEN-SLIDER/model").equations().parts if part.title == "AMB about C for rod")
     assert Sym("x") not in symbols(rod.left, rod.right)

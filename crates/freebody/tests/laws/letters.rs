@@ -2,7 +2,7 @@
 
 use crate::random::*;
 use crate::random_mechanisms::{recipe, HOME, MECHANISMS};
-use crate::rng::Rng;
+use crate::rng::{seeds, Rng};
 use freebody::balance::Balance;
 use freebody::free_bodies::free_bodies;
 use freebody::letters::{answer, Question, Setting};
@@ -115,7 +115,7 @@ fn equations(answers: &Value) -> Vec<(String, &Value)> {
 #[test]
 fn equations_told_at_one_state_hold_at_another() {
     let mut told = 0;
-    for seed in 0..MECHANISMS / 2 {
+    for seed in seeds(0..MECHANISMS / 2, 3) {
         let recipe = recipe(seed);
         let recipe = Recipe { odd: false, bodies: recipe.bodies.min(BODIES), idle: seed % 2 == 1, ..recipe };
         let bench = Bench::new(&recipe.draw(seed, HOME));

@@ -1,8 +1,12 @@
 //! The laws of mechanics, stated over the lists of joints, gauges, forces and integrators, and over mechanisms
 //! thrown together at random. What is new in a list is tested because it is there.
 
-#![allow(clippy::disallowed_methods, reason = "closed forms are evaluated by other functions than ours")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "closed forms are evaluated by other functions than ours; what is thrown may differ"
+)]
 
+mod arrows;
 mod closed_forms;
 mod contacts;
 mod cords;
@@ -12,6 +16,7 @@ mod joints;
 mod letters;
 mod metamorphic;
 mod model;
+mod piles;
 mod random;
 mod random_mechanisms;
 mod redundancy;

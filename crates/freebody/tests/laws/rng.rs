@@ -1,5 +1,13 @@
 //! Seeded random numbers (SplitMix64; Steele, Lea & Flood, *Fast splittable pseudorandom number generators*, 2014).
 
+use std::iter::StepBy;
+use std::ops::Range;
+
+/// Seeds of a family that takes long: every `share`-th by default, all where the environment has `FREEBODY_ALL`.
+pub fn seeds(all: Range<u64>, share: usize) -> StepBy<Range<u64>> {
+    all.step_by(if std::env::var_os("FREEBODY_ALL").is_some() { 1 } else { share })
+}
+
 pub struct Rng(u64);
 
 impl Rng {

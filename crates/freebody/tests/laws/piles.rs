@@ -1,15 +1,7 @@
 //! Piles of polygons and disks thrown into a box: nothing goes through anything, no energy comes from nowhere, and the
 //! motion comes to its end.
 
-#![allow(clippy::disallowed_methods, reason = "what is thrown need not be the same everywhere")]
-
-#[path = "../laws/model.rs"]
-#[allow(dead_code)]
-mod model;
 mod pile;
-#[path = "../laws/rng.rs"]
-#[allow(dead_code)]
-mod rng;
 
 use freebody::contact::complementarity::Law;
 use freebody::motion::Options;

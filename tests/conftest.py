@@ -1,0 +1,61 @@
+"""Which members of families are visited: all of them with ``--all``, else a sample."""
+
+from __future__ import annotations
+
+import datetime
+from collections import defaultdict
+
+import pytest
+from store import sample
+
+SEEN = pytest.StashKey[dict]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    today = datetime.datetime.now(datetime.timezone.utc).toordinal()
+    parser.addoption("--all", action="store_true", help="visit every member of every family, and run what takes long")
+    parser.addoption("--sample", type=int, default=today, help="seed of the sample of families; by default the day's number")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "family(name): a member of a family, of which a sample is visited by default")
+    config.addinivalue_line("markers", "long: runs with --all only")
+    config.stash[SEEN] = {}
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    families = defaultdict(set)
+    for item in items:
+        if found := item.get_closest_marker("family"):
+            families[item.path, item.originalname].add(found.args[0])
+    visited = {test: sample(names, config.getoption("sample")) for test, names in families.items()}
+
+    def is_taken(item: pytest.Item) -> bool:
+        found = item.get_closest_marker("family")
+        return not item.get_closest_marker("long") and (not found or found.args[0] in visited[item.path, item.originalname])
+
+    members = [item for item in items if item.get_closest_marker("family")]
+    if not config.getoption("all"):
+        items[:], left_out = [item for item in items if is_taken(item)], [item for item in items if not is_taken(item)]
+        config.hook.pytest_deselected(items=left_out)
+    taken = [item for item in items if item.get_closest_marker("family")]
+    config.stash[SEEN] |= {"families": len(families), "members": len(members), "taken": len(taken)}
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["seen"] = session.config.stash[SEEN]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node, error) -> None:
+    node.config.stash[SEEN] |= getattr(node, "workeroutput", {}).get("seen", {})
+
+
+def pytest_terminal_summary(terminalreporter, config: pytest.Config) -> None:
+    if seen := config.stash[SEEN]:
+        how = "all" if config.getoption("all") else f"sample {config.getoption('sample')}, --all for the rest"
+        terminalreporter.write_line(
+            f"families: {seen['taken']} of {seen['members']} cases of {seen['families']} laws visited ({how})"
+        )

@@ -1,0 +1,64 @@
+"""What the tests of derivations evaluate: all letters at a state, the rate of an expression, other parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from freebody.balances.states import Closing
+from freebody.balances.system import alike
+from freebody.equations.derivation.told import Subject
+from freebody.equations.tree import Add, Sym, Tree, evaluate
+
+STEP = 2e-3
+"""By how much angles go on, rad, and lengths, m, in the step of a difference: one of fourth order is then good to 1e-11 of what is
+smooth, and round-off leaves less than that."""
+
+
+def numbers(subject: Subject) -> dict[Sym, float]:
+    """The numbers of all letters, places of bodies among them, as the form with constraints has them."""
+    found = dict(subject.values)
+    for body in subject.free.bodies.values():
+        for k, word in enumerate("xy"):
+            pairs = enumerate((body.G, body.v, body.a))
+            found |= {Sym(f"{word}_{body.name}", dots): pair[k] for dots, pair in pairs}
+        found |= {Sym(f"phi_{body.name}", dots): x for dots, x in enumerate((body.angle, body.omega, body.alpha))}
+    return found
+
+
+def rate(tree: Tree, subject: Subject, values: Mapping[Sym, float] | None = None) -> float:
+    """d/dt of an expression of coordinates and rates along the true motion; all other letters, time too, stay as they are."""
+    values, names = values or numbers(subject), [c["name"] for c in subject.coordinates]
+    h = STEP / max(1.0, *(abs(values[Sym(n, 1)]) for n in names), *(abs(values[Sym(n, 2)]) ** 0.5 for n in names))
+
+    def at(t: float) -> float:
+        moved = {Sym(n): values[Sym(n)] + t * values[Sym(n, 1)] + t * t / 2 * values[Sym(n, 2)] for n in names}
+        moved |= {Sym(n, 1): values[Sym(n, 1)] + t * values[Sym(n, 2)] for n in names}
+        return evaluate(tree, values | moved, subject.tables)
+
+    return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h)
+
+
+def other_parameters(subject: Subject) -> Subject | None:
+    """The same mechanism with no parameter as it was, what is closed or touches still so; None where it cannot be."""
+    source, start = subject.source, subject.state
+    given = zip(source.about["parameters"], start.p, np.random.default_rng(4).uniform(0.05, 0.15, len(start.p)), strict=True)
+    p = source.core.bind({each["name"]: float(x) * (1 + part) + part * (x == 0) for each, x, part in given})
+    closing = Closing(source, replace(start, p=p), subject.free)
+    q = closing.place(start.q)
+    if q is None:
+        return None
+    other = Subject(source, closing.moving(q, start.u, start.t))
+    return other if alike(other.free, subject.free) else None
+
+
+def off(part, values, tables):
+    """What is left of an equation, relative to the largest of its terms, or to 1."""
+    size = max([1.0, *(abs(x) for side in (part.left, part.right) for x in terms(side, values, tables))])
+    return abs(evaluate(part.residual, values, tables)) / size
+
+
+def terms(tree, values, tables):
+    return [evaluate(term, values, tables) for term in (tree.terms if isinstance(tree, Add) else (tree,))]
