@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from freebody.instant import Indeterminate
+from freebody.model.cards import LoadCard
 from freebody.results import Array
 
 GROUND = "ground"
@@ -36,21 +37,6 @@ class Part:
         """Force x, y and moment about a place, (3,)."""
         (x, y), (fx, fy) = np.subtract(self.point, about), self.force
         return np.array([fx, fy, self.couple + x * fy - y * fx])
-
-
-@dataclass(frozen=True)
-class LoadCard:
-    """What a load is, as the core declares it where its joint, force or limit is defined: its ``name`` (``normal force``), the
-    word by which an expression reads it (``Fn``), the ``stem`` of its symbol (``N``). ``pulls``: it draws its bodies together
-    where it is positive; ``tangent``: it acts along surfaces that touch; ``flank``: its sign says on which flank teeth bear."""
-
-    name: str
-    reading: str
-    stem: str
-    couple: bool
-    pulls: bool
-    tangent: bool
-    flank: bool
 
 
 @dataclass(frozen=True)

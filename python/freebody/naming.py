@@ -126,7 +126,7 @@ def _name(load: Load, force: _Law) -> Name:
     number = load.number
     if force and number:
         # The first load of a force has its name; each further one what it is in addition.
-        first, number = cards.forces()[force["type"]].loads[0], None
+        first, number = cards.forces()[force["type"]].parts[0].name, None
         if load.card.name != first:
             owner = owner.replace(first, load.card.name) if first in owner else f"{owner} {load.card.name}"
     return Name(load.card.stem, (owner, *below, *([str(number)] if number else [])))

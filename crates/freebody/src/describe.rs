@@ -52,7 +52,7 @@ fn coordinates(m: &Mechanism, n: &Numbers, tree: bool) -> Vec<Value> {
     joints
         .flat_map(|j| {
             j.coordinates.iter().map(|c| {
-                json!({"name": c.name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, n, j, c)})
+                json!({"name": c.name, "word": j.kind.card().coordinates[c.card].name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, n, j, c)})
             })
         })
         .collect()

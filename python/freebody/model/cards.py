@@ -35,27 +35,58 @@ class Field:
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A coordinate of a joint with its SI unit (empty for a curve parameter); ``turn``: it is the second body's own turn."""
+    """A coordinate of a joint with its SI unit (empty for a curve parameter); ``turn``: it is the second body's own turn.
+    ``line``: that along which, or ``across`` which, it moves this body, ``{}`` being the joint; or empty."""
 
     name: str
     unit: str
     turn: bool
+    line: str
+    across: bool
+
+
+@dataclass(frozen=True)
+class LoadCard:
+    """What a load is, as the core declares it where its joint, force or limit is defined: its ``name`` (``normal force``), the
+    word by which an expression reads it (``Fn``), the ``stem`` of its symbol (``N``). ``pulls``: it draws its bodies together
+    where it is positive; ``presses``: one side presses on the other; ``tangent``: it acts along surfaces that touch; ``flank``:
+    its sign says on which flank teeth bear."""
+
+    name: str
+    reading: str
+    stem: str
+    couple: bool
+    pulls: bool
+    presses: bool
+    tangent: bool
+    flank: bool
 
 
 @dataclass(frozen=True)
 class Card:
-    """A joint or a force as a person writes it. ``rows`` are the readings of the constraints of a joint, of which those
-    numbered in ``presses``, from 1, are by one side pressing on the other; ``rubs`` tells whether it can have friction along its first coordinate;
-    ``loads`` names what a force does."""
+    """A joint or a force as a person writes it. ``rows`` are the loads by which a joint holds, ``parts`` those of a force;
+    ``rubs`` tells whether a joint can have friction along its first coordinate; ``glyph`` and ``outline`` how it is drawn, by a
+    glyph of the set or by strokes at both its points, in sizes of symbols."""
 
     type: str
     doc: str
     fields: tuple[Field, ...]
     coordinates: tuple[Coordinate, ...] = ()
-    rows: tuple[str, ...] = ()
-    presses: tuple[int, ...] = ()
+    rows: tuple[LoadCard, ...] = ()
+    parts: tuple[LoadCard, ...] = ()
     rubs: bool = False
-    loads: tuple[str, ...] = ()
+    glyph: str = ""
+    outline: tuple[tuple[tuple[float, float], ...], ...] = ()
+
+    @property
+    def presses(self) -> tuple[int, ...]:
+        """The rows, counted from 1, by which one side presses on the other."""
+        return tuple(i for i, row in enumerate(self.rows, 1) if row.presses)
+
+    @property
+    def hinged(self) -> bool:
+        """Whether the second body can turn, and nothing else."""
+        return all(coordinate.turn for coordinate in self.coordinates) and bool(self.coordinates)
 
     @property
     def pinned(self) -> bool:
@@ -89,12 +120,10 @@ def _section(name: str) -> dict[str, Card]:
 
 
 def _card(data: dict[str, Any]) -> Card:
-    coordinates = tuple(Coordinate(c["name"], c["dimension"] or "", c["turn"]) for c in data.get("coordinates", []))
-    rows = tuple(row["reading"] for row in data["rows"])
-    presses = tuple(i for i, row in enumerate(data["rows"], 1) if row["presses"])
-    loads = tuple(load["name"] for load in data["parts"])
-    fields = tuple(_field(f) for f in data["fields"])
-    return Card(data["type"], data["doc"], fields, coordinates, rows, presses, data["rubs"], loads)
+    coordinates = (Coordinate(c["name"], c["dimension"] or "", c["turn"], c["line"], c["across"]) for c in data["coordinates"])
+    rows, parts = (tuple(LoadCard(**load) for load in data[word]) for word in ("rows", "parts"))
+    fields, outline = tuple(map(_field, data["fields"])), tuple(tuple(map(tuple, stroke)) for stroke in data["outline"])
+    return Card(data["type"], data["doc"], fields, tuple(coordinates), rows, parts, data["rubs"], data["glyph"], outline)
 
 
 def _field(data: dict[str, Any]) -> Field:

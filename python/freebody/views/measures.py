@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from freebody.model.cards import joints as cards
 from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.scene import GROUND, Sketch, named_points
@@ -87,15 +85,13 @@ def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[
 def _asked(sketch: Sketch) -> Iterator[_Asked]:
     told = {joint["name"]: joint for joint in sketch.spec["joints"]}
     about = {joint["name"]: joint for joint in sketch.about["joints"]}
-    count = Counter[str]()
     for coordinate, value in zip(sketch.about["coordinates"], sketch.q[0], strict=True):
         first, second = (about[coordinate["joint"]][end] for end in ("first", "second"))
         # A body that nothing joins to ground is free from its origin.
         joint = told.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
-        name, word = coordinate["name"], cards()[joint["type"]].coordinates[count[coordinate["joint"]]].name
+        name = coordinate["name"]
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
-        count[coordinate["joint"]] += 1
-        yield _Asked(name, joint, first, second, word, coordinate["dimension"], given.get("sense", 1), float(value))
+        yield _Asked(name, joint, first, second, coordinate["word"], coordinate["dimension"], given.get("sense", 1), float(value))
 
 
 def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:

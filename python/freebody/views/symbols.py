@@ -1,4 +1,4 @@
-"""How joints and forces look: one short function a type, drawn on a ``Sketch`` in body frames."""
+"""How joints and forces look: one short function a glyph, drawn on a ``Sketch`` in body frames."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from freebody.model.cards import joints
 from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.scene import GROUND, Sketch, Stroke
@@ -17,10 +18,12 @@ Fields = Mapping[str, Any]
 
 
 def draw_joints(sketch: Sketch) -> None:
-    """The symbol of every joint that has one; what holds is drawn only as long as the joint is there."""
+    """Every joint as its card says; what holds is drawn only as long as the joint is there."""
     for joint in sketch.spec["joints"]:
-        symbol, there = JOINTS.get(joint["type"]), sketch.there(joint["name"], joint.get("engaged", True))
-        if symbol:
+        card, there = joints()[joint["type"]], sketch.there(joint["name"], joint.get("engaged", True))
+        if card.outline:
+            _outline(sketch, joint["with"]["of"], card.outline, there)
+        if symbol := GLYPHS.get(card.glyph):
             known = {id(stroke) for figure in sketch.figures.values() for stroke in figure.strokes}
             symbol(sketch, joint["name"], joint["with"])
             if not there.all():
@@ -33,6 +36,16 @@ def _fade(sketch: Sketch, known: set[int], there: Array) -> None:
         for i, stroke in enumerate(figure.strokes):
             if id(stroke) not in known and stroke.style in ("pin", "weld"):
                 figure.strokes[i] = replace(stroke, shown=there)
+
+
+def _outline(sketch: Sketch, points: list[str], strokes: tuple[tuple[tuple[float, float], ...], ...], there: Array) -> None:
+    """Strokes in sizes of symbols at each of some points, alike along the fixed axes at the start."""
+    for point in points:
+        body, at = sketch.at[point]
+        angle = -float(sketch.poses[0, sketch.names.index(body), 2])
+        for stroke in strokes:
+            line = shapes.turn(sketch.size * np.array(stroke), angle, (at[0], at[1]))
+            sketch.figures[body].strokes.append(Stroke(line, "rail", False, there))
 
 
 def draw_forces(sketch: Sketch) -> None:
@@ -235,17 +248,18 @@ def _belt(sketch: Sketch, name: str, fields: Fields) -> None:
     sketch.pair(name, "belt", fields["of"], [strand, strand * (1, -1)])
 
 
-JOINTS: dict[str, Callable[[Sketch, str, Fields], None]] = {
-    "hinge": _hinge,
+GLYPHS: dict[str, Callable[[Sketch, str, Fields], None]] = {
+    "pin": _hinge,
     "weld": _weld,
-    "slider": _slider,
+    "block": _slider,
     "rollers": _rollers,
     "slot": _slot,
-    "curved_slot": _curved_slot,
-    "cam": _cam,
+    "curve": _curved_slot,
+    "follower": _cam,
     "link": _link,
-    "rolling": _rolling,
-    "rolling_circles": _rolling_circles,
-    "gear": _gear,
+    "wheel": _rolling,
+    "wheels": _rolling_circles,
+    "pitch_circles": _gear,
     "belt": _belt,
 }
+"""By the names that joints give on their cards; each takes the sketch, the name of the joint and its fields."""

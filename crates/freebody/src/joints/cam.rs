@@ -15,9 +15,11 @@ impl Joint for CurvedSlot {
             .needs("along", FieldKind::Curve, Role::First, "m", "the curve of the first body")
             .needs("point", FieldKind::Point, Role::Second, "m", "the point of the second body")
             .coordinate("s", "")
+            .along("the tangent of {}")
             .turn()
             .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
             .rubbing()
+            .glyph("curve")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (at, _) = n.curve?.at(q[0]);
@@ -36,6 +38,7 @@ impl Joint for Cam {
             .coordinate("s", "")
             .turn()
             .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
+            .glyph("follower")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (at, slope) = n.curve?.at(q[0]);

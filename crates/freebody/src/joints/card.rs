@@ -20,6 +20,10 @@ pub struct Card {
     pub rubs: bool,
     /// The loads of a force, in the order of its pulls and pushes.
     pub parts: Vec<LoadCard>,
+    /// The glyph by which drawings show it, of the set in `views/symbols.py`; empty for none.
+    pub glyph: &'static str,
+    /// Strokes that drawings show at the two points of the joint, in sizes of symbols along fixed axes.
+    pub outline: &'static [&'static [[f64; 2]]],
 }
 
 /// One field of a card.
@@ -92,6 +96,10 @@ pub struct CoordinateCard {
     pub dimension: &'static str,
     /// The turn of the second body, which a particle does not have.
     pub turn: bool,
+    /// The line along which, or across which, it moves the second body, `{}` being the joint: `the slider {}`; or empty.
+    pub line: &'static str,
+    /// Whether it moves the body across that line.
+    pub across: bool,
 }
 
 /// What a load is: a component of a reaction, a force of the model, friction. Who names it, draws it or tells its unit reads it here.
@@ -107,6 +115,8 @@ pub struct LoadCard {
     pub couple: bool,
     /// Whether it is a tension: where it is positive it draws its two bodies together.
     pub pulls: bool,
+    /// Whether one side presses on the other with it: where it would pull, what is one-sided lets go.
+    pub presses: bool,
     /// Whether it acts along two surfaces that touch.
     pub tangent: bool,
     /// Whether its sign says on which flank teeth bear.
@@ -116,11 +126,15 @@ pub struct LoadCard {
 impl LoadCard {
     /// A force.
     pub const fn force(name: &'static str, reading: &'static str, stem: &'static str) -> Self {
-        LoadCard { name, reading, stem, couple: false, pulls: false, tangent: false, flank: false }
+        LoadCard { name, reading, stem, couple: false, pulls: false, presses: false, tangent: false, flank: false }
     }
     /// A couple.
     pub const fn couple(name: &'static str, reading: &'static str) -> Self {
         LoadCard { couple: true, ..LoadCard::force(name, reading, "M") }
+    }
+    /// A normal force, by which one side presses on the other.
+    pub const fn press(name: &'static str, reading: &'static str) -> Self {
+        LoadCard { presses: true, ..LoadCard::force(name, reading, "N") }
     }
     /// A tension.
     pub const fn tension() -> Self {
@@ -142,8 +156,6 @@ pub struct RowCard {
     /// The load. One that pulls is read against the multiplier, which pushes where it is positive.
     #[serde(flatten)]
     pub load: LoadCard,
-    /// One side presses on the other with it: where it would pull, a one-sided joint lets go.
-    pub presses: bool,
     /// It is a component of the force of a pin, which a person tells along fixed axes: 0 for x, 1 for y.
     #[serde(skip)]
     pub pin: Option<usize>,
@@ -158,11 +170,7 @@ pub struct RowCard {
 impl RowCard {
     /// A row whose multiplier is this load.
     pub fn of(load: LoadCard) -> Self {
-        RowCard { load, presses: false, pin: None, phased: false, beside: false }
-    }
-    /// A normal force by which one side presses on the other.
-    pub fn press(name: &'static str, reading: &'static str) -> Self {
-        RowCard { presses: true, ..RowCard::of(LoadCard::force(name, reading, "N")) }
+        RowCard { load, pin: None, phased: false, beside: false }
     }
     /// The sign of its load for a positive multiplier.
     pub fn sign(&self) -> f64 {
@@ -181,7 +189,17 @@ impl RowCard {
 impl Card {
     /// A card with its word and sentence.
     pub fn new(word: &'static str, doc: &'static str) -> Self {
-        Card { word, doc, fields: vec![], coordinates: vec![], rows: vec![], rubs: false, parts: vec![] }
+        Card {
+            word,
+            doc,
+            fields: vec![],
+            coordinates: vec![],
+            rows: vec![],
+            rubs: false,
+            parts: vec![],
+            glyph: "",
+            outline: &[],
+        }
     }
     /// A field that must be given.
     pub fn needs(
@@ -210,12 +228,23 @@ impl Card {
     }
     /// A coordinate.
     pub fn coordinate(mut self, name: &'static str, dimension: &'static str) -> Self {
-        self.coordinates.push(CoordinateCard { name, dimension, turn: false });
+        self.coordinates.push(CoordinateCard { name, dimension, turn: false, line: "", across: false });
+        self
+    }
+    /// The line along which the last coordinate moves the second body, `{}` being the joint.
+    pub fn along(mut self, line: &'static str) -> Self {
+        self.coordinates.last_mut().expect("a coordinate").line = line;
+        self
+    }
+    /// The line across which it does.
+    pub fn across(mut self, line: &'static str) -> Self {
+        self = self.along(line);
+        self.coordinates.last_mut().expect("a coordinate").across = true;
         self
     }
     /// The coordinate that is the turn of the second body.
     pub fn turn(mut self) -> Self {
-        self.coordinates.push(CoordinateCard { name: "angle", dimension: "rad", turn: true });
+        self.coordinates.push(CoordinateCard { name: "angle", dimension: "rad", turn: true, line: "", across: false });
         self
     }
     /// The two rows that keep a point on a point.
@@ -230,6 +259,16 @@ impl Card {
     /// It can rub along its first coordinate.
     pub fn rubbing(mut self) -> Self {
         self.rubs = true;
+        self
+    }
+    /// The glyph by which drawings show it.
+    pub fn glyph(mut self, name: &'static str) -> Self {
+        self.glyph = name;
+        self
+    }
+    /// Strokes that drawings show at the two points of the joint, in sizes of symbols.
+    pub fn outline(mut self, strokes: &'static [&'static [[f64; 2]]]) -> Self {
+        self.outline = strokes;
         self
     }
     /// The loads of a force, in the order of its pulls and pushes.

@@ -29,10 +29,12 @@ pub struct Polar;
 
 impl Joint for Polar {
     fn card(&self) -> Card {
-        Card::new("polar", "Free motion, in polar coordinates about a point of the first body.")
+        Card::new("polar", "Free motion, in polar coordinates about a point of the first body; a motion through the pole takes `r` below 0.")
             .needs("of", FieldKind::Points, Role::Both, "m", "the pole and the point measured to")
             .coordinate("r", "m")
+            .along("the radius of {}")
             .coordinate("direction", "rad")
+            .across("the radius of {}, times r,")
             .turn()
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {

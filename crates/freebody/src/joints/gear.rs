@@ -65,6 +65,7 @@ impl Joint for Gear {
                 phased: true,
                 ..RowCard::of(LoadCard { flank: true, ..LoadCard::force("tooth force", "F1", "F") })
             })
+            .glyph("pitch_circles")
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         let (b1, b2) = Self::base(n);
@@ -104,6 +105,7 @@ impl Joint for Belt {
         .takes("crossed", FieldKind::Flag, "", "false", "whether the strands cross")
         .takes("strand", FieldKind::Number, "", "1", "+1 or -1: the strand that carries")
         .row(RowCard { phased: true, beside: true, ..RowCard::of(LoadCard::force("strand force", "F1", "F")) })
+        .glyph("belt")
     }
     fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
         let (b1, b2) = Self::radii(n);

@@ -12,6 +12,7 @@ impl Joint for Hinge {
             .turn()
             .pin()
             .rubbing()
+            .glyph("pin")
     }
     #[inline]
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {

@@ -11,8 +11,10 @@ impl Joint for Link {
             .needs("of", FieldKind::Points, Role::Both, "m", "the points at its ends")
             .needs("length", FieldKind::Number, Role::Number, "m", "the distance")
             .coordinate("direction", "rad")
+            .across("the link {}")
             .turn()
             .row(RowCard::of(LoadCard::tension()))
+            .glyph("link")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (sin, cos) = q[0].sin_cos();

@@ -10,6 +10,7 @@ mod free;
 mod gear;
 mod hinge;
 mod link;
+mod parallel;
 mod rolling;
 mod slider;
 mod slot;
@@ -145,6 +146,7 @@ list! {
     cam::CurvedSlot,
     cam::Cam,
     link::Link,
+    parallel::Parallel,
     rolling::Rolling,
     rolling::RollingCircles,
     gear::Gear,

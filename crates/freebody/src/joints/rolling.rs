@@ -18,8 +18,9 @@ impl Joint for Rolling {
             .needs("on", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("circle", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
             .coordinate("s", "m")
-            .row(RowCard::press("normal force", "Fn"))
+            .row(RowCard::of(LoadCard::press("normal force", "Fn")))
             .row(friction("Fs"))
+            .glyph("wheel")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: n.of[0], angle: -q[0] / n.of[0] })
@@ -57,8 +58,9 @@ impl Joint for RollingCircles {
             .needs("circle", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
             .takes("inside", FieldKind::Flag, "", "false", "whether it rolls inside the first circle")
             .coordinate("direction", "rad")
-            .row(RowCard::press("normal force", "F1"))
+            .row(RowCard::of(LoadCard::press("normal force", "F1")))
             .row(friction("F2"))
+            .glyph("wheels")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (distance, r2) = Self::sizes(n);

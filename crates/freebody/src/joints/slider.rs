@@ -13,9 +13,11 @@ impl Joint for Slider {
             .needs("along", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("line", FieldKind::Line, Role::Second, "m", "the line of the second body")
             .coordinate("s", "m")
-            .row(RowCard::press("normal force", "Fn"))
+            .along("the slider {}")
+            .row(RowCard::of(LoadCard::press("normal force", "Fn")))
             .couple()
             .rubbing()
+            .glyph("block")
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })
@@ -43,8 +45,10 @@ impl Joint for Rollers {
             .needs("along", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("points", FieldKind::Points, Role::Second, "m", "the two rollers of the second body")
             .coordinate("s", "m")
-            .row(RowCard::press("force of the first roller", "F1"))
-            .row(RowCard { beside: true, ..RowCard::press("force of the second roller", "F2") })
+            .along("the way of {}")
+            .row(RowCard::of(LoadCard::press("force of the first roller", "F1")))
+            .row(RowCard { beside: true, ..RowCard::of(LoadCard::press("force of the second roller", "F2")) })
+            .glyph("rollers")
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })

@@ -11,9 +11,11 @@ impl Joint for Slot {
             .needs("along", FieldKind::Line, Role::First, "m", "the line of the first body")
             .needs("point", FieldKind::Point, Role::Second, "m", "the point of the second body")
             .coordinate("s", "m")
+            .along("the slot {}")
             .turn()
-            .row(RowCard::press("normal force", "Fn"))
+            .row(RowCard::of(LoadCard::press("normal force", "Fn")))
             .rubbing()
+            .glyph("slot")
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: q[1] })

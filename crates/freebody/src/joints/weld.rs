@@ -13,6 +13,7 @@ impl Joint for Weld {
             .takes("angle", FieldKind::Number, "rad", "0", "turn of the second body against the first")
             .pin()
             .couple()
+            .glyph("weld")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, _: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: S::zero(), y: S::zero(), angle: n.of[0] })

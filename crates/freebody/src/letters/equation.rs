@@ -93,7 +93,7 @@ impl Letters<'_> {
                 let site = self.point(name)?;
                 self.k.pose[self.m.body_of(site)].place(at.n.arms[site])
             }
-            About::Load(index) => self.acts_on(*index, bodies)?.point,
+            About::Load(index) => return Ok(on_line(self.acts_on(*index, bodies)?)),
             About::Meeting(a, b) => return Ok(meeting(self.wrench(*a, bodies)?, self.wrench(*b, bodies)?)),
             About::Centre => self.centre_of(bodies),
         };
@@ -256,6 +256,15 @@ impl Letters<'_> {
         let hangs = |&body: &usize| self.m.common_carrier(body, root) == root;
         self.m.listed_bodies().into_iter().filter(hangs).collect()
     }
+}
+
+/// A turn about where a load acts: of a force with a couple beside it, the place on its line that is nearest to its point.
+fn on_line(part: Part<Symbol>) -> Test {
+    let square = part.force.dot(part.force);
+    if part.couple.is_zero() || square.is_zero() {
+        return Test::about(part.point);
+    }
+    Test::Moment { about: part.point * square - part.force.perp() * part.couple, scale: square }
 }
 
 /// A turn about the place where two lines meet: neither load has power in it.

@@ -75,7 +75,7 @@ impl Gap {
     /// The force that keeps the limit.
     pub fn card(&self, m: &Mechanism) -> LoadCard {
         match self {
-            Gap::Touch(_) => LoadCard::force("normal force", "N", "N"),
+            Gap::Touch(_) => LoadCard::press("normal force", "N"),
             Gap::Cord(_) => LoadCard::tension(),
             Gap::Gauge(law) => LoadCard::force("force", "N", "F").along(m.turns(law)),
         }

@@ -10,11 +10,7 @@ import numpy as np
 from freebody.equations.derivation.balancing import Stated, named_place, numbers, pin
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.tree import ZERO, Sym, evaluate, is_zero
-
-_ALONG = {
-    "slider": "the slider {}", "slot": "the slot {}", "rollers": "the way of {}", "curved_slot": "the tangent of {}",
-    "polar": "the radius of {}",
-}  # fmt: skip
+from freebody.model.cards import Coordinate, joints
 
 
 def stated(subject: Subject) -> list[Stated]:
@@ -35,7 +31,7 @@ def _sense(subject: Subject, name: str, balance: Balance) -> int:
 
 def _question(subject: Subject, coordinate: Mapping[str, Any]) -> dict[str, Any]:
     joint = _joint(subject, coordinate)
-    if joint["type"] == "link" and (carried := _particle(subject, joint)):
+    if _card(joint, coordinate).across and joint.get("reaction") and (carried := _particle(subject, joint)):
         return {"ask": "equation", "bodies": [carried], "along": {"across": _load(subject, joint["name"])}}
     return {"ask": "coordinate", "name": coordinate["name"]}
 
@@ -61,20 +57,22 @@ def _joint(subject: Subject, coordinate: Mapping[str, Any]) -> Mapping[str, Any]
 def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) -> tuple[str, str]:
     """The point or direction in words, and the word before it."""
     joint = _joint(subject, coordinate)
+    card, name = joints()[joint["type"]], joint["name"]
     if balance.turns:
-        named = (
-            pin(joint["name"]) if joint["type"] == "hinge" else named_place(subject, numbers(subject, balance), balance.bodies)
-        )
-        return named or ("the point of contact" if joint["type"] == "rolling" else f"the point of {joint['name']}"), "about"
-    if joint["type"] == "link":
-        return f"the link {joint['name']}", "across"
-    if joint["type"] == "polar" and coordinate["dimension"] == "rad":
-        return f"the radius of {joint['name']}, times r,", "across"
+        named = pin(name) if card.hinged else named_place(subject, numbers(subject, balance), balance.bodies)
+        touches = any(row.tangent for row in card.rows)
+        return named or ("the point of contact" if touches else f"the point of {name}"), "about"
+    moves = _card(joint, coordinate)
+    if moves.across:
+        return moves.line.format(name), "across"
     x, y = balance.place.xy
     if is_zero(x) or is_zero(y):
         return _axis(*numbers(subject, balance)), "along"
-    line = subject.lines.get(joint["name"])
-    return line or _ALONG.get(joint["type"], "the direction of {}").format(joint["name"]), "along"
+    return subject.lines.get(name) or (moves.line or "the direction of {}").format(name), "along"
+
+
+def _card(joint: Mapping[str, Any], coordinate: Mapping[str, Any]) -> Coordinate:
+    return next(c for c in joints()[joint["type"]].coordinates if c.name == coordinate["word"])
 
 
 def _axis(x: float, y: float) -> str:

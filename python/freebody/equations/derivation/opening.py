@@ -98,7 +98,7 @@ def _links(subject: Subject) -> list[Link]:
     found = []
     for joint in subject.source.about["joints"]:
         load = next((load for load in subject.free.loads if load.kind == "joint" and load.name == joint["name"]), None)
-        if joint["type"] == "link" and joint["coordinates"] and load:
+        if load and load.card.pulls and joint["coordinates"]:
             x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first
             found.append(Link(joint["name"], joint["first"], joint["second"], joint["coordinates"][0], float(np.arctan2(-y, -x))))
     return found

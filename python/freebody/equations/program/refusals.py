@@ -8,6 +8,7 @@ from typing import Any
 
 from freebody import _core
 from freebody.free_body import FreeBodies
+from freebody.model import cards
 from freebody.source import Source
 
 _SWITCHES = frozenset(["abs", "sign", "step", "min", "max", "clamp", "if"])
@@ -46,7 +47,7 @@ def check(source: Source, free: FreeBodies) -> None:
 def _check_joint(joint: Mapping[str, Any]) -> None:
     if "friction" in joint and joint["friction"] not in (None, 0, 0.0):
         raise CannotGenerate(f"joints.{joint['name']} has friction, which sticks or slides; leave `friction` out")
-    if joint["type"] == "gear":
+    if any(row.flank for row in cards.joints()[joint["type"]].rows):
         raise CannotGenerate(f"joints.{joint['name']} pushes with one flank or the other; a coupling has one formula")
 
 

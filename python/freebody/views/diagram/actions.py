@@ -96,8 +96,8 @@ def _pulls(load: Load, part: Part, force: Array) -> bool:
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
     """Where a diagram shows a part: of a link at its own end, of a torque at the joint of its two bodies, else where it acts."""
-    joint = next((j for j in sketch.spec["joints"] if j["name"] == load.name and j["type"] == "link"), None)
-    if joint is not None:
+    if load.kind == "joint" and load.card.pulls:
+        joint = next(j for j in sketch.spec["joints"] if j["name"] == load.name)
         return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
     if load.kind in ("force", "motion") and not any(part.force):
         between = {j["name"] for j in sketch.about["joints"] if {j["first"], j["second"]} == set(load.of)}

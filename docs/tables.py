@@ -1,0 +1,64 @@
+"""Writes the tables of docs/*.md that come from the cards of the core: `.venv/bin/python docs/tables.py`.
+
+A table stands between `<!-- joints -->` and `<!-- /joints -->`; the word says which.
+"""
+
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from freebody.model import cards
+
+DOCS = Path(__file__).parent
+WRITTEN = {"point": "P", "points": "[P, Q]", "line": "LINE", "circle": "{centre, radius}", "curve": "CURVE", "numbers": "[a, b]"}
+MARKED = re.compile(r"(<!-- (\w+) -->\n).*?(<!-- /\2 -->)", re.DOTALL)
+
+
+def joints() -> str:
+    """What a person writes for every joint, and what he reads of it."""
+    rows = (
+        (_word(card), _fields(card), _names(c.name for c in card.coordinates), _loads(card.rows))
+        for card in cards.joints().values()
+    )
+    return _table(("type", "fields", "coordinates", "reaction"), rows)
+
+
+def forces() -> str:
+    """What a person writes for every force."""
+    return _table(("type", "fields"), ((_word(card), _fields(card)) for card in cards.forces().values()))
+
+
+def _word(card: cards.Card) -> str:
+    return f"`{card.type}`: {card.doc[0].lower()}{card.doc[1:].rstrip('.')}"
+
+
+def _fields(card: cards.Card) -> str:
+    given = ((field, field.default or WRITTEN.get(field.kind, "")) for field in card.fields)
+    return "; ".join(f"`{field.name}{': ' * bool(value)}{value}` {field.doc}" for field, value in given)
+
+
+def _loads(loads: Iterable[cards.LoadCard]) -> str:
+    return ", ".join(f"{load.name} `{load.reading}`" for load in loads) or "–"
+
+
+def _names(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names) or "–"
+
+
+def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    lines = [heads, *rows]
+    made = [f"| {' | '.join(line)} |\n" for line in lines]
+    return "".join([made[0], "|---" * len(heads) + "|\n", *made[1:]])
+
+
+TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in (joints, forces)}
+
+
+def written(text: str) -> str:
+    """A document with its tables as they are now."""
+    return MARKED.sub(lambda found: found[1] + TABLES[found[2]]() + found[3], text)
+
+
+if __name__ == "__main__":
+    for path in DOCS.glob("*.md"):
+        path.write_text(written(path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -1,0 +1,116 @@
+"""Every joint of the list, by what its card says: solved by all routes, derived, drawn, released and engaged."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import freebody as fb
+from freebody.check import Checker, Kind
+from freebody.equations.derivation.derive import FORMS
+from freebody.equations.document import Document, Equation
+from freebody.model import cards
+from freebody.results import quote
+
+BODIES = """
+freebody: 1
+ground:
+  points: {P: [0.2 m, 0.1 m]}
+  lines: {rail: {through: P, angle: 20 deg}}
+  curves: {bow: {x: 2*s, y: 0.3*s^2}}
+bodies:
+  plate: {mass: 2 kg, inertia: 0.1 kg*m^2, centre: [0.1 m, 0.05 m], points: {A: [0.3 m, 0.1 m], B: [-0.2 m, 0.2 m]},
+          lines: {edge: {through: A, angle: 10 deg}}}
+forces:
+  push: {type: force, at: plate.B, x: 3 N, y: 1 N}
+"""
+FIELDS = {
+    "points": (["ground.P", "plate.A"], None, ["plate.A", "plate.B"]),
+    "point": (None, None, "plate.A"),
+    "line": (None, "ground.rail", "plate.edge"),
+    "circle": (None, "{centre: ground.P, radius: 0.5 m}", "{centre: plate.A, radius: 0.3 m}"),
+    "curve": (None, "ground.bow", None),
+    "numbers": "[0.4 m, 0.3 m]",
+    "number": "0.9 m",
+}
+"""What is written in a field: for both bodies, the first, the second; or a number."""
+EVENTS = """
+events:
+  let go: {when: t - 0.1, then: [{release: it}]}
+  hold: {when: t - 0.2, then: [{engage: it}]}
+"""
+ROUTES = ("minimal", "newton_euler", "constraints")
+
+
+def written(card):
+    """The fields of a joint that must be given."""
+    role = {"both": 0, "first": 1, "second": 2}
+    chosen = {f.name: FIELDS[f.kind] if f.role == "number" else FIELDS[f.kind][role[f.role]] for f in card.fields if f.required}
+    return ", ".join(f"{name}: [{', '.join(v)}]" if isinstance(v, list) else f"{name}: {v}" for name, v in chosen.items())
+
+
+def model(card, *, alone, events=""):
+    """The plate on the joint alone, or on free coordinates beside it, so that it closes a loop."""
+    text = BODIES
+    on_curve = any(field.kind == "curve" for field in card.fields)
+    # One along a curve that can be released has but the place on the curve for a coordinate.
+    names = [f"c{i}" for i in range(1 if on_curve and events else len(card.coordinates))]
+    if alone:
+        joints = f"  it: {{type: {card.type}, {written(card)}, coordinates: [{', '.join(names)}]}}\n"
+        values = ", ".join(f"{name}: {0.7 - 0.2 * i}" for i, name in enumerate(names))
+        start = f"initial: {{{values}, rates: {{{', '.join(f'{name}: 0.5' for name in names)}}}}}\n"
+    else:
+        joints = f"  it: {{type: {card.type}, {written(card)}}}\n"
+        joints += "  where: {type: free, of: [ground.P, plate.A], coordinates: [x, y, phi]}\n"
+        start = "initial: {guess: {x: 0.9, y: 0.4, phi: 0.3}}\n"
+    return fb.Mechanism.loads(f"{text}joints:\n{joints}{start}run: {{until: 0.3 s}}\n{events}")
+
+
+def cases():
+    """Every joint of bodies, in the tree if it can be there, and closing a loop if it can do that."""
+    for card in cards.joints().values():
+        if not any(field.role == "second" or field.role == "both" for field in card.fields):
+            continue  # a coupling joins coordinates
+        if card.coordinates:
+            yield pytest.param(card, True, id=f"{card.type}-tree")
+        if card.rows and not any(field.kind == "curve" for field in card.fields):
+            yield pytest.param(card, False, id=f"{card.type}-loop")
+
+
+@pytest.mark.parametrize(("card", "alone"), list(cases()))
+def test_joint(card, alone):
+    mechanism = model(card, alone=alone)
+    solved = {route: mechanism.solve(route=route) for route in ROUTES}
+    first = solved["minimal"]
+    reaction = first.reactions["it"]
+    assert reaction.has_couple == any(row.couple for row in card.rows) or card.type in ("rollers", "belt")
+    assert reaction.has_couple or reaction.M == 0.0
+    for route, other in solved.items():
+        assert other.residual < 1e-12, route
+        for name, value in first.accelerations.items():
+            assert other.accelerations[name] == pytest.approx(value, rel=1e-10, abs=1e-10), route
+        assert np.abs(other.reactions["it"].values - reaction.values).max() < 1e-10, route
+    for row in card.rows:
+        assert np.isfinite(first[f"{quote('it')}.{row.reading}"])
+    assert (card.glyph or card.outline or not card.rows) and mechanism.diagram().svg()
+
+
+@pytest.mark.parametrize(("card", "alone"), list(cases()))
+def test_its_equations_are_true(card, alone):
+    mechanism = model(card, alone=alone)
+    checker = Checker(mechanism)
+    for form in FORMS:
+        document = mechanism.equations(form).document
+        equations = [block for block in document.blocks if isinstance(block, Equation) and block.label]
+        assert equations or mechanism.solve().freedom == 0, form
+        for block in equations:
+            line = Document((replace(block, name="", note=""),), document.letters).text()
+            assert checker.check(line).kind is Kind.TRUE, line
+
+
+@pytest.mark.parametrize(("card", "alone"), [case for case in cases() if case.values[0].rows])
+def test_joint_is_released_and_engaged(card, alone):
+    run = model(card, alone=alone, events=EVENTS).simulate()
+    assert run.outcome.name == "Completed", run.outcome
+    kinds = [change.kind for change in run.changes]
+    assert kinds.index("released") < kinds.index("engaged")
