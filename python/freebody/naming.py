@@ -16,13 +16,13 @@ from functools import cached_property
 from typing import Any, TypeAlias
 
 from freebody.blow import Impulsive
-from freebody.equations.letters import Letter, Letters
-from freebody.equations.tree import Tree, read
 from freebody.free_body import GROUND, FreeBodies, Load
 from freebody.instant import State
 from freebody.model import cards
 from freebody.run import Source
+from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name, Renamed, Taken, folded
+from freebody.symbolic.tree import Tree, read
 
 _Law: TypeAlias = dict[str, Any] | None
 """A force of the model as the core reads it."""

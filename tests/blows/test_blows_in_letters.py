@@ -6,12 +6,12 @@ import sympy
 from struck import ALL, mechanism, struck
 
 from freebody.equations import Sym, evaluate, from_sympy
-from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import topic
 from freebody.equations.topics.blow import after, blow
 from freebody.equations.topics.jumps import jumps
-from freebody.equations.tree import replace
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import replace
 
 LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
 """Too long to be solved in letters."""

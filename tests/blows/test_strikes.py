@@ -9,7 +9,6 @@ from struck import SYSTEMS
 
 import freebody as fb
 from freebody.equations import Sym, evaluate, from_sympy
-from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
 from freebody.equations.topics.blow import after, hammered
@@ -17,6 +16,7 @@ from freebody.equations.topics.jumps import jumps
 from freebody.equations.topics.rows import Rows
 from freebody.instant import State
 from freebody.strike import strike
+from freebody.symbolic.simplify import equal
 
 BAT = """
 parameters: {m: 2 kg, l: 1.2 m, b: 0.8 m}

@@ -19,12 +19,13 @@ from textbook import BOOKS, Book
 
 from freebody.check import Checker, Kind
 from freebody.check.case import Case
-from freebody.check.language.nodes import Equation, Letter, Node, letters, substitute
 from freebody.check.language.spelling import spell
+from freebody.check.language.statements import Equation, letters
 from freebody.check.mend import Mend, mends
 from freebody.check.verdict import judged
 from freebody.check.vocabulary import Vocabulary
 from freebody.model import Mechanism
+from freebody.symbolic.tree import Node, Sym, substitute
 
 _OTHER_SEED = 20  # of the states at which truth is found beside the check
 _ARRANGED = 0.3  # share of slips that are made in another arrangement
@@ -95,7 +96,7 @@ class Bench:
         return says_the_same(*plain, {n: rng.uniform(0.4, 1.6, _PLACES) for n in found})
 
     @cached_property
-    def _own(self) -> dict[Letter, Node]:
+    def _own(self) -> dict[Sym, Node]:
         return {letter: node for other in self.others for letter, node in other.own.items()}
 
     # -- what the check says

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from freebody.equations import text
-from freebody.equations.tree import Tree, add, negative, read
 from freebody.model import Mechanism
+from freebody.symbolic.tree import Tree, add, negative, read
 
 ROOT = Path(__file__).parents[2]
 FILES = (

@@ -8,23 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.check.language.nodes import (
-    Call,
-    Equation,
-    Letter,
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    Unit,
-    letters,
-)
+from freebody.check.language.statements import Equation, letters
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
 
 Array = NDArray[np.float64]
-Values = Mapping[Letter, Array]
+Values = Mapping[Sym, Array]
 _ROUND_OFF = 1e-9
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp, "abs": np.abs, "atan2": np.arctan2}
 
@@ -32,28 +20,28 @@ _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp
 def valued(node: Node, at: Values) -> tuple[Array, Array]:
     """The value of an expression and the sum of the sizes of what was added to make it. Raises ``KeyError``."""
     match node:
-        case Number(value=value):
+        case Num(value=value):
             return np.array(value), np.array(abs(value))
         case Unit(size=size):
             return np.array(size), np.array(abs(size))
-        case Letter():
+        case Sym():
             return at[node], np.abs(at[node])
         case Negative(of=of):
             value, size = valued(of, at)
             return -value, size
-        case Sum(terms=parts):
+        case Add(terms=parts):
             found = [valued(part, at) for part in parts]
             return sum(v for v, _ in found), sum(s for _, s in found)
-        case Product(factors=parts):
+        case Mul(factors=parts):
             found = [valued(part, at) for part in parts]
             return math.prod(v for v, _ in found), math.prod(s for _, s in found)
         case Quotient(top=top, bottom=bottom):
             (a, size), (b, _) = valued(top, at), valued(bottom, at)
             return a / b, size / np.abs(b)
-        case Power(base=base, exponent=exponent):
+        case Pow(base=base, exponent=exponent):
             (a, size), (n, _) = valued(base, at), valued(exponent, at)
             return a**n, size**n if np.all(n > 0) else np.abs(a**n)
-        case Call(function=name, arguments=arguments):
+        case Fn(name=name, args=arguments):
             value = _FUNCTIONS[name](*(valued(argument, at)[0] for argument in arguments))
             return value, np.abs(value)
     raise KeyError(type(node).__name__)
@@ -83,7 +71,7 @@ def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
     return bool(np.all(np.abs(off) <= _ROUND_OFF * size)) and not holds(other, at)
 
 
-def _solved(equation: Equation, letter: Letter, at: Values) -> Values | None:
+def _solved(equation: Equation, letter: Sym, at: Values) -> Values | None:
     """The places moved along one letter so that an equation holds; None where it is not linear in it."""
     with np.errstate(all="ignore"):
         a, b, c = (

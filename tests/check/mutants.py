@@ -8,23 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from rearranged import number
 
-from freebody.check.language.nodes import (
-    Call,
-    Equation,
-    Letter,
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    addends,
-    letters,
-    replace,
-    walk,
-)
+from freebody.check.language.statements import Equation, addends, letters
 from freebody.check.vocabulary import Vocabulary
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 Random = np.random.Generator
 Slip = Callable[[Random, Equation, Vocabulary], Equation | None]
@@ -54,9 +40,9 @@ def mutant(rng: Random, equation: Equation, vocabulary: Vocabulary) -> Mutant | 
 
 def _places(equation: Equation) -> list[Node]:
     """What is added to something, at any depth."""
-    sides = [side for side in (equation.left, equation.right) if not isinstance(side, Sum)]
-    inner = [term for n in walk(equation) if isinstance(n, Sum) for term in n.terms]
-    return [n for n in (*sides, *inner) if not (isinstance(n, Number) and n.value == 0)]
+    sides = [side for side in (equation.left, equation.right) if not isinstance(side, Add)]
+    inner = [term for n in walk(equation) if isinstance(n, Add) for term in n.terms]
+    return [n for n in (*sides, *inner) if not (isinstance(n, Num) and n.value == 0)]
 
 
 def _at(rng: Random, equation: Equation, found: list, change: Callable[[Node], Node | None]) -> Equation | None:
@@ -64,7 +50,7 @@ def _at(rng: Random, equation: Equation, found: list, change: Callable[[Node], N
         return None
     old = found[int(rng.integers(len(found)))]
     new = change(old)
-    return None if new is None else replace(equation, old, new)
+    return None if new is None else exchange(equation, old, new)
 
 
 def _sign(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
@@ -75,29 +61,29 @@ def _number(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None
     factor = float(_pick(rng, [2.0, 3.0, 0.5]))  # type: ignore[arg-type]
 
     def change(n: Node) -> Node:
-        return Quotient(n, number(2)) if factor == 0.5 else Product((number(factor), n))
+        return Quotient(n, number(2)) if factor == 0.5 else Mul((number(factor), n))
 
     return _at(rng, e, _places(e), change)
 
 
 def _function(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    calls = [n for n in walk(e) if isinstance(n, Call) and n.function in ("sin", "cos")]
-    return _at(rng, e, calls, lambda n: Call("cos" if n.function == "sin" else "sin", n.arguments))  # type: ignore[union-attr]
+    calls = [n for n in walk(e) if isinstance(n, Fn) and n.name in ("sin", "cos")]
+    return _at(rng, e, calls, lambda n: Fn("cos" if n.name == "sin" else "sin", n.args))  # type: ignore[union-attr]
 
 
 def _letter(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    found = [n for n in walk(e) if isinstance(n, Letter) and vocabulary.alike(n)]
+    found = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.alike(n)]
     return _at(rng, e, found, lambda n: _pick(rng, vocabulary.alike(n)))  # type: ignore[arg-type, return-value]
 
 
 def _derivative(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    found = [n for n in walk(e) if isinstance(n, Letter) and n.dots]
-    return _at(rng, e, found, lambda n: Letter(n.name, 3 - n.dots))  # type: ignore[union-attr]
+    found = [n for n in walk(e) if isinstance(n, Sym) and n.dots]
+    return _at(rng, e, found, lambda n: Sym(n.name, 3 - n.dots))  # type: ignore[union-attr]
 
 
 def _lost_term(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     found = [n for n in _places(e) if n not in (e.left, e.right) and _is_single(n)]
-    return _at(rng, e, found, lambda n: Number(0.0, "0"))
+    return _at(rng, e, found, lambda n: Num(0.0, "0"))
 
 
 def _is_single(node: Node) -> bool:
@@ -109,7 +95,7 @@ def _twice(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     """A term again, on the other side or on its own."""
     found = [n for n in _places(e) if n not in (e.left, e.right)] or _places(e)
     term = _pick(rng, found)
-    return Equation(Sum((*(e.left.terms if isinstance(e.left, Sum) else (e.left,)), term)), e.right)  # type: ignore[arg-type]
+    return Equation(Add((*(e.left.terms if isinstance(e.left, Add) else (e.left,)), term)), e.right)  # type: ignore[arg-type]
 
 
 def _extra_term(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
@@ -117,68 +103,68 @@ def _extra_term(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | 
     found = [n for n in _places(e) if n not in (e.left, e.right)]
     if not found or not vocabulary.angles:
         return None
-    call = Call(str(_pick(rng, ["sin", "cos"])), (vocabulary.angles[0],))
+    call = Fn(str(_pick(rng, ["sin", "cos"])), (vocabulary.angles[0],))
     term = found[int(rng.integers(len(found)))]
-    return replace(e, e.left, Sum((*(e.left.terms if isinstance(e.left, Sum) else (e.left,)), Product((term, call)))))
+    return exchange(e, e.left, Add((*(e.left.terms if isinstance(e.left, Add) else (e.left,)), Mul((term, call)))))
 
 
 def _lost_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     def change(n: Node) -> Node:
-        assert isinstance(n, Product)
+        assert isinstance(n, Mul)
         i = int(rng.integers(len(n.factors)))
         inside = addends(n.factors[i])
-        if len(inside) > 1 and not all(isinstance(term, Letter) for _, term in inside):
+        if len(inside) > 1 and not all(isinstance(term, Sym) for _, term in inside):
             return None  # a bracket of terms is more than a slip
         rest = n.factors[:i] + n.factors[i + 1 :]
-        return rest[0] if len(rest) == 1 else Product(rest)
+        return rest[0] if len(rest) == 1 else Mul(rest)
 
-    return _at(rng, e, [n for n in walk(e) if isinstance(n, Product)], change)
+    return _at(rng, e, [n for n in walk(e) if isinstance(n, Mul)], change)
 
 
 def _extra_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     sizes = [n for n in letters(e) if n in vocabulary.parameters and n not in vocabulary.angular]
-    return _at(rng, e, _places(e), lambda n: Product((n, _pick(rng, sizes)))) if sizes else None  # type: ignore[arg-type]
+    return _at(rng, e, _places(e), lambda n: Mul((n, _pick(rng, sizes)))) if sizes else None  # type: ignore[arg-type]
 
 
 def _arm(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    lengths = [n for n in walk(e) if isinstance(n, Letter) and vocabulary.powers(n) == (1, 0, 0) and n in vocabulary.parameters]
+    lengths = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.powers(n) == (1, 0, 0) and n in vocabulary.parameters]
     return _at(rng, e, lengths, lambda n: Quotient(n, number(2)))
 
 
 def _angle(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     """θ ± φ for θ in a sine or cosine."""
-    calls = [n for n in walk(e) if isinstance(n, Call) and n.function in ("sin", "cos") and isinstance(n.arguments[0], Letter)]
+    calls = [n for n in walk(e) if isinstance(n, Fn) and n.name in ("sin", "cos") and isinstance(n.args[0], Sym)]
 
     def change(n: Node) -> Node | None:
-        assert isinstance(n, Call)
-        rest = [a for a in vocabulary.angles if a != n.arguments[0]]
+        assert isinstance(n, Fn)
+        rest = [a for a in vocabulary.angles if a != n.args[0]]
         if not rest:
             return None
         other: Node = _pick(rng, rest)  # type: ignore[assignment]
-        return Call(n.function, (Sum((n.arguments[0], other if rng.random() < 0.5 else Negative(other))),))
+        return Fn(n.name, (Add((n.args[0], other if rng.random() < 0.5 else Negative(other))),))
 
     return _at(rng, e, calls, change)
 
 
 def _mass(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     """m1 + m2 for m1."""
-    masses = [n for n in walk(e) if isinstance(n, Letter) and vocabulary.powers(n) == (0, 1, 0) and n in vocabulary.parameters]
+    masses = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.powers(n) == (0, 1, 0) and n in vocabulary.parameters]
     found = [n for n in masses if vocabulary.alike(n)]
-    return _at(rng, e, found, lambda n: Sum((n, _pick(rng, vocabulary.alike(n)))))  # type: ignore[arg-type]
+    return _at(rng, e, found, lambda n: Add((n, _pick(rng, vocabulary.alike(n)))))  # type: ignore[arg-type]
 
 
 def _rates(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     """u1 u2 for u1²."""
 
     def fits(n: Node) -> bool:
-        return isinstance(n, Power) and isinstance(n.base, Letter) and n.base.dots == 1 and bool(vocabulary.alike(n.base))
+        return isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1 and bool(vocabulary.alike(n.base))
 
     found = [n for n in walk(e) if fits(n)]
-    return _at(rng, e, found, lambda n: Product((n.base, _pick(rng, vocabulary.alike(n.base)))))  # type: ignore[union-attr, arg-type]
+    return _at(rng, e, found, lambda n: Mul((n.base, _pick(rng, vocabulary.alike(n.base)))))  # type: ignore[union-attr, arg-type]
 
 
 def _power(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    return _at(rng, e, [n for n in walk(e) if isinstance(n, Power)], lambda n: n.base)  # type: ignore[union-attr]
+    return _at(rng, e, [n for n in walk(e) if isinstance(n, Pow)], lambda n: n.base)  # type: ignore[union-attr]
 
 
 SLIPS: dict[str, Slip] = {

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import permutations
 
-from freebody.check.language.nodes import Letter, Negative, Node, Number, Product, Quotient, Sum
 from freebody.check.vocabulary import Vocabulary
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Quotient, Sym
 
 
 @dataclass(frozen=True)
@@ -17,8 +17,8 @@ class Other:
 
     name: str
     said: str
-    replaced: Mapping[Letter, Node]
-    own: Mapping[Letter, Node]
+    replaced: Mapping[Sym, Node]
+    own: Mapping[Sym, Node]
 
 
 def others(vocabulary: Vocabulary) -> list[Other]:
@@ -33,35 +33,35 @@ def others(vocabulary: Vocabulary) -> list[Other]:
     return made
 
 
-def _shifted(letter: Letter, name: str, sign: float, offset: tuple[float, str]) -> Other:
+def _shifted(letter: Sym, name: str, sign: float, offset: tuple[float, str]) -> Other:
     """psi = ± q + offset."""
     value, text = offset
     name = f"{name}_{letter.name}"
-    plus = Number(value, text)
+    plus = Num(value, text)
     said = f"{'-' if sign < 0 else ''}{letter.name}" + (f" + {text}" if text else "")
 
-    def swapped(source: str, target: str, back: bool) -> dict[Letter, Node]:
-        out: dict[Letter, Node] = {}
+    def swapped(source: str, target: str, back: bool) -> dict[Sym, Node]:
+        out: dict[Sym, Node] = {}
         for dots in range(3):
-            one: Node = Letter(source, dots)
+            one: Node = Sym(source, dots)
             one = one if sign > 0 else Negative(one)
             if dots == 0 and text:
-                one = Sum((one, Negative(plus) if back and sign > 0 else plus))
-            out[Letter(target, dots)] = one
+                one = Add((one, Negative(plus) if back and sign > 0 else plus))
+            out[Sym(target, dots)] = one
         return out
 
     return Other(name, said, swapped(name, letter.name, True), swapped(letter.name, name, False))
 
 
-def _relative(a: Letter, b: Letter) -> Other:
+def _relative(a: Sym, b: Sym) -> Other:
     """eta = a − b, so that a = eta + b."""
     name = f"eta_{a.name}_{b.name}"
-    there: dict[Letter, Node] = {Letter(a.name, n): Sum((Letter(name, n), Letter(b.name, n))) for n in range(3)}
-    back: dict[Letter, Node] = {Letter(name, n): Sum((Letter(a.name, n), Negative(Letter(b.name, n)))) for n in range(3)}
+    there: dict[Sym, Node] = {Sym(a.name, n): Add((Sym(name, n), Sym(b.name, n))) for n in range(3)}
+    back: dict[Sym, Node] = {Sym(name, n): Add((Sym(a.name, n), Negative(Sym(b.name, n)))) for n in range(3)}
     return Other(name, f"{a.name} - {b.name}", there, back)
 
 
-def _double(n: Letter) -> Other:
+def _double(n: Sym) -> Other:
     """A parameter by its double."""
-    name, two = f"{n.name}_d", Number(2.0, "2")
-    return Other(name, f"2*{n.name}", {n: Quotient(Letter(name), two)}, {Letter(name): Product((two, n))})
+    name, two = f"{n.name}_d", Num(2.0, "2")
+    return Other(name, f"2*{n.name}", {n: Quotient(Sym(name), two)}, {Sym(name): Mul((two, n))})

@@ -8,23 +8,9 @@ from dataclasses import replace as with_
 import numpy as np
 from other_letters import Other
 
-from freebody.check.language.nodes import (
-    Call,
-    Equation,
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    addends,
-    letters,
-    replace,
-    substitute,
-    walk,
-)
+from freebody.check.language.statements import Equation, addends, letters
 from freebody.check.vocabulary import Vocabulary
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, exchange, substitute, walk
 
 Random = np.random.Generator
 _LONG = 40  # terms; brackets of more are not multiplied out
@@ -32,7 +18,7 @@ _LONG = 40  # terms; brackets of more are not multiplied out
 
 def number(value: float) -> Node:
     """A whole number as it is written."""
-    return Number(float(value), f"{value:g}")
+    return Num(float(value), f"{value:g}")
 
 
 def rearranged(rng: Random, equations: list[Equation], vocabulary: Vocabulary, others: list[Other]) -> Equation:
@@ -65,19 +51,19 @@ def _factor(rng: Random, vocabulary: Vocabulary) -> Node:
     made: list[Node] = [number(int(rng.integers(2, 6))), *sizes]
     if vocabulary.angles:
         angle = vocabulary.angles[int(rng.integers(len(vocabulary.angles)))]
-        made += [Call("cos", (angle,)), Sum((number(2), Call("sin", (angle,))))]
+        made += [Fn("cos", (angle,)), Add((number(2), Fn("sin", (angle,))))]
     return made[int(rng.integers(len(made)))]
 
 
 def _combined(rng: Random, a: Equation, b: Equation, vocabulary: Vocabulary) -> Equation:
     factor = _factor(rng, vocabulary)
-    return Equation(Sum((a.left, Product((factor, b.left)))), Sum((a.right, Product((factor, b.right)))))
+    return Equation(Add((a.left, Mul((factor, b.left)))), Add((a.right, Mul((factor, b.right)))))
 
 
 def _scaled(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
     factor = _factor(rng, vocabulary)
     if rng.random() < 0.5:
-        return Equation(Product((factor, e.left)), Product((factor, e.right)))
+        return Equation(Mul((factor, e.left)), Mul((factor, e.right)))
     return Equation(Quotient(e.left, factor), Quotient(e.right, factor))
 
 
@@ -89,7 +75,7 @@ def _moved(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
     i = int(rng.integers(len(terms)))
     sign, moved = terms[i]
     left = [node if s > 0 else Negative(node) for j, (s, node) in enumerate(terms) if j != i]
-    return Equation(left[0] if len(left) == 1 else Sum(tuple(left)), Sum((e.right, Negative(moved) if sign > 0 else moved)))
+    return Equation(left[0] if len(left) == 1 else Add(tuple(left)), Add((e.right, Negative(moved) if sign > 0 else moved)))
 
 
 def _expanded(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
@@ -97,46 +83,46 @@ def _expanded(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
     terms = addends(e.left, expand=True)
     if not 1 < len(terms) < _LONG:
         return e
-    return with_(e, left=Sum(tuple(node if sign > 0 else Negative(node) for sign, node in terms)))
+    return with_(e, left=Add(tuple(node if sign > 0 else Negative(node) for sign, node in terms)))
 
 
 def _written_otherwise(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
     """A sine or cosine by an identity."""
-    calls = [n for n in walk(e) if isinstance(n, Call) and n.function in ("sin", "cos")]
+    calls = [n for n in walk(e) if isinstance(n, Fn) and n.name in ("sin", "cos")]
     if not calls:
         return e
     call = calls[int(rng.integers(len(calls)))]
-    x, half = call.arguments[0], Quotient(Number(np.pi, "pi"), number(2))
-    if call.function == "sin":
-        forms = [Call("cos", (Sum((x, Negative(half))),)), Negative(Call("sin", (Negative(x),))), _doubled(x)]
+    x, half = call.args[0], Quotient(Num(np.pi, "pi"), number(2))
+    if call.name == "sin":
+        forms = [Fn("cos", (Add((x, Negative(half))),)), Negative(Fn("sin", (Negative(x),))), _doubled(x)]
     else:
-        forms = [Call("sin", (Sum((x, half)),)), Call("cos", (Negative(x),)), _one_less(x)]
+        forms = [Fn("sin", (Add((x, half)),)), Fn("cos", (Negative(x),)), _one_less(x)]
     forms += _addition(call)
-    return replace(e, call, forms[int(rng.integers(len(forms)))])
+    return exchange(e, call, forms[int(rng.integers(len(forms)))])
 
 
 def _doubled(x: Node) -> Node:
     half = Quotient(x, number(2))
-    return Product((number(2), Call("sin", (half,)), Call("cos", (half,))))
+    return Mul((number(2), Fn("sin", (half,)), Fn("cos", (half,))))
 
 
 def _one_less(x: Node) -> Node:
-    return Sum((number(1), Negative(Product((number(2), Power(Call("sin", (Quotient(x, number(2)),)), number(2)))))))
+    return Add((number(1), Negative(Mul((number(2), Pow(Fn("sin", (Quotient(x, number(2)),)), number(2)))))))
 
 
-def _addition(call: Call) -> list[Node]:
+def _addition(call: Fn) -> list[Node]:
     """The theorem of addition for a sum or difference of two."""
-    match call.arguments[0]:
-        case Sum(terms=(a, Negative(of=b))):
+    match call.args[0]:
+        case Add(terms=(a, Negative(of=b))):
             sign = -1
-        case Sum(terms=(a, b)):
+        case Add(terms=(a, b)):
             sign = 1
         case _:
             return []
-    names, sign = (("sin", "cos", "cos", "sin"), sign) if call.function == "sin" else (("cos", "cos", "sin", "sin"), -sign)
-    first = Product((Call(names[0], (a,)), Call(names[1], (b,))))
-    second = Product((Call(names[2], (a,)), Call(names[3], (b,))))
-    return [Sum((first, second if sign > 0 else Negative(second)))]
+    names, sign = (("sin", "cos", "cos", "sin"), sign) if call.name == "sin" else (("cos", "cos", "sin", "sin"), -sign)
+    first = Mul((Fn(names[0], (a,)), Fn(names[1], (b,))))
+    second = Mul((Fn(names[2], (a,)), Fn(names[3], (b,))))
+    return [Add((first, second if sign > 0 else Negative(second)))]
 
 
 def _turned(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
@@ -144,9 +130,9 @@ def _turned(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
 
 
 def _shuffled(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation:
-    if not isinstance(e.left, Sum):
+    if not isinstance(e.left, Add):
         return e
-    return with_(e, left=Sum(tuple(e.left.terms[int(i)] for i in rng.permutation(len(e.left.terms)))))
+    return with_(e, left=Add(tuple(e.left.terms[int(i)] for i in rng.permutation(len(e.left.terms)))))
 
 
 STEPS: list[Callable[[Random, Equation, Vocabulary], Equation]] = [

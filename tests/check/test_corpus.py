@@ -12,9 +12,9 @@ from independent import holds, says_the_same
 from store import family
 
 from freebody.check import Kind
-from freebody.check.language.nodes import Letter
 from freebody.check.language.parser import parse
 from freebody.model import Mechanism
+from freebody.symbolic.tree import Sym
 
 _EACH = 2  # correct equations, and as many with a slip, of each model
 _SLOW = ("chain of 3 rods", "GEN-FOURBAR", "S19.20", "S19.21")
@@ -62,7 +62,7 @@ def _read(text: str):
 
 
 def test_equations_say_the_same_where_they_hold_at_the_same_places() -> None:
-    at = dict(zip(map(Letter, "abcx"), np.random.default_rng(1).uniform(0.4, 1.6, (4, 9)), strict=True))
+    at = dict(zip(map(Sym, "abcx"), np.random.default_rng(1).uniform(0.4, 1.6, (4, 9)), strict=True))
     assert says_the_same(_read("a x + b = c"), _read("3 (c - b)/x = 3 a"), at)
     assert not says_the_same(_read("a x + b = c"), _read("a x + b = c + a"), at)
     assert not says_the_same(_read("a x + b = c"), _read("a = a"), at)

@@ -9,11 +9,11 @@ import pytest
 
 import freebody as fb
 from freebody.check.language.dimensions import check_dimensions
-from freebody.check.language.errors import StatementError
-from freebody.check.language.evaluate import sides
 from freebody.check.language.parser import parse
+from freebody.check.language.sides import sides
 from freebody.check.letters import Letters, declarations
 from freebody.model.errors import Complaint
+from freebody.symbolic.errors import StatementError
 
 
 class States:

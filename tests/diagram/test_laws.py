@@ -10,9 +10,9 @@ from store import SYSTEMS, every, mechanism, start
 
 import freebody as fb
 from freebody.equations.derivation.told import Subject
-from freebody.equations.latex import latex
-from freebody.equations.tree import evaluate
 from freebody.free_body import FreeBodies
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.printers.latex import latex
 from freebody.views.diagram import diagram
 from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.rows import MARGIN

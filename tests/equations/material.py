@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 from freebody.equations import Add, Fn, Letters, Mul, Num, Pow, Sym, Tree
-from freebody.equations.tree import add, mul, number, power
+from freebody.symbolic.tree import add, mul, number, power
 
 LETTERS = Letters.read(
     {

@@ -26,7 +26,7 @@ from freebody.equations import (
     text,
     to_sympy,
 )
-from freebody.equations.tree import MINUS_ONE, ONE, ZERO, add, minus, mul, negative, number, over, power
+from freebody.symbolic.tree import MINUS_ONE, ONE, ZERO, add, minus, mul, negative, number, over, power
 
 M1, M2, BIG, M, L, G, K, C, MU = map(sym, ("m1", "m2", "M", "m", "l", "g", "k", "c", "mu"))
 ALPHA, THETA, W = sym("alpha"), sym("theta"), sym("theta", 1)

@@ -9,10 +9,10 @@ from material import LETTERS, cos, half, product, sin, square, sym
 
 from freebody.check.language.glyphs import glyphs
 from freebody.equations import latex
-from freebody.equations.breaking import lines, width
 from freebody.equations.document import Document, Equation
-from freebody.equations.latex import sides_latex
-from freebody.equations.tree import ZERO, add, minus, mul, power
+from freebody.symbolic.printers.breaking import lines, width
+from freebody.symbolic.printers.latex import sides_latex
+from freebody.symbolic.tree import ZERO, add, minus, mul, power
 
 TH1, TH2, X, M1, M2, L, G = map(sym, ("theta1", "theta2", "x", "m1", "m2", "l", "g"))
 A1, W1, W2 = sym("theta1", 2), sym("theta1", 1), sym("theta2", 1)

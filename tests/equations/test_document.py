@@ -25,8 +25,8 @@ from freebody.equations import (
     letters_table,
     read,
 )
-from freebody.equations.text import columns
-from freebody.equations.tree import MINUS_ONE, ZERO, add, mul
+from freebody.symbolic.printers.text import columns
+from freebody.symbolic.tree import MINUS_ONE, ZERO, add, mul
 
 TH1, A1, A2 = sym("theta1"), sym("theta1", 2), sym("theta2", 2)
 M1, L = sym("m1"), sym("l")

@@ -18,8 +18,9 @@ from freebody.equations import equation_latex
 from freebody.equations.derivation.derive import FORMS
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Document, Equation, Matrices, Written, is_tree
-from freebody.equations.tree import Sym, evaluate
+from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Sym
 
 NAMES = (
     "g", "gravity", "m_rod", "mrod", "I_rod", "m_tip", "mass_rod", "e", "i", "j", "k", "m", "s", "kg", "N", "theta", "θ", "alpha",

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from freebody.equations.mathml import broken, mathml
+from freebody.symbolic.printers.mathml import broken, mathml
 
 
 def said(shown):

@@ -9,8 +9,8 @@ import pytest
 from material import LETTERS, anything, cos, half, product, sin, square, sym, values
 
 from freebody.equations import Fn, Num, Sym, equation_latex, equation_text, evaluate, latex, text
-from freebody.equations.text import columns
-from freebody.equations.tree import ZERO, add, minus, mul, negative, number, over, power
+from freebody.symbolic.printers.text import columns
+from freebody.symbolic.tree import ZERO, add, minus, mul, negative, number, over, power
 
 TH1, TH2, THETA, X = sym("theta1"), sym("theta2"), sym("theta"), sym("x")
 M1, M2, BIG, M, L, G, K, ALPHA = map(sym, ("m1", "m2", "M", "m", "l", "g", "k", "alpha"))

@@ -12,7 +12,7 @@ import pytest
 from material import LETTERS, anything, half, square, sym, values
 
 from freebody.equations import Add, Fn, Num, Sym, evaluate, from_sympy, generate, read, to_sympy, write
-from freebody.equations.tree import mul, number, power
+from freebody.symbolic.tree import mul, number, power
 
 ARRAYS = {
     "q": [Sym(n) for n in LETTERS.of_kind("coordinate")],

@@ -56,7 +56,7 @@ class Case:
         """Accelerations, reactions and motors in letters, beside closed forms; ``asked`` is what ``solve_in_letters`` takes. With
         ``"theta, M → inf"`` a limit is asked for."""
         from freebody.catalogue.formulas import formula
-        from freebody.equations.text import text
+        from freebody.symbolic.printers.text import text
 
         pairs = {key: key.partition(", ")[::2] for key in closed}
         limits = {letter: to for _, what in pairs.values() if what for letter, to in [what.split(" → ")]}

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from freebody.catalogue.answers import Answer
 
 if TYPE_CHECKING:
-    from freebody.equations.letters import Letters
-    from freebody.equations.tree import Tree
+    from freebody.symbolic.letters import Letters
+    from freebody.symbolic.tree import Tree
 
 PLACES = 4
 """Places of random letters at which an answer and its closed form are compared."""
@@ -23,9 +23,9 @@ def formula(label: str, found: Tree, closed: str, against: str, letters: Letters
     """An answer in letters beside a closed form in the words of the model language, ``rate(theta)`` for a rate: both at random
     values of all letters, of which neither knows anything."""
     from freebody.equations.language import read_text
-    from freebody.equations.measured import shown
-    from freebody.equations.text import text
-    from freebody.equations.tree import evaluate, symbols
+    from freebody.symbolic.measured import shown
+    from freebody.symbolic.printers.text import text
+    from freebody.symbolic.tree import evaluate, symbols
 
     true, draw = read_text(closed), random.Random(_SEED)
     every = sorted(symbols(found, true), key=str)

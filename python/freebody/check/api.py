@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from freebody.model.errors import Complaint
+from freebody.symbolic.errors import StatementError
 
 from .case import Case
 from .claims import claimed
 from .families import ALL, Family
 from .language.dimensions import DimensionError, check_dimensions
-from .language.errors import StatementError
 from .letters import Letters
 from .meaning import StatementLetters
 from .truth import Truth

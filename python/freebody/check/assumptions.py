@@ -9,13 +9,15 @@ from dataclasses import replace
 import numpy as np
 
 from freebody import _core
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Fn, Sym, walk
 
 from .case import Case
 from .families import Family, NoMotion
 from .hypothesis import SMALL
-from .language.errors import StatementError
-from .language.evaluate import Array, evaluate
-from .language.nodes import Call, Equation, Letter, letters, terms, walk
+from .language.statements import Equation, letters, terms
 from .residual import HOLDS, residual, unreached
 from .rounding import figures, rounding
 
@@ -65,11 +67,11 @@ def _excuses(case: Case, equation: Equation, family: Family) -> bool:
         return False
 
 
-def _bare_angles(case: Case, equation: Equation) -> list[Letter]:
+def _bare_angles(case: Case, equation: Equation) -> list[Sym]:
     """Coordinates that are angles and stand outside of functions."""
     known = case.meaning.vocabulary
-    inside = {id(n) for call in walk(equation) if isinstance(call, Call) for n in walk(call)}
-    bare = [n for n in walk(equation) if isinstance(n, Letter) and id(n) not in inside]
+    inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
+    bare = [n for n in walk(equation) if isinstance(n, Sym) and id(n) not in inside]
     return [n for n in dict.fromkeys(bare) if n in known.coordinates and n in known.angular]
 
 
@@ -83,13 +85,13 @@ def _small(case: Case, equation: Equation) -> str:
     return ""
 
 
-def _angles(case: Case, equation: Equation) -> list[Letter]:
+def _angles(case: Case, equation: Equation) -> list[Sym]:
     known = case.meaning.vocabulary
-    plain = dict.fromkeys(Letter(n.name) for n in letters(equation))
+    plain = dict.fromkeys(Sym(n.name) for n in letters(equation))
     return [n for n in plain if n in known.coordinates and n in known.angular]
 
 
-def _words(angles: Iterable[Letter]) -> str:
+def _words(angles: Iterable[Sym]) -> str:
     return f"small {', '.join(n.name for n in angles)}"
 
 

@@ -8,9 +8,11 @@ from typing import Protocol
 
 import numpy as np
 
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Sym
+
 from .families import ALL, Family, Samples
-from .language.evaluate import Array
-from .language.nodes import Equation, Letter, Program, inlined
+from .language.statements import Equation, Program, inlined
 from .residual import Residual, residual
 from .truth import SAMPLES, Truth
 from .vocabulary import Vocabulary
@@ -23,7 +25,7 @@ class Meaning(Protocol):
     def vocabulary(self) -> Vocabulary:
         """The letters that a true equation may be written in."""
 
-    def texts(self, letter: Letter) -> tuple[str, ...]:
+    def texts(self, letter: Sym) -> tuple[str, ...]:
         """The expressions of the model language that a letter stands for."""
 
     def fits(self, equation: Equation) -> bool:
@@ -32,7 +34,7 @@ class Meaning(Protocol):
     def in_figures(self) -> Meaning:
         """The same where figures stand for measures in SI units, so that they fit any dimension."""
 
-    def solved(self, letter: Letter) -> bool:
+    def solved(self, letter: Sym) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
 
     def names(self) -> Mapping[str, tuple[str, ...]]:

@@ -11,17 +11,19 @@ import numpy as np
 
 from freebody.model.errors import Complaint
 from freebody.results import Array
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Sym
 
 from . import moments
 from .assumptions import first_order
 from .case import Case
 from .families import Family, Sample, Samples
 from .hypothesis import FAR, family
-from .language.errors import StatementError
-from .language.evaluate import equation_sides, evaluate
-from .language.nodes import Equation, Letter, Program, letters, terms
 from .language.parser import parse_expression
+from .language.sides import equation_sides
 from .language.spelling import spell
+from .language.statements import Equation, Program, letters, terms
 from .residual import HOLDS, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 
@@ -167,7 +169,7 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
 def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: str, statement: str) -> Verdict:
     """The factors of unknowns in equations, when some coordinates or rates are changed and all else stays."""
     case, known, truth = checker.case(statement, declared), checker.letters(declared).names, checker.truth
-    wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Letter)]
+    wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Sym)]
     samples = case.samples()
     before = [_factors(equation, wanted, case.values()) for equation in case.equations]
     for name in (n.strip() for n in names.split(",")):
@@ -183,7 +185,7 @@ def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: st
     return Verdict(Kind.TRUE, statement, told)
 
 
-def _factors(equation: Equation, unknowns: Sequence[Letter], values: Mapping[str, Array]) -> Array:
+def _factors(equation: Equation, unknowns: Sequence[Sym], values: Mapping[str, Array]) -> Array:
     """What stands before each unknown in the rows of an equation, (K, rows, unknowns)."""
     still = {**values, **{n.key: np.zeros_like(values[n.key]) for n in unknowns if n.key in values}}
     ones = [{**still, n.key: np.ones_like(still[n.key])} if n.key in still else still for n in unknowns]
@@ -206,7 +208,7 @@ def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -
 
 def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
     names = [c["name"] for c in truth.coordinates]
-    if not isinstance(letter, Letter) or letter.name not in names or letter.dots > 1 or truth.loops:
+    if not isinstance(letter, Sym) or letter.name not in names or letter.dots > 1 or truth.loops:
         raise Complaint(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
     state, i = sample.state, names.index(letter.name)
     q, u = state.q.copy(), state.u.copy()

@@ -6,26 +6,27 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 
-from .language.evaluate import is_zero
-from .language.nodes import (
-    Call,
+from freebody.symbolic.evaluate import is_zero
+from freebody.symbolic.tree import (
+    Add,
     Column,
     Cross,
     Dot,
-    Equation,
-    Letter,
+    Fn,
     Matrix,
+    Mul,
     Negative,
     Node,
-    Number,
-    Power,
-    Product,
+    Num,
+    Pow,
     Quotient,
-    Sum,
+    Sym,
     children,
-    replace,
+    exchange,
     walk,
 )
+
+from .language.statements import Equation
 from .vocabulary import Vocabulary
 
 SIZES = {
@@ -73,10 +74,10 @@ def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     """All single edits that need no number to be found."""
     for node, addend in _parts(equation):
         for kind, new in _changes(node, vocabulary):
-            yield Edit(kind, node, new, replace(equation, node, new))
+            yield Edit(kind, node, new, exchange(equation, node, new))
         if addend:
             opposite = node.of if isinstance(node, Negative) else Negative(node, span=node.span)
-            yield Edit("sign", node, opposite, replace(equation, node, opposite))
+            yield Edit("sign", node, opposite, exchange(equation, node, opposite))
             yield from _fewer(equation, node)
             yield from _more(equation, node, vocabulary)
 
@@ -84,26 +85,26 @@ def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
 def other_figures(equation: Equation) -> Iterator[Edit]:
     """Figures that are mistaken for each other, and a term doubled or halved: first steps of two."""
     for node, addend in _parts(equation):
-        if isinstance(node, Number) and node.value in _FIGURES:
+        if isinstance(node, Num) and node.value in _FIGURES:
             for value in _FIGURES:
                 if value != node.value:
-                    new = Number(value, f"{value:g}", span=node.span)
-                    yield Edit("factor", node, new, replace(equation, node, new))
-        elif addend and not any(isinstance(n, Number) for n in walk(node)):
-            for new in (Product((Number(2.0, "2"), node), span=node.span), Quotient(node, Number(2.0, "2"), span=node.span)):
-                yield Edit("factor", node, new, replace(equation, node, new))
+                    new = Num(value, f"{value:g}", span=node.span)
+                    yield Edit("factor", node, new, exchange(equation, node, new))
+        elif addend and not any(isinstance(n, Num) for n in walk(node)):
+            for new in (Mul((Num(2.0, "2"), node), span=node.span), Quotient(node, Num(2.0, "2"), span=node.span)):
+                yield Edit("factor", node, new, exchange(equation, node, new))
 
 
 def _parts(equation: Equation) -> Iterator[tuple[Node, bool]]:
     """Every part once, and whether it is added to something."""
-    addends = {id(side) for side in (equation.left, equation.right) if not isinstance(side, Sum)}
+    addends = {id(side) for side in (equation.left, equation.right) if not isinstance(side, Add)}
     for node in walk(equation):
-        if isinstance(node, Sum):
+        if isinstance(node, Add):
             addends |= {id(term) for term in node.terms}
         if isinstance(node, Column):
-            addends |= {id(item) for item in node.items if not isinstance(item, Sum)}
+            addends |= {id(item) for item in node.items if not isinstance(item, Add)}
         if isinstance(node, Matrix):
-            addends |= {id(item) for row in node.rows for item in row if not isinstance(item, Sum)}
+            addends |= {id(item) for row in node.rows for item in row if not isinstance(item, Add)}
     seen: set[int] = set()
     for node in walk(equation):
         if node is not equation and id(node) not in seen and not is_zero(node):
@@ -114,36 +115,36 @@ def _parts(equation: Equation) -> Iterator[tuple[Node, bool]]:
 def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
     at = {"span": node.span}
     match node:
-        case Letter(name=name, dots=dots):
-            yield from (("letter", Letter(other.name, other.dots, **at)) for other in vocabulary.alike(node))
-            if Letter(name) in vocabulary.coordinates:
-                yield from (("derivative", Letter(name, n, **at)) for n in range(3) if n != dots)
+        case Sym(name=name, dots=dots):
+            yield from (("letter", Sym(other.name, other.dots, **at)) for other in vocabulary.alike(node))
+            if Sym(name) in vocabulary.coordinates:
+                yield from (("derivative", Sym(name, n, **at)) for n in range(3) if n != dots)
             if node in vocabulary.vectors:
                 yield "sign", Negative(node, **at)
                 yield from (("letter", Negative(other, **at)) for other in vocabulary.alike(node))
-        case Call(function=function, arguments=(argument,)):
-            yield from (("function", Call(other, (argument,), **at)) for other in _SWAPS.get(function, ()))
-            yield from (("angle", Call(function, (angle,), **at)) for angle in _angles(argument, vocabulary))
-        case Power(base=base, exponent=Number(value=n)):
-            yield from (("power", Power(base, Number(m, f"{m:g}"), **at)) for m in (n - 1, n + 1) if m > 1)
+        case Fn(name=function, args=(argument,)):
+            yield from (("function", Fn(other, (argument,), **at)) for other in _SWAPS.get(function, ()))
+            yield from (("angle", Fn(function, (angle,), **at)) for angle in _angles(argument, vocabulary))
+        case Pow(base=base, exponent=Num(value=n)):
+            yield from (("power", Pow(base, Num(m, f"{m:g}"), **at)) for m in (n - 1, n + 1) if m > 1)
             yield "power", base
             yield from _rates(base, n, vocabulary)
-        case Product(factors=(Letter(dots=1) as a, Letter(dots=1) as b)):
-            yield from (("rates", Power(x, Number(2.0, "2"), **at)) for x in (a, b))
-        case Product(factors=factors):
+        case Mul(factors=(Sym(dots=1) as a, Sym(dots=1) as b)):
+            yield from (("rates", Pow(x, Num(2.0, "2"), **at)) for x in (a, b))
+        case Mul(factors=factors):
             kept = [factors[:i] + factors[i + 1 :] for i in range(len(factors))]
-            yield from (("extra factor", Product(rest, **at) if len(rest) > 1 else rest[0]) for rest in kept)
+            yield from (("extra factor", Mul(rest, **at) if len(rest) > 1 else rest[0]) for rest in kept)
             yield from (("brackets", new) for new in _below(factors, node.span))
         case Quotient(top=top, bottom=bottom):
             yield "extra factor", top
-            yield "missing factor", Product((top, bottom), **at)
+            yield "missing factor", Mul((top, bottom), **at)
         case Cross(left=left, right=right):
             yield "sign", Cross(right, left, **at)
             yield "function", Dot(left, right, **at)
         case Dot(left=left, right=right):
             yield "function", Cross(left, right, **at)
     if _is_rate(node, vocabulary):
-        yield "power", Power(node, Number(2.0, "2"), **at)
+        yield "power", Pow(node, Num(2.0, "2"), **at)
 
 
 def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
@@ -151,17 +152,17 @@ def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
     for i, factor in enumerate(factors[:-1]):
         if isinstance(factor, Quotient):
             for end in range(i + 2, len(factors) + 1):
-                fraction = Quotient(factor.top, Product((factor.bottom, *factors[i + 1 : end])), span=span)
+                fraction = Quotient(factor.top, Mul((factor.bottom, *factors[i + 1 : end])), span=span)
                 rest = (*factors[:i], fraction, *factors[end:])
-                yield Product(rest, span=span) if len(rest) > 1 else fraction
+                yield Mul(rest, span=span) if len(rest) > 1 else fraction
 
 
 def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
     """Whether it is the rate of a coordinate, or some of them added."""
     match node:
-        case Letter(name=name, dots=1):
-            return Letter(name) in vocabulary.coordinates
-        case Sum(terms=terms):
+        case Sym(name=name, dots=1):
+            return Sym(name) in vocabulary.coordinates
+        case Add(terms=terms):
             return all(_is_rate(term, vocabulary) for term in terms)
         case Negative(of=of):
             return _is_rate(of, vocabulary)
@@ -170,11 +171,11 @@ def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
 
 def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
     """A rate squared that should be a product of two, or an acceleration."""
-    if n == 2 and isinstance(base, Letter) and base.dots == 1:
+    if n == 2 and isinstance(base, Sym) and base.dots == 1:
         same = vocabulary.powers(base)
         speeds = [n for n in vocabulary.others if same is not None and vocabulary.powers(n) == same]
-        yield from (("rates", Product((base, other), span=base.span)) for other in (*vocabulary.alike(base), *speeds))
-        yield "derivative", Letter(base.name, 2, span=base.span)
+        yield from (("rates", Mul((base, other), span=base.span)) for other in (*vocabulary.alike(base), *speeds))
+        yield "derivative", Sym(base.name, 2, span=base.span)
 
 
 def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
@@ -183,33 +184,33 @@ def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
     yield from (angle for angle in known if angle != argument)
     for i, a in enumerate(known):
         for b in known[i + 1 :]:
-            yield from (Sum((a, b)), Sum((a, Negative(b))))
-            if not isinstance(argument, Letter):
-                yield Sum((b, Negative(a)))
-    if isinstance(argument, Sum):
-        yield from (Sum((*argument.terms, a)) for b in known for a in (b, Negative(b)))
-    yield Product((Number(2.0, "2"), argument))
-    yield Quotient(argument, Number(2.0, "2"))
+            yield from (Add((a, b)), Add((a, Negative(b))))
+            if not isinstance(argument, Sym):
+                yield Add((b, Negative(a)))
+    if isinstance(argument, Add):
+        yield from (Add((*argument.terms, a)) for b in known for a in (b, Negative(b)))
+    yield Mul((Num(2.0, "2"), argument))
+    yield Quotient(argument, Num(2.0, "2"))
 
 
 def _fewer(equation: Equation, node: Node) -> Iterator[Edit]:
     """Without a term."""
-    yield Edit("extra term", node, None, replace(equation, node, Number(0.0, "0")))
+    yield Edit("extra term", node, None, exchange(equation, node, Num(0.0, "0")))
 
 
 def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Edit]:
     """A term with a factor more."""
     for extra, more in chain(((n, 0.0) for n in vocabulary.single_factors), ((n, 0.2) for n in vocabulary.double_factors)):
-        new = Product((node, extra), span=node.span)
-        yield Edit("missing factor", node, new, replace(equation, node, new), more)
+        new = Mul((node, extra), span=node.span)
+        yield Edit("missing factor", node, new, exchange(equation, node, new), more)
 
 
-def with_unit_vectors(equation: Equation, units: tuple[Letter, ...]) -> Iterator[Edit]:
+def with_unit_vectors(equation: Equation, units: tuple[Sym, ...]) -> Iterator[Edit]:
     """A number beside vectors that lacks its direction, or a vector that should be a component."""
     for node, _ in _parts(equation):
         for unit in units:
-            for new in (Product((node, unit), span=node.span), Dot(node, unit, span=node.span)):
-                yield Edit("unit vector", node, new, replace(equation, node, new))
+            for new in (Mul((node, unit), span=node.span), Dot(node, unit, span=node.span)):
+                yield Edit("unit vector", node, new, exchange(equation, node, new))
 
 
 def depth(node: Node) -> int:

@@ -12,9 +12,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from ruamel.yaml import YAML, YAMLError
 
 from freebody.model.errors import Complaint
+from freebody.symbolic.errors import StatementError
 
 from .api import Checker
-from .language.errors import StatementError
 from .verdict import Kind, Verdict
 
 _SAID = str | list[str | float]

@@ -12,10 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
+
 from .edits import Edit, depth
-from .language.evaluate import Array, evaluate
-from .language.nodes import Call, Equation, Letter, Negative, Node, Number, Power, Product, Quotient, Sum, letters, replace, walk
-from .language.nodes import terms as terms_of
+from .language.statements import Equation, letters
+from .language.statements import terms as terms_of
 from .needed import Need, needs
 from .vocabulary import Powers, Vocabulary, dimension
 
@@ -36,13 +39,13 @@ def recognised(value: float) -> Node | None:
 
 
 def _fraction(fraction: Fraction, name: str) -> Node:
-    top: Node = Number(float(fraction.numerator), str(fraction.numerator))
+    top: Node = Num(float(fraction.numerator), str(fraction.numerator))
     if name:
-        pi = Number(math.pi, "pi")
-        top = pi if fraction.numerator == 1 else Product((top, pi))
+        pi = Num(math.pi, "pi")
+        top = pi if fraction.numerator == 1 else Mul((top, pi))
     if fraction.denominator == 1:
         return top
-    return Quotient(top, Number(float(fraction.denominator), str(fraction.denominator)))
+    return Quotient(top, Num(float(fraction.denominator), str(fraction.denominator)))
 
 
 @dataclass
@@ -59,7 +62,7 @@ class Fits:
                 yield from self._leaves(equation, need)
                 if need.addend:
                     yield from self._factors(equation, need)
-                if isinstance(need.node, Sum) or need.node in (equation.left, equation.right):
+                if isinstance(need.node, Add) or need.node in (equation.left, equation.right):
                     yield from self._missing(equation, need)
 
     def other_terms(self, equation: Equation) -> Iterator[Edit]:
@@ -73,38 +76,38 @@ class Fits:
         """A number that should be another, a letter or a function that should be a letter of another kind."""
         found = _constant(need.needed) if _is_figure(need.node) else None
         if found is not None and found != -need.value[0] and (number := recognised(found)) is not None:
-            yield Edit("factor", need.node, number, replace(equation, need.node, number))
-        if isinstance(need.node, Letter | Call) and need.value.ndim == 1:
+            yield Edit("factor", need.node, number, exchange(equation, need.node, number))
+        if isinstance(need.node, Sym | Fn) and need.value.ndim == 1:
             for letter in self._letters:
                 if letter != need.node and np.allclose(self.values[letter.key], need.needed, rtol=_SAME, atol=0):
-                    new = Letter(letter.name, letter.dots, span=need.node.span)
-                    yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.3)
+                    new = Sym(letter.name, letter.dots, span=need.node.span)
+                    yield Edit("letter", need.node, new, exchange(equation, need.node, new), 0.3)
         yield from self._squares(equation, need)
-        if isinstance(need.node, Letter) and need.node in self.vocabulary.parameters:
+        if isinstance(need.node, Sym) and need.node in self.vocabulary.parameters:
             yield from self._lengthened(equation, need, need.node)
 
     def _squares(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """The square of a letter that should be that of another, of whatever sign."""
         match need.node:
-            case Power(base=Letter() as base, exponent=Number(value=2.0) as two) if need.value.ndim == 1:
+            case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if need.value.ndim == 1:
                 for letter in self._letters:
                     if letter != base and np.allclose(self.values[letter.key] ** 2, need.needed, rtol=_SAME, atol=0):
-                        new = Power(Letter(letter.name, letter.dots), two, span=need.node.span)
-                        yield Edit("letter", need.node, new, replace(equation, need.node, new), 0.1)
+                        new = Pow(Sym(letter.name, letter.dots), two, span=need.node.span)
+                        yield Edit("letter", need.node, new, exchange(equation, need.node, new), 0.1)
 
-    def _lengthened(self, equation: Equation, need: Need, letter: Letter) -> Iterator[Edit]:
+    def _lengthened(self, equation: Equation, need: Need, letter: Sym) -> Iterator[Edit]:
         """A parameter that should be the sum or the difference of two, as an arm often is."""
         for a, b in permutations((letter, *self.vocabulary.alike(letter)), 2):
             one, two = self.values[a.key], self.values[b.key]
             for part, whole in ((b, one + two), (Negative(b), one - two)):
                 if np.allclose(whole, need.needed, rtol=_SAME, atol=0):
-                    new = Sum((a, part), span=letter.span)
-                    yield Edit("letter", letter, new, replace(equation, letter, new), 0.2)
+                    new = Add((a, part), span=letter.span)
+                    yield Edit("letter", letter, new, exchange(equation, letter, new), 0.2)
 
     @cached_property
-    def _letters(self) -> list[Letter]:
+    def _letters(self) -> list[Sym]:
         known = self.vocabulary
-        moving = [Letter(q.name, dots) for q in known.coordinates for dots in range(3)]
+        moving = [Sym(q.name, dots) for q in known.coordinates for dots in range(3)]
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
 
     def _factors(self, equation: Equation, need: Need) -> Iterator[Edit]:
@@ -114,16 +117,16 @@ class Fits:
         found = _constant(factor)
         if found is not None:
             number = recognised(found)
-            if number == Number(-1.0):
+            if number == Num(-1.0):
                 new = need.node.of if isinstance(need.node, Negative) else Negative(need.node, span=need.node.span)
-                yield Edit("sign", need.node, new, replace(equation, need.node, new))
-            elif number is not None and number != Number(1.0):
+                yield Edit("sign", need.node, new, exchange(equation, need.node, new))
+            elif number is not None and number != Num(1.0):
                 new = multiplied(need.node, number)
-                own = 0.05 if any(isinstance(n, Number) for n in walk(need.node)) else 0.0
-                yield Edit("factor", need.node, new, replace(equation, need.node, new), own)
+                own = 0.05 if any(isinstance(n, Num) for n in walk(need.node)) else 0.0
+                yield Edit("factor", need.node, new, exchange(equation, need.node, new), own)
             return
         for size, new in self._monomials(need.node, factor, equation):
-            yield Edit("missing factor", need.node, new, replace(equation, need.node, new), 0.2 * (size - 1))
+            yield Edit("missing factor", need.node, new, exchange(equation, need.node, new), 0.2 * (size - 1))
 
     def _monomials(self, node: Node, factor: Array, equation: Equation) -> Iterator[tuple[int, Node]]:
         """The node with the product of powers of letters that it lacks."""
@@ -139,26 +142,26 @@ class Fits:
         number = recognised(float(np.sign(factor[0]) * np.exp(fit[0])))
         if number is not None:
             chosen = [(n, int(p)) for n, p in zip(used, powers, strict=True) if p]
-            yield sum(abs(p) for _, p in chosen) + (number != Number(1.0)), powered(node, number, chosen)
+            yield sum(abs(p) for _, p in chosen) + (number != Num(1.0)), powered(node, number, chosen)
 
     # -- terms
 
     def _missing(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A sum that lacks a term."""
         inner = not any(need.node is side for side in (equation.left, equation.right))
-        like = Equation(need.node, Number(0.0)) if inner else equation
+        like = Equation(need.node, Num(0.0)) if inner else equation
         for term in self._matching(like, need.missing):
-            old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
-            new = Sum((*old, term), span=need.node.span)
+            old = need.node.terms if isinstance(need.node, Add) else (need.node,)
+            new = Add((*old, term), span=need.node.span)
             far = _FAR_FETCHED * self._far_fetched(term, equation)
-            yield Edit("missing term", None, term, replace(equation, need.node, new), 0.02 * depth(term) + far)
+            yield Edit("missing term", None, term, exchange(equation, need.node, new), 0.02 * depth(term) + far)
 
     def _far_fetched(self, term: Node, equation: Equation) -> bool:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
         said = set(letters(equation))
         new = [n for n in letters(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
         first = term.of if isinstance(term, Negative) else term
-        return bool(new) and isinstance(first, Product) and first.factors[0] == Number(2.0)
+        return bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
 
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""
@@ -172,15 +175,15 @@ class Fits:
                 numbers = [recognised(float(size)) for size in sizes]
                 if all(number is not None for number in numbers):
                     lost = tuple(multiplied(nodes[k], n) for k, n in zip((i, j), numbers, strict=True) if n is not None)
-                    old = need.node.terms if isinstance(need.node, Sum) else (need.node,)
-                    new = Sum((*old, *lost), span=need.node.span)
-                    after = replace(equation, need.node, new)
-                    yield Edit("missing term", None, Sum(lost), after, 1.2 + 0.02 * sum(depth(term) for term in lost))
+                    old = need.node.terms if isinstance(need.node, Add) else (need.node,)
+                    new = Add((*old, *lost), span=need.node.span)
+                    after = exchange(equation, need.node, new)
+                    yield Edit("missing term", None, Add(lost), after, 1.2 + 0.02 * sum(depth(term) for term in lost))
 
     def _replaced(self, equation: Equation, need: Need) -> Iterator[Edit]:
         """A term that should be quite another."""
         for term in self._matching(equation, need.needed):
-            yield Edit("other term", need.node, term, replace(equation, need.node, term), 0.02 * depth(term))
+            yield Edit("other term", need.node, term, exchange(equation, need.node, term), 0.02 * depth(term))
 
     def _matching(self, equation: Equation, wanted: Array, less: Powers = (0, 0, 0)) -> Iterator[Node]:
         """Terms of the dictionary that are ``wanted`` but for a number; their dimension is that of the equation over ``less``."""
@@ -203,13 +206,13 @@ class Fits:
             along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
             off = np.abs(wanted - along[:, None] * value).max(axis=1)
             if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
-                yield from (Product((term, vector)) for term in self._matching(equation, along, powers or (0, 0, 0)))
+                yield from (Mul((term, vector)) for term in self._matching(equation, along, powers or (0, 0, 0)))
 
     def _dictionary(self, equation: Equation, less: Powers) -> tuple[list[Node], Array]:
         whole = self._dimension(equation)
         wanted = None if whole is None else (whole[0] - less[0], whole[1] - less[1], whole[2] - less[2])
         moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
-        long = tuple(dict.fromkeys(n for n in _arguments(equation) if isinstance(n, Sum) and len(n.terms) > 2))
+        long = tuple(dict.fromkeys(n for n in _arguments(equation) if isinstance(n, Add) and len(n.terms) > 2))
         key = (wanted, moving, long)
         if key not in self._made:
             nodes = [*self.vocabulary.terms(wanted, moving, long), *self.vocabulary.moments(wanted)]
@@ -220,7 +223,7 @@ class Fits:
 
     def _rows(self, nodes: Sequence[Node]) -> Array:
         """The value of each term; factors, of which there are few, are worked out once."""
-        parts = [n.factors if isinstance(n, Product) else (n,) for n in nodes]
+        parts = [n.factors if isinstance(n, Mul) else (n,) for n in nodes]
         places: dict[Node, int] = {}
         seen: dict[int, int] = {}  # by identity: many terms share their factors
         for factor in (f for factors in parts for f in factors):
@@ -243,19 +246,19 @@ class Fits:
         return max(known, key=known.count) if known else None
 
     @cached_property
-    def _made(self) -> dict[tuple[Powers | None, tuple[Letter, ...], tuple[Node, ...]], tuple[list[Node], Array]]:
+    def _made(self) -> dict[tuple[Powers | None, tuple[Sym, ...], tuple[Node, ...]], tuple[list[Node], Array]]:
         return {}
 
 
 def _arguments(equation: Equation) -> Iterator[Node]:
     """What sines and cosines are taken of."""
-    return (n.arguments[0] for n in walk(equation) if isinstance(n, Call) and n.function in ("sin", "cos"))
+    return (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
 
 
 def _is_figure(node: Node) -> bool:
     """Whether it is a number, or a fraction of two."""
     parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
-    return all(isinstance(part, Number) for part in parts)
+    return all(isinstance(part, Num) for part in parts)
 
 
 def _constant(values: Array) -> float | None:
@@ -289,9 +292,9 @@ def _spanning(rows: Array, wanted: Array) -> Iterator[tuple[int, int]]:
 
 def multiplied(node: Node, number: Node) -> Node:
     """A term times a number, as a person writes it."""
-    if number == Number(1.0):
+    if number == Num(1.0):
         return node
-    if number == Number(-1.0):
+    if number == Num(-1.0):
         return Negative(node)
     if isinstance(node, Negative):
         return Negative(multiplied(node.of, number), span=node.span)
@@ -299,24 +302,24 @@ def multiplied(node: Node, number: Node) -> Node:
         first, *rest = own
         together = recognised(first.value * float(evaluate(number, {})[0]))
         if together is not None:
-            return multiplied(rest[0] if len(rest) == 1 else Product(tuple(rest), span=node.span), together)
-    if isinstance(number, Quotient) and isinstance(number.top, Number) and number.top.value < 0:
-        return Negative(multiplied(node, Quotient(Number(-number.top.value, number.top.text.lstrip("-")), number.bottom)))
-    if isinstance(number, Number) and number.value < 0:
-        return Negative(multiplied(node, Number(-number.value, number.text.lstrip("-"))))
-    if isinstance(number, Quotient) and number.top == Number(1.0):
+            return multiplied(rest[0] if len(rest) == 1 else Mul(tuple(rest), span=node.span), together)
+    if isinstance(number, Quotient) and isinstance(number.top, Num) and number.top.value < 0:
+        return Negative(multiplied(node, Quotient(Num(-number.top.value, number.top.text.lstrip("-")), number.bottom)))
+    if isinstance(number, Num) and number.value < 0:
+        return Negative(multiplied(node, Num(-number.value, number.text.lstrip("-"))))
+    if isinstance(number, Quotient) and number.top == Num(1.0):
         return Quotient(node, number.bottom, span=node.span)
-    return Product((number, *(node.factors if isinstance(node, Product) else (node,))), span=node.span)
+    return Mul((number, *(node.factors if isinstance(node, Mul) else (node,))), span=node.span)
 
 
 def _own_number(node: Node) -> tuple[Any, ...] | None:
     """The factors of a product that begins with a number."""
-    return node.factors if isinstance(node, Product) and isinstance(node.factors[0], Number) else None
+    return node.factors if isinstance(node, Mul) and isinstance(node.factors[0], Num) else None
 
 
-def powered(node: Node, number: Node, chosen: Sequence[tuple[Letter, int]]) -> Node:
+def powered(node: Node, number: Node, chosen: Sequence[tuple[Sym, int]]) -> Node:
     """A term times a number and powers of letters; factors that it has itself are taken off first."""
-    own = list(node.factors) if isinstance(node, Product) else [node]
+    own = list(node.factors) if isinstance(node, Mul) else [node]
     below: list[Node] = []
     for letter, power in chosen:
         for _ in range(abs(power)):
@@ -326,7 +329,7 @@ def powered(node: Node, number: Node, chosen: Sequence[tuple[Letter, int]]) -> N
                 own.remove(letter)
             else:
                 below.append(letter)
-    top = own[0] if len(own) == 1 else Product(tuple(own)) if own else Number(1.0, "1")
+    top = own[0] if len(own) == 1 else Mul(tuple(own)) if own else Num(1.0, "1")
     if below:
-        top = Quotient(top, below[0] if len(below) == 1 else Product(tuple(below)))
+        top = Quotient(top, below[0] if len(below) == 1 else Mul(tuple(below)))
     return multiplied(top, number)

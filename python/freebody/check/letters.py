@@ -13,14 +13,15 @@ from freebody.model.errors import Complaint
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.model.writer import Writer
+from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Sym, walk
 
 from .declared import Array, Meaning, Reader
 from .language.dimensions import DimensionError, check_dimensions
-from .language.errors import StatementError
-from .language.nodes import Letter, Program, walk
 from .language.parser import parse, parse_expression
 from .language.spelling import spell as written
+from .language.statements import Program
 from .language.tokens import Names
 from .printed import printed, renamed
 
@@ -143,7 +144,7 @@ class Letters:
     def _strange(self, program: Program) -> bool:
         """Whether some letter has no meaning."""
         given = {line.name for line in program.assignments}
-        return any(isinstance(n, Letter) and n.name not in self.meanings and n not in given for n in walk(program))
+        return any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
 
     def _learn_printed(self) -> bool:
         """Those of printed equations join the others, which go before them; whether there are any that did not before."""
@@ -156,7 +157,7 @@ class Letters:
 
     def notes(self, program: Program) -> tuple[str, ...]:
         """Of each letter of a program that usually means something else what that is called here."""
-        used = {folded(n.name) for n in walk(program) if isinstance(n, Letter)}
+        used = {folded(n.name) for n in walk(program) if isinstance(n, Sym)}
         return tuple(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used)
 
     def _reading(self, text: str) -> Meaning | None:
@@ -167,12 +168,12 @@ class Letters:
 
     # --- values --------------------------------------------------------------------------------
 
-    def require(self, program: Program) -> list[Letter]:
+    def require(self, program: Program) -> list[Sym]:
         """The letters of a program that need values. Raises ``StatementError`` at one that has no meaning."""
         given = {line.name for line in program.assignments}
-        found: dict[Letter, None] = {}
+        found: dict[Sym, None] = {}
         for node in walk(program):
-            if isinstance(node, Letter) and node not in given:
+            if isinstance(node, Sym) and node not in given:
                 try:
                     self._meaning(node).needed(node.dots)
                 except Complaint as complaint:
@@ -180,17 +181,17 @@ class Letters:
                 found[node] = None
         return list(found)
 
-    def texts(self, found: Iterable[Letter]) -> list[str]:
+    def texts(self, found: Iterable[Sym]) -> list[str]:
         """The expressions of the model language from which these letters are read, each once."""
         return list(dict.fromkeys(text for n in found for text in self._meaning(n).needed(n.dots)))
 
-    def values(self, found: Iterable[Letter], samples: Sampled) -> dict[str, Array]:
+    def values(self, found: Iterable[Sym], samples: Sampled) -> dict[str, Array]:
         """The letters on true states, by ``Letter.key``: (K,), vectors (K, 3)."""
         found = list(found)
         known = samples.values(self.texts(found))
         return {n.key: self._meaning(n).value(n.dots, known, samples.masses) for n in found}
 
-    def _meaning(self, letter: Letter) -> Meaning:
+    def _meaning(self, letter: Sym) -> Meaning:
         if letter.name in self.meanings:
             return self.meanings[letter.name]
         bare = letter.name.rstrip("'")

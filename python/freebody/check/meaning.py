@@ -12,13 +12,14 @@ import numpy as np
 
 from freebody.model.errors import Complaint
 from freebody.model.units import Dimension
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Sym, walk
 
 from .declared import Meaning as One
 from .families import Samples
 from .language.dimensions import DimensionError, check_dimensions
-from .language.errors import StatementError
-from .language.evaluate import Array
-from .language.nodes import Equation, Letter, Program, walk
+from .language.statements import Equation, Program
 from .letters import Letters
 from .truth import Truth
 from .vocabulary import Powers, Vocabulary
@@ -44,10 +45,10 @@ class StatementLetters:
         self.letters, self.truth, self.figures = letters, truth, False
         self.required = letters.require(program)
         named = {line.name for line in program.assignments}
-        used = [n for n in walk(program) if isinstance(n, Letter) and n not in named]
-        self.used = list(dict.fromkeys(Letter(n.name) for n in used))
+        used = [n for n in walk(program) if isinstance(n, Sym) and n not in named]
+        self.used = list(dict.fromkeys(Sym(n.name) for n in used))
 
-    def texts(self, letter: Letter) -> tuple[str, ...]:
+    def texts(self, letter: Sym) -> tuple[str, ...]:
         """The expressions of the model language that a letter stands for."""
         return self._one(letter).texts if letter.name in self.letters.meanings else ()
 
@@ -56,7 +57,7 @@ class StatementLetters:
         found = self.letters.values(self._valued, samples)
         return {n.key: self._without_round_off(n, found[n.key]) for n in self._valued}
 
-    def _without_round_off(self, letter: Letter, value: Array) -> Array:
+    def _without_round_off(self, letter: Sym, value: Array) -> Array:
         one = self._one(letter)
         if one.kind in ("parameter", "gravity") or one.dimension is None:
             return value
@@ -79,7 +80,7 @@ class StatementLetters:
         other.figures = True
         return other
 
-    def solved(self, letter: Letter) -> bool:
+    def solved(self, letter: Sym) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
         if letter.name not in self.letters.meanings:
             return False
@@ -95,10 +96,10 @@ class StatementLetters:
         return frozenset(n.key for n in self._valued if not n.dots and self._is_fixed(n))
 
     @cached_property
-    def _valued(self) -> list[Letter]:
+    def _valued(self) -> list[Sym]:
         """The letters of the statement and of the vocabulary, with their rates."""
         known = self.vocabulary
-        dotted = [Letter(n.name, dots) for n in known.coordinates for dots in range(3)]
+        dotted = [Sym(n.name, dots) for n in known.coordinates for dots in range(3)]
         return list(dict.fromkeys([*self.required, *known.parameters, *dotted, *known.others, *known.vectors]))
 
     @cached_property
@@ -108,7 +109,7 @@ class StatementLetters:
         coordinates = self._coordinates
         taken = {*parameters, *coordinates}
         vectors = [n for n in self.used if self._one(n).is_vector]
-        known = dict.fromkeys([*self.used, *(Letter(name) for name in self.letters.of_kind("declared"))])
+        known = dict.fromkeys([*self.used, *(Sym(name) for name in self.letters.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
         plain = {n: self._powers(n) for n in (*parameters, *coordinates, *others)}
@@ -120,41 +121,41 @@ class StatementLetters:
             frozenset(n for n in plain if (n in coordinates and plain[n] == (0, 0, 0)) or self._is_angle(n)),
         )
 
-    def _reactions(self, said: set[tuple[str, ...]]) -> list[Letter]:
+    def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
         state = self.truth.first
         told = json.loads(self.truth.core.free_bodies(state.p, state.t, state.q, state.u))["loads"]
-        named = [Letter(load["symbol"]) for load in told if load["unknown"] and load["determinate"]]
+        named = [Sym(load["symbol"]) for load in told if load["unknown"] and load["determinate"]]
         known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
 
     @cached_property
-    def _units(self) -> list[Letter]:
+    def _units(self) -> list[Sym]:
         """Unit vectors and all declared ones."""
-        return [Letter(n) for n in self.letters.of_kind("declared", "direction") if n in self.letters.vectors]
+        return [Sym(n) for n in self.letters.of_kind("declared", "direction") if n in self.letters.vectors]
 
-    def _one(self, letter: Letter) -> One:
+    def _one(self, letter: Sym) -> One:
         return self.letters.meanings[letter.name]
 
-    def _powers(self, letter: Letter) -> Powers | None:
+    def _powers(self, letter: Sym) -> Powers | None:
         """The dimension of a letter; a parameter that is a bare number has none."""
         dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
         return (0, 0, 0) if dimension is None and name in self.truth.free_parameters else _powers(dimension)
 
-    def _is_angle(self, letter: Letter) -> bool:
+    def _is_angle(self, letter: Sym) -> bool:
         dimension = self._one(letter).dimension
         return dimension is not None and dimension.angle == 1 and _powers(dimension) == (0, 0, 0)
 
     @cached_property
-    def _parameters(self) -> list[Letter]:
-        own = [Letter(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
+    def _parameters(self) -> list[Sym]:
+        own = [Sym(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
         own.sort(key=lambda n: n.name not in self.truth.free_parameters)
         made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
         return self._once([*made, *(n for n in own if n in self.used), *own])
 
-    def _once(self, found: list[Letter]) -> list[Letter]:
+    def _once(self, found: list[Sym]) -> list[Sym]:
         """Without letters that only name again what another does."""
-        by_meaning: dict[tuple[str, ...], Letter] = {}
+        by_meaning: dict[tuple[str, ...], Sym] = {}
         for letter in found:
             by_meaning.setdefault(self._one(letter).texts, letter)
         return list(by_meaning.values())
@@ -173,23 +174,23 @@ class StatementLetters:
                 used += " " + parameter["value"]
         return used
 
-    def _is_fixed(self, letter: Letter) -> bool:
+    def _is_fixed(self, letter: Sym) -> bool:
         """Whether it is made of parameters alone."""
         words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
         return words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
-    def _coordinates(self) -> list[Letter]:
+    def _coordinates(self) -> list[Sym]:
         """Letters that measure the configuration, those of the statement first; the model's own where some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
-        own = [Letter(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
-        declared = [Letter(name) for name in self.letters.of_kind("declared")]
+        own = [Sym(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        declared = [Sym(name) for name in self.letters.of_kind("declared")]
         own += [n for n in declared if n not in movable and self._moves(n)]
         missing = max(len(self.truth.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
-    def _moves(self, letter: Letter) -> bool:
+    def _moves(self, letter: Sym) -> bool:
         """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""
         one = self._one(letter)
         if any(_BEYOND.search(text) for text in one.texts):

@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Negative, Node, Num, Sym
+from freebody.symbolic.tree import exchange as replaced
+
 from .conventions import conventions
 from .edits import Edit, depth, edits, other_figures, with_unit_vectors
 from .fits import Fits
-from .language.errors import StatementError
-from .language.evaluate import Array, evaluate
-from .language.nodes import Equation, Letter, Negative, Node, Number, letters, without_ones
-from .language.nodes import replace as replaced
 from .language.spelling import spell
+from .language.statements import Equation, letters, without_ones
 from .residual import HOLDS, Residual, residual, unreached
 from .rows import rows
 
@@ -108,7 +111,7 @@ def mends(case: Case, equation: Equation) -> Iterator[Mend]:
 
 def _unmentioned_zeros(case: Case, equation: Equation) -> list[str]:
     """Parameters that are 0 in the model and that the equation leaves out."""
-    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Letter(letter.name)))
+    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Sym(letter.name)))
     words = set(re.findall(r"\w+", said))
     return [name for name, value in case.truth.free_parameters.items() if value == 0 and name not in words]
 
@@ -178,7 +181,7 @@ class _Search:
         return [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:count]]
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
-        units = tuple(n for n in self.vocabulary.vectors if n in (Letter("i"), Letter("j"), Letter("k")))
+        units = tuple(n for n in self.vocabulary.vectors if n in (Sym("i"), Sym("j"), Sym("k")))
         broken = not self._readable(equation)
         return chain(
             with_unit_vectors(equation, units) if broken else (),
@@ -212,7 +215,7 @@ class _Search:
     def _oddness(self, found: _Found) -> tuple[bool, float]:
         """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
         sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
-        alone = [side for side in sides if isinstance(side, Letter)]
+        alone = [side for side in sides if isinstance(side, Sym)]
         length = len(spell(without_ones(found.after))) + _WORTH * found.size
         return any(edit.old in alone and edit.old is not None for edit in found.edits), length
 
@@ -313,7 +316,7 @@ def _both(first: Edit, second: Edit) -> Edit | None:
     """The second edit after the first, where both can be made."""
     if second.old is None or (second.new is None and second.kind != "extra term"):
         return None
-    new = second.new if second.new is not None else Number(0.0, "0")
+    new = second.new if second.new is not None else Num(0.0, "0")
     after = replaced(first.after, second.old, new)
     return None if after is first.after else replace(second, after=after)
 

@@ -10,14 +10,16 @@ import numpy as np
 
 from freebody.model.errors import Complaint
 from freebody.results import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Num
+from freebody.symbolic.tree import exchange as replaced
 
 from .case import Case
 from .families import Samples
-from .language.evaluate import Sides, equation_sides, evaluate
-from .language.nodes import Equation, Number, letters
-from .language.nodes import replace as replaced
 from .language.parser import parse
+from .language.sides import Sides, equation_sides
 from .language.spelling import spell
+from .language.statements import Equation, letters
 from .meaning import StatementLetters
 from .mend import Mend
 from .rounding import figures, last_digit, rounding, slope
@@ -92,7 +94,7 @@ def _corrected(equation: Equation, values: Mapping[str, Array]) -> tuple[tuple[M
     return (), False
 
 
-def _printed_again(equation: Equation, chosen: tuple[Number, ...], values: Mapping[str, Array]) -> Iterator[tuple[Mend, bool]]:
+def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[str, Array]) -> Iterator[tuple[Mend, bool]]:
     """The equation with other numbers for some figures, if these make it hold to its digits."""
     slopes = np.stack([slope(equation, figure, values)[0] for figure in chosen], axis=-1)
     steps = -np.linalg.pinv(slopes) @ equation_sides(equation, values).residual[0]
@@ -101,7 +103,7 @@ def _printed_again(equation: Equation, chosen: tuple[Number, ...], values: Mappi
         places = len(figure.text.partition("e")[0].split(".")[1])
         power = 10.0 ** int(figure.text.partition("e")[2] or 0)
         text = f"{(figure.value + step) / power:.{places}f}" + figure.text[len(figure.text.partition("e")[0]) :]
-        after = replaced(after, figure, Number(float(text), text))
+        after = replaced(after, figure, Num(float(text), text))
         edits.append(("figure", figure.text, text))
         last &= abs(float(text) - figure.value) < 1.5 * last_digit(figure)
     left = np.abs(equation_sides(after, values).residual)

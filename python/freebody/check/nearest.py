@@ -13,11 +13,12 @@ from freebody.balances.groups import groups
 from freebody.balances.system import Problem, problem
 from freebody.balances.twists import named_twists
 from freebody.equations import Letters as Printed
-from freebody.equations import Sym, Tree, equation_text, read, symbols
+from freebody.equations import Tree, equation_text, read, symbols
 from freebody.free_body import FreeBodies
+from freebody.symbolic.tree import Sym
 
 from .families import NoMotion
-from .language.nodes import Equation, Letter, letters
+from .language.statements import Equation, letters
 
 if TYPE_CHECKING:
     from .case import Case
@@ -107,7 +108,7 @@ def _said(case: Case, equation: Equation, table: Mapping[str, Any]) -> frozenset
     """The letters of the model that a statement holds."""
     found = set()
     for letter in letters(equation):
-        for text in case.meaning.texts(Letter(letter.name)):
+        for text in case.meaning.texts(Sym(letter.name)):
             dots = letter.dots + (2 if "accel(" in text else 1 if "rate(" in text else 0)
             words = [word for word in _WORD.findall(text) if word in table]
             found |= {Sym(word, dots if table[word]["kind"] == "coordinate" else 0) for word in words}

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .language.evaluate import Array, evaluate, is_zero
-from .language.nodes import Call, Dot, Equation, Negative, Node, Number, Power, Product, Quotient, Sum
+from freebody.symbolic.evaluate import Array, is_zero
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient
+
+from .language.statements import Equation
 
 _PARALLEL = 1e-9  # sine of the angle below which two vectors have one direction
 
@@ -55,19 +58,19 @@ def needs(equation: Equation, values: Mapping[str, Array]) -> Iterator[Need]:
 def _inside(need: Need, values: Mapping[str, Array]) -> Iterator[Need]:
     yield need
     match need.node:
-        case Sum(terms=terms):
+        case Add(terms=terms):
             parts = [(term, evaluate(term, values)) for term in terms if not is_zero(term)]
             for term, value in parts:
                 yield from _inside(Need(term, value, value + need.missing, True), values)
         case Negative(of=of):
             yield from _inside(Need(of, -need.value, -need.needed, need.addend), values)
-        case Product(factors=factors):
+        case Mul(factors=factors):
             yield from _factors(need, factors, values)
         case Dot(left=left, right=right):
             yield from _factors(need, (left, right), values)
         case Quotient(top=top, bottom=bottom):
             yield from _quotient(need, top, bottom, values)
-        case Power(base=base, exponent=Number(value=n)) if n and not isinstance(base, Call):
+        case Pow(base=base, exponent=Num(value=n)) if n and not isinstance(base, Fn):
             value = evaluate(base, values)
             root = np.abs(need.needed) ** (1 / n) * np.sign(value)
             if value.ndim == 1 and np.all(need.needed >= 0):
@@ -94,7 +97,7 @@ def _factors(need: Need, factors: tuple[Node, ...], values: Mapping[str, Array])
 
 
 def _quotient(need: Need, top: Node, bottom: Node, values: Mapping[str, Array]) -> Iterator[Need]:
-    if isinstance(top, Number) and isinstance(bottom, Number):
+    if isinstance(top, Num) and isinstance(bottom, Num):
         return  # ½ is one figure
     above, below = evaluate(top, values), evaluate(bottom, values)
     if below.ndim != 1:

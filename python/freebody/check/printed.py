@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from freebody import _core
-from freebody.equations.tree import Add, Mul, Num, Sym, Tree
 from freebody.model.errors import Complaint
 from freebody.model.names import spell
 from freebody.symbolic.symbols import Renamed, unicode_name
+from freebody.symbolic.tree import Add, Mul, Num, Sym, Tree
 
 if TYPE_CHECKING:
     from freebody.equations.derivation.told import Subject
@@ -27,7 +27,14 @@ def printed(mechanism: Builder) -> Mapping[str, str]:
 
     try:
         subject = Subject(mechanism.source(), mechanism.start()[0])
-        found = [*_loads(subject), *_given(subject), *_numbers(subject), *_bodies(subject), *_whole(subject), *_directions(subject)]
+        found = [
+            *_loads(subject),
+            *_given(subject),
+            *_numbers(subject),
+            *_bodies(subject),
+            *_whole(subject),
+            *_directions(subject),
+        ]
     except (_core.MotionError, Complaint):
         return {}
     return dict(found)
@@ -72,7 +79,11 @@ def _bodies(subject: Subject) -> Iterator[tuple[str, str]]:
         read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
         read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
         yield from ((subject.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
-        for stem, long, meant in (("x", "place_x", f"x({said}.G)"), ("y", "place_y", f"y({said}.G)"), ("phi", "angle", f"angle({said})")):
+        for stem, long, meant in (
+            ("x", "place_x", f"x({said}.G)"),
+            ("y", "place_y", f"y({said}.G)"),
+            ("phi", "angle", f"angle({said})"),
+        ):
             yield from ((unicode_name(f"{each}_{name}"), meant) for each in (stem, long))
 
 

@@ -8,9 +8,13 @@ from functools import reduce
 
 import numpy as np
 
-from .language.evaluate import Array, Sides, equation_sides, evaluate
-from .language.nodes import Call, Column, Cross, Dot, Equation, Letter, Matrix, Negative, Node, Power, Product, Quotient, Sum
-from .language.nodes import terms as terms_of
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Pow, Quotient, Sym
+
+from .language.sides import Sides, equation_sides
+from .language.statements import Equation
+from .language.statements import terms as terms_of
 
 HOLDS = 1e-10
 """Below it, relative to the terms, an equation holds but for round-off."""
@@ -64,9 +68,9 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
     match node:
         case Negative(of=of):
             return inside(of)
-        case Sum(terms=terms):
+        case Add(terms=terms):
             return reduce(np.add, [inside(term) for term in terms])
-        case Product(factors=factors):
+        case Mul(factors=factors):
             return reduce(_times, [inside(factor) for factor in factors])
         case Quotient(top=top, bottom=bottom):
             return _over(inside(top), np.abs(evaluate(bottom, values)))
@@ -79,9 +83,9 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
             return np.stack([_scalar(inside(item)) for item in items], axis=-1)[:, :, None]
         case Matrix(rows=rows):
             return np.stack([np.stack([_scalar(inside(x)) for x in row], axis=-1) for row in rows], axis=1)
-        case Call(function=function, arguments=(of,)) if function in _THROUGH_ZERO:
+        case Fn(name=function, args=(of,)) if function in _THROUGH_ZERO:
             return np.maximum(np.abs(evaluate(node, values)), np.minimum(_scalar(inside(of)), 1.0))
-        case Power() | Call() | Letter() | Node():
+        case Pow() | Fn() | Sym() | Node():
             return np.abs(evaluate(node, values))
     raise TypeError(type(node).__name__)
 

@@ -6,9 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from .language.evaluate import Array, equation_sides
-from .language.nodes import Equation, Number, letters, walk
-from .language.nodes import replace as replaced
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Num, walk
+from freebody.symbolic.tree import exchange as replaced
+
+from .language.sides import equation_sides
+from .language.statements import Equation, letters
 from .residual import HOLDS, magnitude
 
 
@@ -22,21 +25,21 @@ def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
     return allowed
 
 
-def figures(equation: Equation) -> list[Number]:
+def figures(equation: Equation) -> list[Num]:
     """The figures with a decimal point."""
-    return [n for n in walk(equation) if isinstance(n, Number) and "." in n.text]
+    return [n for n in walk(equation) if isinstance(n, Num) and "." in n.text]
 
 
-def last_digit(figure: Number) -> float:
+def last_digit(figure: Num) -> float:
     """What one more in the last printed digit is worth."""
     digits, _, power = figure.text.partition("e")
     return 10.0 ** (int(power or 0) - len(digits.split(".")[1]))
 
 
-def slope(equation: Equation, figure: Number, values: Mapping[str, Array]) -> Array:
+def slope(equation: Equation, figure: Num, values: Mapping[str, Array]) -> Array:
     """How fast the sides part as a figure grows."""
     step = last_digit(figure)
-    moved = replaced(equation, figure, Number(figure.value + step, figure.text))
+    moved = replaced(equation, figure, Num(figure.value + step, figure.text))
     return (equation_sides(moved, values).residual - equation_sides(equation, values).residual) / step
 
 

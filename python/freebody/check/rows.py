@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from .language.evaluate import is_zero
-from .language.nodes import Column, Dot, Equation, Matrix, Negative, Node, Number, Product, Quotient, Sum
+from freebody.symbolic.evaluate import is_zero
+from freebody.symbolic.tree import Add, Column, Dot, Matrix, Mul, Negative, Node, Num, Quotient
+
+from .language.statements import Equation
 
 
 def rows(equation: Equation) -> list[Equation]:
@@ -29,12 +31,12 @@ def _entries(node: Node) -> list[Node] | None:
         case Negative(of=of):
             inside = _entries(of)
             return None if inside is None else [Negative(item) for item in inside]
-        case Sum(terms=terms):
+        case Add(terms=terms):
             return _sums([_entries(term) for term in terms if not is_zero(term)])
         case Quotient(top=top, bottom=bottom):
             inside = _entries(top)
             return None if inside is None else [Quotient(item, bottom) for item in inside]
-        case Product(factors=factors):
+        case Mul(factors=factors):
             return _products(factors)
         case Dot(left=left, right=right):
             return _products((left, right))
@@ -44,7 +46,7 @@ def _entries(node: Node) -> list[Node] | None:
 def _sums(columns: list[list[Node] | None]) -> list[Node] | None:
     if any(column is None for column in columns) or len({len(c) for c in columns if c}) != 1:
         return None
-    return [Sum(parts) for parts in zip(*(c for c in columns if c), strict=True)]
+    return [Add(parts) for parts in zip(*(c for c in columns if c), strict=True)]
 
 
 def _products(factors: tuple[Node, ...]) -> list[Node] | None:
@@ -68,8 +70,8 @@ def _products(factors: tuple[Node, ...]) -> list[Node] | None:
 
 def _row(line: tuple[Node, ...], column: list[Node]) -> Node:
     terms = [_times(a, b) for a, b in zip(line, column, strict=True) if not is_zero(a) and not is_zero(b)]
-    return Sum(tuple(terms)) if len(terms) > 1 else terms[0] if terms else Number(0.0, "0")
+    return Add(tuple(terms)) if len(terms) > 1 else terms[0] if terms else Num(0.0, "0")
 
 
 def _times(a: Node, b: Node) -> Node:
-    return b if a == Number(1.0) else Product((a, b))
+    return b if a == Num(1.0) else Mul((a, b))

@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.symbolic.errors import StatementError
+
 from .assumptions import assumption, linearised, tiny
 from .case import Case
 from .families import ALL, Family, NoMotion
-from .language.errors import StatementError
-from .language.nodes import Equation, letters
+from .language.statements import Equation, letters
 from .mend import Mend, mends
 from .nearest import nearest
 from .residual import FAILS, HOLDS, Residual, residual, unreached
 
 if TYPE_CHECKING:
-    from .language.evaluate import Array
+    from freebody.symbolic.evaluate import Array
 
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
@@ -210,7 +211,7 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
 
 
 def _count(equation: Equation) -> int:
-    from .language.nodes import terms
+    from .language.statements import terms
 
     return len(terms(equation, expand=True))
 

@@ -18,13 +18,14 @@ from freebody.equations.document import (
     Written,
     letters_table,
 )
-from freebody.equations.latex import equation_latex, latex, matrix_latex
-from freebody.equations.letters import Letter, Letters
 from freebody.equations.solve import Singular, TooLarge, coefficients, limit, linear_system, solve, solve_equations, substitute
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
-from freebody.equations.text import equation_text, text
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, evaluate, read, symbols, write
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.printers.latex import equation_latex, latex, matrix_latex
+from freebody.symbolic.printers.text import equation_text, text
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, read, symbols, write
 
 __all__ = [
     "Add",

@@ -19,17 +19,18 @@ from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.equations.enough import Enough, Search
 from freebody.equations.given import Given, given
-from freebody.equations.letters import Letters
-from freebody.equations.measured import shown
 from freebody.equations.ratios import Ratios, driven, ratios
 from freebody.equations.ratios import blocks as of_ratios
-from freebody.equations.roots import distances, with_plain_roots
-from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.still import held_still
-from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, evaluate, mul, negative, operations, power, symbols
 from freebody.instant import Instant, State
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.measured import shown
+from freebody.symbolic.roots import distances, with_plain_roots
+from freebody.symbolic.simplify import PATIENCE, shortest
+from freebody.symbolic.to_sympy import to_sympy
+from freebody.symbolic.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, mul, negative, operations, power, symbols
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder

@@ -10,10 +10,10 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from freebody.equations.emit import LANGUAGES, Language, Writer
-from freebody.equations.letters import Letters
-from freebody.equations.tree import PI, Entries, Sym, Tree, symbols
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers.source import LANGUAGES, Language, Writer
 from freebody.symbolic.symbols import ascii_name
+from freebody.symbolic.tree import PI, Entries, Sym, Tree, symbols
 
 _WORDS_OF_C = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "

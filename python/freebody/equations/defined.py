@@ -6,9 +6,9 @@ import json
 from collections.abc import Collection
 
 from freebody.equations.language import NoForm, read_text
-from freebody.equations.tree import PI, Sym, Tree, symbols
-from freebody.equations.tree import replace as replaced
 from freebody.source import Source
+from freebody.symbolic.tree import PI, Sym, Tree, symbols
+from freebody.symbolic.tree import replace as replaced
 
 
 def definitions(source: Source, free: Collection[str]) -> dict[str, Tree]:

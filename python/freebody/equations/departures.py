@@ -9,12 +9,13 @@ import numpy as np
 
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.linear import linear_in
-from freebody.equations.measured import exact, exact_angle, is_measured, measured, with_exact_numbers
-from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge, solve
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ONE, PI, ZERO, Sym, Tree, evaluate, is_zero, negative, operations, read, symbols
 from freebody.results import Array
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.measured import exact, exact_angle, is_measured, measured, with_exact_numbers
+from freebody.symbolic.simplify import shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ONE, PI, ZERO, Sym, Tree, is_zero, negative, operations, read, symbols
 
 Matrix = list[list[Tree]]
 PATIENCE = 1.0

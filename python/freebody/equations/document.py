@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
-from freebody.equations.letters import Letters
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
 
 @dataclass(frozen=True)
@@ -195,9 +195,22 @@ class Document:
         """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
 
         With ``time`` coordinates are functions of t, else letters, rates and accelerations are symbols."""
-        from freebody.equations.to_sympy import equations
+        import sympy
 
-        return equations(self.blocks, self.letters, time=time)
+        from freebody.symbolic.to_sympy import to_sympy
+
+        def matrix(rows: Sequence[Sequence[Tree]]) -> Any:
+            return sympy.Matrix([[to_sympy(entry, self.letters, time=time) for entry in row] for row in rows])
+
+        made = []
+        for block in self.blocks:
+            if isinstance(block, Equation) and is_tree(block.left) and is_tree(block.right):
+                sides = (to_sympy(side, self.letters, time=time) for side in (block.left, block.right))
+                made.append(sympy.Eq(*sides, evaluate=False))
+            elif isinstance(block, MatrixEquation):
+                x, b = matrix([[x] for x in block.unknowns]), matrix([[b] for b in block.right])
+                made.append(sympy.Eq(sympy.MatMul(matrix(block.matrix), x, evaluate=False), b, evaluate=False))
+        return made
 
     def json(self) -> str:
         """Every block with its kind and fields, trees as JSON and printed, and the letters."""

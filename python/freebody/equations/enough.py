@@ -17,9 +17,10 @@ from freebody.equations.given import Given
 from freebody.equations.linear import Linear
 from freebody.equations.solve import TooLarge
 from freebody.equations.still import holds
-from freebody.equations.tree import ZERO, Sym, Tree, add, evaluate, is_zero, mul
 from freebody.free_body import FreeBodies
 from freebody.results import Array
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
 _ASIDE = 0.1
 """How far letters are from those of the state where it is asked what they determine, so that nothing is so by chance."""

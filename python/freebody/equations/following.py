@@ -6,9 +6,10 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from freebody.equations.derivation.told import Row
-from freebody.equations.simplify import PATIENCE, equal, shortest
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ZERO, Sym, Tree, evaluate, operations, replace
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.simplify import PATIENCE, equal, shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ZERO, Sym, Tree, operations, replace
 
 MOST_OPERATIONS = 120
 """In what is closed, above which nothing is sought that follows from it."""

@@ -14,11 +14,12 @@ import numpy as np
 from freebody.balances.system import alike
 from freebody.equations.defined import definitions
 from freebody.equations.derivation.told import Subject
-from freebody.equations.letters import is_heavy
-from freebody.equations.measured import exact, shown, with_exact_numbers
-from freebody.equations.tree import PI, ZERO, Sym, Tree, evaluate, mul, number, replace, symbols
 from freebody.instant import State
 from freebody.results import Array
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import is_heavy
+from freebody.symbolic.measured import exact, shown, with_exact_numbers
+from freebody.symbolic.tree import PI, ZERO, Sym, Tree, mul, number, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -48,7 +49,7 @@ class Given:
 
     def put(self, tree: Tree) -> Tree:
         """An expression with the letters replaced, and plain numbers exact."""
-        from freebody.equations.to_sympy import from_sympy, to_sympy
+        from freebody.symbolic.to_sympy import from_sympy, to_sympy
 
         new = {Sym(name): value for name, value in self.trees.items()}
         new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
@@ -125,7 +126,7 @@ class Given:
 
     def said(self) -> list[str]:
         """As words: ``theta = π/4``."""
-        from freebody.equations.text import text
+        from freebody.symbolic.printers.text import text
 
         return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
 

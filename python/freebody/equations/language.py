@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from freebody.equations.measured import exact
-from freebody.equations.tree import Fn, Num, Sym, Tree, add, minus, mul, negative, over, power
 from freebody.model import syntax
+from freebody.symbolic.measured import exact
+from freebody.symbolic.tree import Fn, Num, Sym, Tree, add, minus, mul, negative, over, power
 
 _SAME = ("sin", "cos", "exp", "ln", "atan2", "abs", "sign")
 _DOTS = {"rate": 1, "accel": 2}

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from freebody.equations.collect import divided
-from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read, symbols
+from freebody.symbolic.collect import divided
+from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read, symbols
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,10 @@ import numpy as np
 
 from freebody.equations.departures import Linearised, Matrix
 from freebody.equations.derivation.told import Subject
-from freebody.equations.simplify import equal
-from freebody.equations.tree import evaluate, is_zero
 from freebody.results import Array
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import is_zero
 
 _SMALL = 1e-7
 """Singular value, relative to the largest, below which a direction is free; a part of a mode, below which a coordinate rests."""

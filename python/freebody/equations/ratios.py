@@ -16,11 +16,12 @@ import numpy as np
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Paragraph, Words, Written
 from freebody.equations.linear import Linear
-from freebody.equations.measured import measured
-from freebody.equations.simplify import PATIENCE, shortest
 from freebody.equations.solve import TooLarge, coefficients, solve
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ONE, ZERO, Sym, Tree, add, evaluate, mul, negative, operations, over, replace, symbols
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.measured import measured
+from freebody.symbolic.simplify import PATIENCE, shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, mul, negative, operations, over, replace, symbols
 
 Put = Callable[[Tree], Tree]
 MOST_TOGETHER = 3

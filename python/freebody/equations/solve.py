@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from freebody.equations.letters import Letters
-from freebody.equations.measured import is_measured, ratio, rational
-from freebody.equations.simplify import PATIENCE, equal, shortest
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.measured import is_measured, ratio, rational
+from freebody.symbolic.simplify import PATIENCE, equal, shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
 
 MOST_UNKNOWNS = 6
 """Above it an answer in letters is too long to be read."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from freebody.equations.letters import Letters
-from freebody.equations.measured import is_measured
-from freebody.equations.simplify import shortest
 from freebody.equations.solve import TooLarge
-from freebody.equations.to_sympy import to_sympy
-from freebody.equations.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.measured import is_measured
+from freebody.symbolic.simplify import shortest
+from freebody.symbolic.to_sympy import to_sympy
+from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
 
 MOST_OPERATIONS = 80
 """Operations in a characteristic polynomial above which its roots are not sought in letters."""

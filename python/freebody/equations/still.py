@@ -11,8 +11,8 @@ from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.following import followed, solved, vanishing
 from freebody.equations.given import Given
-from freebody.equations.tree import Sym, Tree, is_zero, symbols
 from freebody.free_body import FreeBodies
+from freebody.symbolic.tree import Sym, Tree, is_zero, symbols
 
 _HELD = 1e-7
 """Part of a unit departure that rows leave free below which they hold it."""

@@ -6,32 +6,18 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from freebody.check.language.errors import StatementError
-from freebody.check.language.nodes import (
-    Call,
-    Column,
-    Cross,
-    Dot,
-    Equation,
-    Letter,
-    Matrix,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    walk,
-)
 from freebody.check.language.parser import parse
 from freebody.check.language.spelling import latex, spell
+from freebody.check.language.statements import Equation
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Num, Pow, Quotient, Sym, walk
 
 NAMES = ("m", "theta", "omega_1", "y'", "r_G1/O", "H/E", "pivot.Fx", "link[2].angle", "x1")
-letters = st.builds(Letter, st.sampled_from(NAMES), st.integers(0, 2))
+letters = st.builds(Sym, st.sampled_from(NAMES), st.integers(0, 2))
 atoms = st.one_of(
     letters,
-    st.integers(0, 99).map(lambda n: Number(float(n), str(n))),
-    st.sampled_from(["2.50", "0.1", "1e3"]).map(lambda text: Number(float(text), text)),
+    st.integers(0, 99).map(lambda n: Num(float(n), str(n))),
+    st.sampled_from(["2.50", "0.1", "1e3"]).map(lambda text: Num(float(text), text)),
 )
 
 
@@ -43,13 +29,13 @@ def nodes(inner):
     """All kinds of nodes with these inside."""
     pair = st.tuples(inner, inner)
     return st.one_of(
-        several(inner).map(Sum),
-        several(inner).map(Product),
+        several(inner).map(Add),
+        several(inner).map(Mul),
         pair.map(lambda p: Quotient(*p)),
-        pair.map(lambda p: Power(*p)),
+        pair.map(lambda p: Pow(*p)),
         inner.map(Negative),
-        inner.map(lambda x: Call("sin", (x,))),
-        pair.map(lambda p: Call("atan2", p)),
+        inner.map(lambda x: Fn("sin", (x,))),
+        pair.map(lambda p: Fn("atan2", p)),
         pair.map(lambda p: Cross(*p)),
         pair.map(lambda p: Dot(*p)),
         several(inner).map(Column),
@@ -64,7 +50,7 @@ without_figures = st.recursive(letters, nodes, max_leaves=12)
 
 @settings(max_examples=200, deadline=None)
 @given(trees, trees)
-@example(Letter("m"), Negative(Negative(Letter("y'", 2))))
+@example(Sym("m"), Negative(Negative(Sym("y'", 2))))
 def test_spelling_reads_back(left, right):
     equation = Equation(left, right)
     assert parse(spell(equation), NAMES).lines == (equation,)

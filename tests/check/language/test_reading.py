@@ -6,20 +6,10 @@ import pytest
 from statements import STATEMENTS
 from statements import letters as known
 
-from freebody.check.language.nodes import (
-    Letter,
-    Negative,
-    Number,
-    Product,
-    Sum,
-    inlined,
-    letters,
-    replace,
-    terms,
-    walk,
-)
 from freebody.check.language.parser import parse, parse_expression
 from freebody.check.language.spelling import latex, spell
+from freebody.check.language.statements import inlined, letters, terms
+from freebody.symbolic.tree import Add, Mul, Negative, Num, Sym, exchange, walk
 
 KNOWN = known("eps m l g theta phi alpha x y t m1 m2 R I1 I2 T omega F i j k a_G r_G1/O pivot.Fx link[2].angle")
 
@@ -126,8 +116,8 @@ def test_x_is_a_cross_only_where_no_letter_is_called_so():
 
 
 def test_primes_belong_to_names_where_one_is_declared():
-    assert letters(parse("theta' = 0", ["theta"])) == [Letter("theta", 1)]
-    assert letters(parse("ÿ' = i'", ["y'", "i'"])) == [Letter("y'", 2), Letter("i'")]
+    assert letters(parse("theta' = 0", ["theta"])) == [Sym("theta", 1)]
+    assert letters(parse("ÿ' = i'", ["y'", "i'"])) == [Sym("y'", 2), Sym("i'")]
 
 
 @pytest.mark.parametrize("text", ["½ m l² a = 0", "(1/2) m l² a = 0", "½ m l^2 a = 0"])
@@ -138,22 +128,22 @@ def test_a_known_letter_squared_behind_a_number_is_no_unit(text):
 @pytest.mark.parametrize("text", ["cart.x'' = 0", "cart.ẍ = 0"])
 def test_a_name_with_an_owner_takes_dots_and_primes(text):
     (equation,) = parse(text, ("cart.x", "m")).equations
-    assert equation.left == Letter("cart.x", 2)
+    assert equation.left == Sym("cart.x", 2)
     assert spell(equation) == "cart.ẍ = 0"
 
 
 def test_names_with_blanks_stand_in_quotes_and_do_not_take_primes_away():
     program = parse("'crank drive'.Fx = m x''", ["'crank drive'.Fx", "m", "x"])
-    assert letters(program) == [Letter("'crank drive'.Fx"), Letter("m"), Letter("x", 2)]
+    assert letters(program) == [Sym("'crank drive'.Fx"), Sym("m"), Sym("x", 2)]
 
 
 @pytest.mark.parametrize("text", ["dθ/dt = 0", "d θ/dt = 0", r"\frac{d\theta}{dt} = 0"])
 def test_a_parameter_d_does_not_hide_derivatives(text):
-    assert letters(parse(text, ["d", "t", "theta"])) == [Letter("theta", 1)]
+    assert letters(parse(text, ["d", "t", "theta"])) == [Sym("theta", 1)]
 
 
 def test_a_declared_name_goes_before_its_reading_as_a_rate():
-    assert letters(parse("thetadot = 0", ["theta", "thetadot"])) == [Letter("thetadot")]
+    assert letters(parse("thetadot = 0", ["theta", "thetadot"])) == [Sym("thetadot")]
 
 
 def test_assignments_are_written_out():
@@ -186,8 +176,8 @@ def test_terms_keep_signs_and_sides():
 
 def test_replacing_one_of_two_that_read_alike():
     equation = parse("a*b = b").equations[0]
-    second = [n for n in walk(equation) if n == Letter("b")][1]
-    assert spell(replace(equation, second, Letter("c"))) == "a*b = c"
+    second = [n for n in walk(equation) if n == Sym("b")][1]
+    assert spell(exchange(equation, second, Sym("c"))) == "a*b = c"
 
 
 def test_spans_point_at_the_characters():
@@ -200,10 +190,10 @@ def test_spans_point_at_the_characters():
 @pytest.mark.parametrize(
     "tree",
     [
-        Sum((Negative(Letter("a")), Negative(Negative(Letter("b"))))),
-        Product((Letter("a"), Product((Letter("b"), Letter("c"))))),
-        Product((Product((Letter("a"), Letter("b"))), Sum((Letter("c"), Number(1.0))))),
-        Negative(Product((Negative(Letter("a")), Letter("b", 2)))),
+        Add((Negative(Sym("a")), Negative(Negative(Sym("b"))))),
+        Mul((Sym("a"), Mul((Sym("b"), Sym("c"))))),
+        Mul((Mul((Sym("a"), Sym("b"))), Add((Sym("c"), Num(1.0))))),
+        Negative(Mul((Negative(Sym("a")), Sym("b", 2)))),
     ],
 )
 def test_spelling_reads_back_as_the_same_tree(tree):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from freebody.check.language.evaluate import sides
 from freebody.check.language.parser import parse
+from freebody.check.language.sides import sides
 
 K = 5
 RNG = np.random.default_rng(7)

@@ -10,7 +10,8 @@ import numpy as np
 from freebody.balances.states import Closing
 from freebody.balances.system import alike
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Add, Sym, Tree, evaluate
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Add, Sym, Tree
 
 STEP = 2e-3
 """By how much angles go on, rad, and lengths, m, in the step of a difference: one of fourth order is then good to 1e-11 of what is

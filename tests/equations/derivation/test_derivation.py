@@ -10,10 +10,11 @@ from typer.testing import CliRunner
 
 import freebody as fb
 from freebody.cli import app
-from freebody.equations.collect import collected, factored, quotient
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Sym, evaluate, mul, power, read, symbols
+from freebody.symbolic.collect import collected, factored, quotient
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Sym, mul, power, read, symbols
 
 GUN = "examples/new_gun.yaml"
 

@@ -9,7 +9,8 @@ from store import ANSWERED, derived, elsewhere, every, subject
 
 from freebody.equations.derivation import FORMS, conserved
 from freebody.equations.document import Equation, is_tree
-from freebody.equations.tree import add, evaluate
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import add
 
 UNDETERMINED = re.compile(r"\b(nan|NaN|None|inf)\b")
 CLOSE = 1e-9

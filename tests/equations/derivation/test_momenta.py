@@ -8,8 +8,9 @@ from store import ANSWERED, MODELS, elsewhere, every, mechanism, start, subject
 import freebody as fb
 from freebody.equations.derivation.momenta import momenta
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Sym, evaluate
 from freebody.instant import State
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Sym
 
 
 def told(text):

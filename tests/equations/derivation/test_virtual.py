@@ -6,7 +6,8 @@ from store import elsewhere, every, subject
 from test_every_derivation import CLOSE
 
 from freebody.equations.derivation.virtual import virtual_power
-from freebody.equations.tree import Sym, evaluate
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Sym
 
 CLOSED = (
     "19.3.20/cable", "19.3.20/pulleys", "19.3.21/model", "19.3.21/broken", "19.3.21/plumb", "GEN-FOURBAR/model",

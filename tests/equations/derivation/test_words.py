@@ -12,9 +12,10 @@ from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
 from freebody.equations.derivation.opening import degrees, directions
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import Sym, evaluate, minus, symbols
 from freebody.free_body import GROUND
 from freebody.naming import load_words
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Sym, minus, symbols
 
 every_model = every(ANSWERED)
 LADDER = """

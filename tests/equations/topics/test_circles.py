@@ -6,11 +6,11 @@ import pytest
 from models import SYSTEMS
 
 import freebody as fb
-from freebody.equations.collect import pythagorean
 from freebody.equations.derivation import FORMS
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import TOPICS, NotHere, topic
-from freebody.equations.tree import Add, Fn, Sym, Tree, add, children, mul, number, power
+from freebody.symbolic.collect import pythagorean
+from freebody.symbolic.tree import Add, Fn, Sym, Tree, add, children, mul, number, power
 
 SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")
 EXAMPLES = SYSTEMS.parents[2] / "examples"

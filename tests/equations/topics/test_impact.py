@@ -6,10 +6,10 @@ from numpy.testing import assert_allclose
 
 import freebody as fb
 from freebody.equations import Sym, evaluate, from_sympy
-from freebody.equations.simplify import equal
 from freebody.equations.topics import NotHere, topic
 from freebody.equations.topics.blow import after, blow
 from freebody.equations.topics.jumps import jumps
+from freebody.symbolic.simplify import equal
 
 
 def carts(restitution: float) -> fb.Mechanism:

@@ -10,8 +10,8 @@ from freebody.cli import app
 from freebody.equations import Num, Sym, evaluate, symbols, to_sympy
 from freebody.equations.answers import Answers, solve_in_letters
 from freebody.equations.derivation.told import Subject
-from freebody.equations.simplify import equal
 from freebody.equations.solve import TooLarge
+from freebody.symbolic.simplify import equal
 
 # Each with where the closed form stands: Meriam & Kraige, Dynamics (Atwood, sliding rod); the wedge and the cart from elimination by hand.
 CLOSED = {

@@ -13,8 +13,8 @@ from freebody.equations.departures import Held, held, linearised, numbers, place
 from freebody.equations.derivation.told import Subject
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.tree import evaluate
 from freebody.instant import State
+from freebody.symbolic.evaluate import evaluate
 
 DAMPED = """
 forces:

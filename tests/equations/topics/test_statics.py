@@ -7,8 +7,8 @@ from models import tree
 
 import freebody as fb
 from freebody.equations import Equation, evaluate, symbols, to_sympy
-from freebody.equations.simplify import equal
-from freebody.equations.tree import Sym
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import Sym
 
 LADDER = """
 freebody: 1

@@ -18,13 +18,13 @@ from freebody.equations.derivation import FORMS
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Equation
-from freebody.equations.simplify import equal
 from freebody.equations.topics import TOPICS, NotHere, topic
 from freebody.equations.topics.common import moving_names, place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
-from freebody.equations.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 from freebody.instant import State
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 
 TREES = ["19.3.1", "19.3.10", "19.3.15", "19.3.17", "19.3.20", "19.3.28", "EX-BLOCK", "GEN-CHAIN", "S19.17", "S19.18"]
 LOOPS = ["GEN-FOURBAR", "GEN-SLIDER", "S19.21", "S19.22"]

@@ -5,30 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
+
 from ...model.units import NUMBER_ONLY, Dimension, unit
-from .errors import StatementError
-from .nodes import (
-    Call,
-    Column,
-    Cross,
-    Dot,
-    Equation,
-    Letter,
-    Matrix,
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Program,
-    Quotient,
-    Sum,
-    Unit,
-    addends,
-    inlined,
-    letters,
-)
 from .spelling import spell
+from .statements import Equation, Program, addends, inlined, letters
 
 Known = Dimension | None
 """A dimension; None fits any: 0, a figure with a decimal point, what is made of figures alone."""
@@ -98,27 +80,27 @@ class _Reader:
 
     def of(self, node: Node) -> Shape:
         match node:
-            case Number(value=value, text=text):
+            case Num(value=value, text=text):
                 return None if self.figures or value == 0 or ("." in text and not self.strictly) else NUMBER_ONLY
             case Unit(text=text):
                 return unit(text).dimension
-            case Letter():
+            case Sym():
                 return None if self.figures and node.name == "t" else self.letter(node)
             case Negative(of=of):
                 return self.of(of)
-            case Sum():
+            case Add():
                 if self.figures and any(not letters(term) for _, term in addends(node)):
                     return None
                 return self.agreed([(term, self.term(term)) for _, term in addends(node)])
-            case Product(factors=factors):
+            case Mul(factors=factors):
                 return self.product(factors)
             case Cross(left=left, right=right) | Dot(left=left, right=right):
                 return self.product((left, right))
             case Quotient(top=top, bottom=bottom):
                 return _times(self.of(top), _scalar(self.of(bottom)), -1)
-            case Power(base=base, exponent=exponent):
+            case Pow(base=base, exponent=exponent):
                 return self.power(base, exponent)
-            case Call(function=function, arguments=arguments):
+            case Fn(name=function, args=arguments):
                 return self.call(function, arguments)
             case Column(items=items):
                 return [[_scalar(self.of(item))] for item in items]
@@ -126,7 +108,7 @@ class _Reader:
                 return [[_scalar(self.of(item)) for item in row] for row in rows]
         raise TypeError(f"{type(node).__name__} has no dimension")
 
-    def letter(self, letter: Letter) -> Shape:
+    def letter(self, letter: Sym) -> Shape:
         for name, dots in ((letter.key, 0), (letter.name, letter.dots)):
             if name in self.units:
                 given = self.units[name]
@@ -232,7 +214,7 @@ def _times(a: Shape, b: Shape, power: int = 1) -> Shape:
 def _whole(exponent: Node) -> Fraction | None:
     """An exponent that is a figure, or None."""
     match exponent:
-        case Number(value=value):
+        case Num(value=value):
             return Fraction(value).limit_denominator(1000)
         case Negative(of=of):
             inside = _whole(of)

@@ -7,10 +7,10 @@ import unicodedata
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from freebody.symbolic.errors import Span, StatementError
 from freebody.symbolic.symbols import LATEX_WORDS, READ, dots, folded, plain
 
 from ...model.names import nearest
-from .errors import Span, StatementError
 
 
 class Kind(Enum):

@@ -7,33 +7,15 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from freebody.symbolic.differentiate import rate as rate_of
+from freebody.symbolic.errors import Span, StatementError
+from freebody.symbolic.evaluate import ARGUMENTS
 from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit, walk
 
 from ...model import units
 from ...model.errors import Complaint
-from .derivatives import derivative
-from .errors import Span, StatementError
-from .evaluate import ARGUMENTS
-from .nodes import (
-    Call,
-    Column,
-    Cross,
-    Dot,
-    Equation,
-    Letter,
-    Matrix,
-    Negative,
-    Node,
-    Number,
-    Partial,
-    Power,
-    Product,
-    Quotient,
-    Rate,
-    Sum,
-    Unit,
-    walk,
-)
+from .statements import Equation, Partial, Rate
 from .tokens import Names, Token
 
 RELATIONS = ("=", "<=", ">=", "<", ">")
@@ -100,7 +82,7 @@ class Line:
         found = [first]
         while self.now.kind in _ADDS:
             found.append(self.term())
-        return first if len(found) == 1 else Sum(tuple(found), span=self.span(first))
+        return first if len(found) == 1 else Add(tuple(found), span=self.span(first))
 
     def term(self) -> Node:
         """A term with its sign."""
@@ -159,17 +141,17 @@ class Line:
                 return base
 
     def power(self, base: Node, exponent: Node) -> Node:
-        if isinstance(base, Matrix | Column) and exponent in (Letter("T"), Letter("⊤")):
+        if isinstance(base, Matrix | Column) and exponent in (Sym("T"), Sym("⊤")):
             return _transposed(base)
-        return Power(base, exponent, span=self.span(base))
+        return Pow(base, exponent, span=self.span(base))
 
     def raised(self, token: Token) -> Node:
         """The exponent that small figures are."""
         text = token.text
         if text.lstrip("-").isdecimal():
-            number = Number(float(text.lstrip("-")), text.lstrip("-"), span=token.span)
+            number = Num(float(text.lstrip("-")), text.lstrip("-"), span=token.span)
             return Negative(number, span=token.span) if text.startswith("-") else number
-        return Letter(text, span=token.span)
+        return Sym(text, span=token.span)
 
     def exponent(self) -> Node:
         return self.signed(self.factor)
@@ -180,7 +162,7 @@ class Line:
         token = self.now
         if token.kind == "number":
             self.take()
-            return Number(float(token.text), token.text, span=token.span)
+            return Num(float(token.text), token.text, span=token.span)
         if token.kind == "letter":
             self.take()
             return self.letter(token)
@@ -203,7 +185,7 @@ class Line:
             self.take()
             inside = self.sum()
             self.expect("|")
-            return Call("abs", (inside,), span=self.span(token))
+            return Fn("abs", (inside,), span=self.span(token))
         raise self.misplaced(token)
 
     def misplaced(self, token: Token) -> StatementError:
@@ -218,8 +200,8 @@ class Line:
         if [t.text for t in self.row[self.at : self.at + 3]] == ["(", "t", ")"] and self.now.attached:
             self.at += 3
         if token.text == "pi" and not self.names.find("pi"):
-            return Number(math.pi, "pi", span=token.span)
-        return Letter(token.text, token.dots, span=self.span(token))
+            return Num(math.pi, "pi", span=token.span)
+        return Sym(token.text, token.dots, span=self.span(token))
 
     def group(self) -> Node:
         """What is in brackets: an expression, or a column."""
@@ -288,8 +270,8 @@ class Line:
             return (Cross if token.text == "cross" else Dot)(*arguments, span=span)
         if token.text == "diff":
             return self.derived(arguments, span)
-        found = Call(token.text, arguments, span=span)
-        return Power(found, power, span=span) if power else found
+        found = Fn(token.text, arguments, span=span)
+        return Pow(found, power, span=span) if power else found
 
     def function_power(self, token: Token) -> Node | None:
         """The 2 of sin²θ, sin^2 θ."""
@@ -325,7 +307,7 @@ class Line:
         if self.now.kind not in ("number", "letter", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
         factors = [self.primary()]
-        if isinstance(factors[0], Number):
+        if isinstance(factors[0], Num):
             if unit := self.unit(factors[0]):
                 factors.append(unit)
             elif self.now.kind == "letter" and token.text != "sqrt":
@@ -338,8 +320,8 @@ class Line:
     def derived(self, arguments: tuple[Node, ...], span: Span) -> Node:
         """diff(θ, t) and diff(θ, t, 2)."""
         of, time, *rest = arguments
-        count = int(rest[0].value) if rest and isinstance(rest[0], Number) else 1
-        if time != Letter("t"):
+        count = int(rest[0].value) if rest and isinstance(rest[0], Num) else 1
+        if time != Sym("t"):
             raise StatementError("things are differentiated by t alone here", span, "like `diff(theta, t, 2)`")
         return self.rate(of, count, Token("rate", "diff", span))
 
@@ -347,7 +329,7 @@ class Line:
         """A derivative by time, written out where it can be."""
         lasting = any(isinstance(n, Partial) for n in walk(of))
         for _ in range(count):
-            of = Rate(of) if lasting else derivative(of, self.names.still)
+            of = Rate(of) if lasting else rate_of(of, self.names.still)
         return replace(of, span=self.span(token))
 
     def partial(self) -> Node:
@@ -364,18 +346,18 @@ class Line:
             self.expect("}")
         return Partial(of, by, span=self.span(start))
 
-    def changing(self) -> Letter:
+    def changing(self) -> Sym:
         """The letter behind a ∂."""
         self.expect("∂")
         token = self.expect("letter")
-        return Letter(token.text, token.dots, span=token.span)
+        return Sym(token.text, token.dots, span=token.span)
 
     # --- units ---------------------------------------------------------------------------------
 
     def unit(self, before: Node) -> Unit | None:
         """A unit behind a number or a bracket: words that are units, not all of them letters that are known."""
         after_bracket = self.row[self.at - 1].kind in (")", "]")
-        if not (isinstance(before, Number) or after_bracket) or not (self.names.known or self.now.text == "°"):
+        if not (isinstance(before, Num) or after_bracket) or not (self.names.known or self.now.text == "°"):
             return None
         start = self.row[self.at - 1].span[1]
         if upright := _UPRIGHT.match(self.text, start):
@@ -415,7 +397,7 @@ class Line:
 def _product(factors: Sequence[Node]) -> Node:
     if len(factors) == 1:
         return factors[0]
-    return Product(tuple(factors), span=(factors[0].span[0], factors[-1].span[1]))
+    return Mul(tuple(factors), span=(factors[0].span[0], factors[-1].span[1]))
 
 
 def _transposed(node: Matrix | Column) -> Node:

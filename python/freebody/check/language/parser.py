@@ -18,12 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from freebody.symbolic.differentiate import partial, rate
+from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Node, Sym, exchange, substitute, walk
 
-from .derivatives import derivative, partial
-from .errors import StatementError
 from .grammar import CLOSES, RELATIONS, SIGNED, Line
-from .nodes import Assignment, Equation, Letter, Node, Partial, Program, Rate, replace, substitute, walk
+from .statements import Assignment, Equation, Partial, Program, Rate
 from .tokens import Names, Token, tokens
 
 
@@ -77,11 +78,11 @@ def _assigned(row: Sequence[Token], names: Names) -> list[str]:
 def _meanings(rows: Sequence[Sequence[Equation]], known: set[str]) -> list[Assignment | Equation]:
     """The lines, those that only give a name as assignments; links of a chain state something."""
     out: list[Assignment | Equation] = []
-    alone = [side for row in rows for line in row for side in (line.left, line.right) if isinstance(side, Letter)]
+    alone = [side for row in rows for line in row for side in (line.left, line.right) if isinstance(side, Sym)]
     taken = set(known)
     for row in rows:
         others = [n for other in rows if other is not row for line in other for n in walk(line)]
-        used = {n.name for n in others if isinstance(n, Letter)}
+        used = {n.name for n in others if isinstance(n, Sym)}
         begun = {line.left for other in rows if other is not row for line in other}
         found = None if len(row) > 1 or row[0].relation != "=" else _definition(row[0], taken, begun, alone)
         if found is not None and found.name.name in used:
@@ -92,14 +93,14 @@ def _meanings(rows: Sequence[Sequence[Equation]], known: set[str]) -> list[Assig
     return out
 
 
-def _definition(line: Equation, taken: set[str], begun: set[Node], alone: Sequence[Letter]) -> Assignment | None:
+def _definition(line: Equation, taken: set[str], begun: set[Node], alone: Sequence[Sym]) -> Assignment | None:
     """The line as one that gives a name: to its left side, or, where no other line begins with it, to its right side. The rate of
     a name that stands ``alone`` somewhere is none."""
     for name, said in ((line.left, line.right), (line.right, line.left)):
-        if not isinstance(name, Letter) or name.name in taken or (name is line.right and name in begun):
+        if not isinstance(name, Sym) or name.name in taken or (name is line.right and name in begun):
             continue
-        own = any(isinstance(n, Letter) and n.name == name.name for n in walk(said))
-        if not own and not (name.dots and Letter(name.name) in alone):
+        own = any(isinstance(n, Sym) and n.name == name.name for n in walk(said))
+        if not own and not (name.dots and Sym(name.name) in alone):
             return Assignment(name, said, span=line.span)
     return None
 
@@ -114,9 +115,9 @@ def _written_out(lines: list[Assignment | Equation], names: Names) -> list[Assig
             hint = f"give it in a line: `{found.of.key} = …`"
             raise StatementError(f"what `{found.of.key}` is made of is not said", found.of.span, hint)
         new = partial(given[found.of], found.by)
-        lines = [replace(line, found, new) for line in lines]
+        lines = [exchange(line, found, new) for line in lines]
     while (rates := [n for line in lines for n in walk(line) if isinstance(n, Rate)]) != []:
-        lines = [replace(line, rates[-1], derivative(substitute(rates[-1].of, given), names.still)) for line in lines]
+        lines = [exchange(line, rates[-1], rate(substitute(rates[-1].of, given), names.still)) for line in lines]
     return lines
 
 
@@ -124,18 +125,18 @@ def _rates(lines: Sequence[Assignment | Equation], names: Names) -> list[Assignm
     """What the rates are that lines ask for of names that lines give."""
     given = {line.name: line for line in lines if isinstance(line, Assignment)}
     out: list[Assignment] = []
-    asked = [n for line in lines for n in walk(line) if isinstance(n, Letter)]
+    asked = [n for line in lines for n in walk(line) if isinstance(n, Sym)]
     while asked:
         letter = asked.pop()
-        below = Letter(letter.name, letter.dots - 1)
-        if letter in given or not letter.dots or Letter(letter.name) not in given:
+        below = Sym(letter.name, letter.dots - 1)
+        if letter in given or not letter.dots or Sym(letter.name) not in given:
             continue
         if below not in given:
             asked += [letter, below]
             continue
-        given[letter] = Assignment(letter, derivative(given[below].expression, names.still), span=given[below].span)
+        given[letter] = Assignment(letter, rate(given[below].expression, names.still), span=given[below].span)
         out.append(given[letter])
-        asked += [n for n in walk(given[letter].expression) if isinstance(n, Letter)]
+        asked += [n for n in walk(given[letter].expression) if isinstance(n, Sym)]
     return out
 
 

@@ -8,26 +8,9 @@ import unicodedata
 from collections.abc import Callable, Sequence
 
 from freebody.symbolic.symbols import GREEK
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
 
-from .nodes import (
-    Assignment,
-    Call,
-    Column,
-    Cross,
-    Dot,
-    Equation,
-    Letter,
-    Matrix,
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Program,
-    Quotient,
-    Sum,
-    Unit,
-)
+from .statements import Assignment, Equation, Program
 
 _SUM, _DOT, _CROSS, _PRODUCT, _FACTOR, _ATOM = range(6)
 _RELATIONS = {"=": "=", "<=": r"\le", ">=": r"\ge", "<": "<", ">": ">"}
@@ -65,17 +48,17 @@ def latex(node: Node) -> str:
 def level(node: Node) -> int:
     """How tightly a node holds together; looser ones need brackets inside tighter ones."""
     match node:
-        case Sum() | Negative():
+        case Add() | Negative():
             return _SUM
         case Dot():
             return _DOT
         case Cross():
             return _CROSS
-        case Product() | Quotient():
+        case Mul() | Quotient():
             return _PRODUCT
-        case Power():
+        case Pow():
             return _FACTOR
-        case Number(value=value) if value < 0:
+        case Num(value=value) if value < 0:
             return _SUM
     return _ATOM
 
@@ -87,13 +70,13 @@ def _plain(node: Node, least: int) -> str:
 
 def _plain_inside(node: Node) -> str:
     match node:
-        case Number(value=value, text=text):
+        case Num(value=value, text=text):
             return text or f"{value:.12g}"
         case Unit(text=text):
             return text
-        case Letter():
+        case Sym():
             return _letter(node)
-        case Sum(terms=terms):
+        case Add(terms=terms):
             return _signed(terms, lambda term: _plain(term, _DOT))
         case Negative(of=of):
             return "-" + _plain(of, _DOT)
@@ -101,13 +84,13 @@ def _plain_inside(node: Node) -> str:
             return f"{_plain(left, _DOT)} · {_plain(right, _CROSS)}"
         case Cross(left=left, right=right):
             return f"{_plain(left, _CROSS)} × {_plain(right, _PRODUCT)}"
-        case Product(factors=factors):
+        case Mul(factors=factors):
             return _times(factors)
         case Quotient(top=top, bottom=bottom):
             return f"{_plain(top, _PRODUCT)}/{_plain(bottom, _FACTOR)}"
-        case Power(base=base, exponent=exponent):
+        case Pow(base=base, exponent=exponent):
             return f"{_plain(base, _ATOM)}^{_plain(exponent, _ATOM)}"
-        case Call(function=function, arguments=arguments):
+        case Fn(name=function, args=arguments):
             return f"{function}({_row(arguments)})"
         case Column(items=items):
             return f"({_row(items)})"
@@ -132,13 +115,13 @@ def _signed(terms: Sequence[Node], spelled: Callable[[Node], str]) -> str:
 
 def _times(factors: Sequence[Node]) -> str:
     first = factors[0]
-    out = _plain(first, _FACTOR if isinstance(first, Product) else _PRODUCT)
+    out = _plain(first, _FACTOR if isinstance(first, Mul) else _PRODUCT)
     for factor in factors[1:]:
         out += " " + factor.text if isinstance(factor, Unit) else "*" + _plain(factor, _FACTOR)
     return out
 
 
-def _letter(letter: Letter) -> str:
+def _letter(letter: Sym) -> str:
     """``thetaddot``; a name with signs in it has its dots on top: Ḣ/E, cart.ẋ."""
     if re.fullmatch(r"\w+'*", letter.name):
         return letter.key
@@ -156,13 +139,13 @@ def _tex(node: Node, least: int) -> str:
 
 def _tex_inside(node: Node) -> str:
     match node:
-        case Number(text="pi"):
+        case Num(text="pi"):
             return r"\pi"
         case Unit(text=text):
             return rf"\mathrm{{{text}}}"
-        case Letter():
+        case Sym():
             return _tex_letter(node)
-        case Sum(terms=terms):
+        case Add(terms=terms):
             return _signed(terms, lambda term: _tex(term, _DOT))
         case Negative(of=of):
             return "-" + _tex(of, _DOT)
@@ -170,21 +153,21 @@ def _tex_inside(node: Node) -> str:
             return rf"{_tex(left, _DOT)} \cdot {_tex(right, _CROSS)}"
         case Cross(left=left, right=right):
             return rf"{_tex(left, _CROSS)} \times {_tex(right, _PRODUCT)}"
-        case Product(factors=factors):
+        case Mul(factors=factors):
             return _tex_times(factors)
         case Quotient(top=top, bottom=bottom):
             return rf"\frac{{{_tex(top, _SUM)}}}{{{_tex(bottom, _SUM)}}}"
-        case Power(base=Call(function=function, arguments=arguments), exponent=exponent) if function in _NAMED and not isinstance(
+        case Pow(base=Fn(name=function, args=arguments), exponent=exponent) if function in _NAMED and not isinstance(
             exponent, Negative
         ):
             return rf"\{function}^{{{_tex(exponent, _SUM)}}}{_tex_arguments(arguments)}"
-        case Power(base=base, exponent=exponent):
+        case Pow(base=base, exponent=exponent):
             inside = _tex(base, _ATOM)
-            inside = rf"\left({inside}\right)" if isinstance(base, Quotient | Call) else inside
+            inside = rf"\left({inside}\right)" if isinstance(base, Quotient | Fn) else inside
             return rf"{inside}^{{{_tex(exponent, _SUM)}}}"
-        case Call(function="sqrt", arguments=(of,)):
+        case Fn(name="sqrt", args=(of,)):
             return rf"\sqrt{{{_tex(of, _SUM)}}}"
-        case Call(function=function, arguments=arguments):
+        case Fn(name=function, args=arguments):
             name = rf"\{function}" if function in _NAMED else _LATEX_FUNCTIONS.get(function, rf"\operatorname{{{function}}}")
             return name + _tex_arguments(arguments)
         case Column(items=items):
@@ -195,17 +178,17 @@ def _tex_inside(node: Node) -> str:
 
 
 def _tex_arguments(arguments: Sequence[Node]) -> str:
-    if len(arguments) == 1 and isinstance(arguments[0], Letter):
+    if len(arguments) == 1 and isinstance(arguments[0], Sym):
         return "{" + _tex(arguments[0], _ATOM) + "}"
     return r"\left(" + ", ".join(_tex(a, _SUM) for a in arguments) + r"\right)"
 
 
 def _tex_times(factors: Sequence[Node]) -> str:
     """Factors with thin spaces; a dot between figures."""
-    out = _tex(factors[0], _FACTOR if isinstance(factors[0], Product) else _PRODUCT)
+    out = _tex(factors[0], _FACTOR if isinstance(factors[0], Mul) else _PRODUCT)
     for before, factor in itertools.pairwise(factors):
-        figures = isinstance(factor, Number) or (isinstance(factor, Power) and isinstance(factor.base, Number))
-        between = r" \cdot " if figures and isinstance(before, Number) else r"\,"
+        figures = isinstance(factor, Num) or (isinstance(factor, Pow) and isinstance(factor.base, Num))
+        between = r" \cdot " if figures and isinstance(before, Num) else r"\,"
         out += between + _tex(factor, _FACTOR)
     return out
 
@@ -215,7 +198,7 @@ def _tex_matrix(rows: Sequence[Sequence[Node]]) -> str:
     return rf"\begin{{bmatrix}} {inside} \end{{bmatrix}}"
 
 
-def _tex_letter(letter: Letter) -> str:
+def _tex_letter(letter: Sym) -> str:
     """A letter with Greek, index and dots: ``theta_1`` → ``\\theta_{1}``."""
     found = _NAME.fullmatch(letter.name)
     if not found:

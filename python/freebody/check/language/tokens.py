@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
+from freebody.symbolic.errors import Span, StatementError
+from freebody.symbolic.evaluate import FUNCTIONS
 from freebody.symbolic.symbols import folded
 
-from .errors import Span, StatementError
-from .evaluate import FUNCTIONS
 from .glyphs import Glyph, Kind, glyphs
 
 ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}

@@ -9,14 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from freebody.balances.reasons import Place, agree, why_absent
-from freebody.equations.collect import collected, factored
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Add, Sym, Tree, evaluate, is_negative, is_zero, negative, symbols
 from freebody.free_body import Body, FreeBodies, Load
 from freebody.naming import load_words
+from freebody.symbolic.collect import collected, factored
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Add, Sym, Tree, is_negative, is_zero, negative, symbols
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
 """Points that bodies have without being told; the names of others are better known to a person."""

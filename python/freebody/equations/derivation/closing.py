@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from freebody.equations.collect import common_number
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Printed
 from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph
 from freebody.equations.linear import Linear, linear_in
-from freebody.equations.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, symbols
+from freebody.symbolic.collect import common_number
+from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, symbols
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),

@@ -8,7 +8,7 @@ from freebody.equations.derivation import momenta
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
-from freebody.equations.tree import Sym, Tree, add, read, symbols
+from freebody.symbolic.tree import Sym, Tree, add, read, symbols
 
 _CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
 

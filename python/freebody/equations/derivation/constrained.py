@@ -10,10 +10,10 @@ from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
-from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Tree, is_zero, negative, read
+from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name, Renamed
+from freebody.symbolic.tree import Tree, is_zero, negative, read
 
 _BLOCKS = Written(
     "[M −W; G 0] [a; λ]",

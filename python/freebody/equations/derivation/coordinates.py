@@ -9,8 +9,9 @@ import numpy as np
 
 from freebody.equations.derivation.balancing import Stated, named_place, numbers, pin
 from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.tree import ZERO, Sym, evaluate, is_zero
 from freebody.model.cards import Coordinate, joints
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import ZERO, Sym, is_zero
 
 
 def stated(subject: Subject) -> list[Stated]:

@@ -18,8 +18,8 @@ from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Subject
 from freebody.equations.derivation.wanted import wanted
 from freebody.equations.document import Block, Document, Equation, Heading
-from freebody.equations.letters import Letters
-from freebody.equations.tree import Sym, Tree, symbols
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import Sym, Tree, symbols
 
 if TYPE_CHECKING:
     import sympy
@@ -69,7 +69,7 @@ class Equations:
         """A, x and b of A x = b as matrices of SymPy, coordinates as functions of time."""
         import sympy
 
-        from freebody.equations.to_sympy import to_sympy
+        from freebody.symbolic.to_sympy import to_sympy
 
         def matrix(rows: Sequence[Sequence[Tree]]) -> sympy.Matrix:
             return sympy.Matrix([[to_sympy(entry, self.letters, time=True) for entry in row] for row in rows])

@@ -8,12 +8,13 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.equations.collect import factored
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Arrow, Motion
 from freebody.equations.document import Vector, Words, Written
-from freebody.equations.tree import PI, Add, Mul, Sym, Tree, add, evaluate, is_zero, mul, negative, number, symbols
+from freebody.symbolic.collect import factored
+from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import Name, Taken, latex_name, subscript, unicode_name
+from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, mul, negative, number, symbols
 
 
 @dataclass(frozen=True)

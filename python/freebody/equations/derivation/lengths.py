@@ -16,7 +16,7 @@ from freebody.equations.document import (
     is_tree,
     pieces,
 )
-from freebody.equations.tree import Tree, walk
+from freebody.symbolic.tree import Tree, walk
 
 ELSEWHERE = "it is among the equations as data and in the generated code"
 LONGEST = 2500

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from freebody.equations.collect import quotient
 from freebody.equations.derivation.result import Form
 from freebody.equations.derivation.system import System
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph, Words
-from freebody.equations.tree import Sym, evaluate
+from freebody.symbolic.collect import quotient
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Sym
 
 _SAME = 1e-9
 """Part of the largest entry of a matrix by which two are no longer equal."""

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from freebody.equations.derivation.told import Subject
-from freebody.equations.letters import Letter, Letters
 from freebody.naming import load_words
+from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name
 
 

@@ -16,8 +16,8 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Heading, Paragraph, Words
-from freebody.equations.tree import Sym, operations, symbols
 from freebody.naming import coefficient
+from freebody.symbolic.tree import Sym, operations, symbols
 from freebody.tables import figure
 
 _POINTS = 2

@@ -10,15 +10,16 @@ import numpy as np
 from freebody.balances.lasting import Lasting, independent, lasting
 from freebody.balances.reasons import Place, agree, why_absent
 from freebody.balances.states import wandering
-from freebody.equations.collect import factored, quotient
 from freebody.equations.derivation.balancing import size
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Equation, Paragraph, Written
-from freebody.equations.tree import Add, Tree, add, evaluate, is_negative, is_zero, negative, power, symbols
 from freebody.free_body import Load
 from freebody.naming import load_words
+from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import upright
+from freebody.symbolic.tree import Add, Tree, add, is_negative, is_zero, negative, power, symbols
 
 _ABSENT = 1e-9
 """Part of a load below which it has none in a balance."""

@@ -15,10 +15,10 @@ from freebody.equations.derivation.directions import Directions, Link
 from freebody.equations.derivation.meaning import joined, plain
 from freebody.equations.derivation.told import Arrow, Motion, Subject
 from freebody.equations.document import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
-from freebody.equations.letters import Letter, Letters
-from freebody.equations.tree import Sym, is_zero
 from freebody.naming import Symbols
+from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import superscript
+from freebody.symbolic.tree import Sym, is_zero
 
 _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
 

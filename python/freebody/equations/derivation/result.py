@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from freebody.equations.derivation.system import System
 from freebody.equations.document import Block
-from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import Tree, minus
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import Tree, minus
 
 
 @dataclass(frozen=True)

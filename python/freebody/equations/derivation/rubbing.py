@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
-from freebody.equations.tree import symbols
 from freebody.free_body import Load
+from freebody.symbolic.tree import symbols
 
 
 def beside(subject: Subject, stated: Sequence[Stated]) -> list[Stated]:

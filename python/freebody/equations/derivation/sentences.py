@@ -6,8 +6,8 @@ import re
 from dataclasses import replace
 
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words, pieces
-from freebody.equations.letters import Letters
-from freebody.equations.tree import Sym
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import Sym
 
 
 def lettered(block: Block, letters: Letters) -> Block:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from freebody.equations.linear import Linear
-from freebody.equations.tree import ZERO, Sym, Tree, add, mul, negative
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, mul, negative
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from freebody.balances.states import nearby
-from freebody.equations.collect import divided
-from freebody.equations.letters import Letters
 from freebody.equations.linear import Linear
-from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
 from freebody.free_body import GROUND, FreeBodies
 from freebody.instant import State
 from freebody.naming import Symbols
 from freebody.source import Source
+from freebody.symbolic.collect import divided
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
 
 Question = Mapping[str, Any]
 _SEED, _OTHERS = 5, 3

@@ -9,14 +9,14 @@ import numpy as np
 
 from freebody import _core
 from freebody.balances.system import DEPENDENT
-from freebody.equations.collect import common_number, divided
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.linear import Linear
-from freebody.equations.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
 from freebody.results import Array
+from freebody.symbolic.collect import common_number, divided
 from freebody.symbolic.symbols import latex_name, unicode_name
+from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
 
 
 @dataclass(frozen=True)

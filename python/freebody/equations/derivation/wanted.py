@@ -12,7 +12,7 @@ from freebody.equations.derivation.minimal import from_search
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Bullets, Heading, Paragraph, Table, Words
-from freebody.equations.tree import Sym
+from freebody.symbolic.tree import Sym
 from freebody.tables import figure
 
 _COUNT = ("no", "one", "two", "three", "four")

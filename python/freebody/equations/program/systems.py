@@ -8,13 +8,13 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import Linear, linear_in
-from freebody.equations.tree import ZERO, Sym, Tree, negative, read
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.naming import Symbols
 from freebody.source import Source
+from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.tree import ZERO, Sym, Tree, negative, read
 
 Matrix = tuple[tuple[Tree, ...], ...]
 Row = tuple[Tree, ...]

@@ -7,10 +7,10 @@ from dataclasses import fields
 from typing import Any
 
 from freebody.equations.document import Block, Figure, Matrices, Vector, Written, is_tree
-from freebody.equations.letters import Letters
 from freebody.equations.rendering.markup import side_latex
 from freebody.equations.rendering.plain import side_text
-from freebody.equations.tree import write
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import write
 
 
 def block(made: Block, letters: Letters) -> dict[str, Any]:

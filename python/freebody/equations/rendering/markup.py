@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from unicodedata import normalize
 
-from freebody.equations import breaking
 from freebody.equations.document import (
     Block,
     Bullets,
@@ -26,12 +25,13 @@ from freebody.equations.document import (
     Written,
     pieces,
 )
-from freebody.equations.latex import ROW, LatexPrinter, aligned, latex, matrix_latex, sides_latex
-from freebody.equations.letters import Letters
-from freebody.equations.mathml import broken, mathml
 from freebody.equations.rendering.matrices import Named, fitted, has_matrices
-from freebody.equations.tree import Add, Tree, is_zero
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers import breaking
+from freebody.symbolic.printers.latex import ROW, LatexPrinter, aligned, latex, matrix_latex, sides_latex
+from freebody.symbolic.printers.mathml import broken, mathml
 from freebody.symbolic.symbols import GREEK, SPELT, escaped, latex_name
+from freebody.symbolic.tree import Add, Tree, is_zero
 
 _ACROSS = 80
 """Columns of text that an equation of matrices may take."""

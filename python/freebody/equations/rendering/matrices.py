@@ -20,10 +20,10 @@ from freebody.equations.document import (
     listed,
     pieces,
 )
-from freebody.equations.letters import Letter, Letters
-from freebody.equations.text import columns, text
-from freebody.equations.tree import Sym, Tree, is_zero
+from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.printers.text import columns, text
 from freebody.symbolic.symbols import Name
+from freebody.symbolic.tree import Sym, Tree, is_zero
 
 _STEPS = (24, 12, 6, 3, 0)
 """Columns that an entry may take, tried one after another until the line is not too wide."""

@@ -25,10 +25,10 @@ from freebody.equations.document import (
     is_tree,
     pieces,
 )  # fmt: skip
-from freebody.equations.letters import Letters
 from freebody.equations.rendering.matrices import Named, fitted, has_matrices
-from freebody.equations.text import columns, equation_text, folded, text
-from freebody.equations.tree import Add, Tree, is_zero
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers.text import columns, equation_text, folded, text
+from freebody.symbolic.tree import Add, Tree, is_zero
 
 _INDENT = "    "
 _TIE = "\u00a0"

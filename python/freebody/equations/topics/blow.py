@@ -14,35 +14,20 @@ from typing import TYPE_CHECKING, Any
 from freebody.balances.minimal import minimal_form
 from freebody.blow import Impulsive, NoBlow
 from freebody.equations.answers import AGREES
-from freebody.equations.collect import quotient
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Balance, Row, Subject
-from freebody.equations.letters import Letter, Letters
 from freebody.equations.linear import linear_in
-from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, moving_names
-from freebody.equations.tree import (
-    ZERO,
-    Add,
-    Mul,
-    Num,
-    Pow,
-    Sym,
-    Tree,
-    add,
-    evaluate,
-    mul,
-    negative,
-    power,
-    rebuilt,
-    symbols,
-    walk,
-)
-from freebody.equations.tree import replace as put
 from freebody.free_body import GROUND, FreeBodies, Load
 from freebody.naming import ImpulseNaming, load_words
+from freebody.symbolic.collect import quotient
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, mul, negative, power, rebuilt, symbols, walk
+from freebody.symbolic.tree import replace as put
 
 if TYPE_CHECKING:
     from freebody.instant import State

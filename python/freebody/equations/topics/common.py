@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from freebody.equations.collect import factored, pythagorean
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.sentences import lettered
 from freebody.equations.derivation.told import Arrow, Subject
 from freebody.equations.document import Block, Document, Heading
-from freebody.equations.letters import Letter, Letters
-from freebody.equations.simplify import shortest
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import Tree, add, mul, negative
+from freebody.symbolic.collect import factored, pythagorean
+from freebody.symbolic.differentiate import derivative
+from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.simplify import shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, canonical, mul, negative
 
 if TYPE_CHECKING:
     from freebody.instant import State
@@ -50,15 +51,13 @@ def moving_names(subject: Subject) -> list[str]:
 
 def rate(tree: Tree, coordinates: Collection[str]) -> Tree:
     """The derivative with respect to time of an expression of coordinates, rates and time."""
-    import sympy
 
-    expression = to_sympy(tree)
-    found = expression.diff(sympy.Symbol("t"))
-    for name in coordinates:
-        for dots in (0, 1):
-            lower, upper = (sympy.Symbol(name + "'" * k) for k in (dots, dots + 1))
-            found += expression.diff(lower) * upper
-    return from_sympy(found)
+    def of(letter: Sym) -> Tree:
+        if letter == Sym("t"):
+            return ONE
+        return Sym(letter.name, letter.dots + 1) if letter.name in coordinates and letter.dots < 2 else ZERO
+
+    return canonical(derivative(tree, of))
 
 
 def rates(pair: tuple[Tree, Tree], coordinates: Collection[str]) -> tuple[Tree, Tree]:

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, listed
-from freebody.equations.letters import Letter
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import linear_system, solve
-from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, brief, document, moving_names, rate, subject_of
 from freebody.equations.topics.lagrange import Lagrange, equations
-from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
+from freebody.symbolic.letters import Letter
 from freebody.symbolic.symbols import unicode_name
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.collect import factored, quotient
 from freebody.equations.derivation import opening
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.told import Arrow, Direction, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
 from freebody.equations.linear import linear_in
-from freebody.equations.simplify import equal
-from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
-from freebody.equations.tree import Sym, Tree, is_zero, negative, read, replace, symbols
+from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import Sym, Tree, is_zero, negative, read, replace, symbols
 
 if TYPE_CHECKING:
     from freebody.instant import State

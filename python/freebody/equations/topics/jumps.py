@@ -8,16 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.equations.answers import with_positive_divisors
-from freebody.equations.collect import factored, quotient, without_circles
 from freebody.equations.linear import linear_in
-from freebody.equations.simplify import length, shortest
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
-from freebody.equations.to_sympy import from_sympy, to_sympy
 from freebody.equations.topics.blow import Blow, after
 from freebody.equations.topics.common import moving_names, spread
 from freebody.equations.topics.rows import MOST_OPERATIONS, Row, Rows, require_brief
 from freebody.equations.topics.shorthand import Names
-from freebody.equations.tree import (
+from freebody.symbolic.collect import factored, quotient, without_circles
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.simplify import length, shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import (
     ONE,
     ZERO,
     Add,
@@ -27,7 +28,6 @@ from freebody.equations.tree import (
     Sym,
     Tree,
     add,
-    evaluate,
     is_zero,
     minus,
     mul,

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from freebody.equations.collect import quotient
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
@@ -18,12 +17,14 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, Written
 from freebody.equations.linear import linear_in
-from freebody.equations.simplify import equal
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
-from freebody.equations.tree import ZERO, Add, Num, Sym, Tree, add, evaluate, is_zero, minus, mul, negative, read, symbols, walk
 from freebody.results import Array
+from freebody.symbolic.collect import quotient
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.simplify import equal
 from freebody.symbolic.symbols import Name
+from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
 
 if TYPE_CHECKING:
     from freebody.instant import State

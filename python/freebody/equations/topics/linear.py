@@ -16,13 +16,14 @@ from freebody.equations.document import Block, Document, Equation, Heading, Matr
 from freebody.equations.document import Matrix as Rows
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.given import Given, given
-from freebody.equations.letters import Letter
-from freebody.equations.measured import shown
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics.common import NotHere, document, subject_of
 from freebody.equations.topics.stable import character
-from freebody.equations.tree import ZERO, Add, Sym, Tree, add, evaluate, is_zero, mul
 from freebody.instant import Instant
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import Letter
+from freebody.symbolic.measured import shown
+from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
-from freebody.equations.simplify import equal
 from freebody.equations.topics.common import (
     NotHere,
     cross,
@@ -20,8 +19,9 @@ from freebody.equations.topics.common import (
     spread,
     subject_of,
 )
-from freebody.equations.tree import Tree, add, is_zero
 from freebody.free_body import GROUND
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import Tree, add, is_zero
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Written
 from freebody.equations.given import given_quantity
-from freebody.equations.letters import Letter
 from freebody.equations.topics.common import document, subject_of
-from freebody.equations.tree import ZERO, Sym, Tree, add, is_zero, mul
+from freebody.symbolic.letters import Letter
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from freebody.equations.collect import factored
 from freebody.equations.derivation.told import Arrow, Balance, Subject
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
-from freebody.equations.letters import Letter
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
-from freebody.equations.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 from freebody.free_body import GROUND
 from freebody.naming import load_words
+from freebody.symbolic.collect import factored
+from freebody.symbolic.letters import Letter
+from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 
 if TYPE_CHECKING:
     from freebody.instant import State

@@ -11,7 +11,8 @@ from freebody.equations.linear import linear_in
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics.blow import Blow, Condition, after
 from freebody.equations.topics.common import moving_names
-from freebody.equations.tree import ZERO, Sym, Tree, evaluate, is_zero, mul, operations
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, mul, operations
 
 MOST_OPERATIONS = 300
 """In a system, or in an answer before it is shortened, above which none is sought in letters."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from freebody.equations.simplify import equal
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import ONE, Add, Fn, Sym, Tree, mul, negative, operations, rebuilt, replace, symbols
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ONE, Add, Fn, Sym, Tree, mul, negative, operations, rebuilt, replace, symbols
 
 _ENTRY, _ANGLE = "h", "psi"
 _LONG = 5

@@ -9,13 +9,13 @@ import numpy as np
 from freebody.equations.departures import Linearised, Matrix, numbers
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Side, Words, listed
-from freebody.equations.letters import Letter
-from freebody.equations.measured import shown
 from freebody.equations.modes import Modes, first_order, modes
-from freebody.equations.simplify import equal
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
-from freebody.equations.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
+from freebody.symbolic.letters import Letter
+from freebody.symbolic.measured import shown
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
 
 Factors = list[tuple[list[Tree], int]]
 

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from freebody.equations import breaking
-from freebody.equations.latex import latex
-from freebody.equations.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
 from freebody.run import Source
+from freebody.symbolic.printers import breaking
+from freebody.symbolic.printers.latex import latex
+from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD

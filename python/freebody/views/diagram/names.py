@@ -6,12 +6,12 @@ import re
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from freebody.equations.latex import latex
-from freebody.equations.text import columns, text
-from freebody.equations.tree import Add, Sym, is_zero, symbols
 from freebody.free_body import Load
 from freebody.naming import Naming
+from freebody.symbolic.printers.latex import latex
+from freebody.symbolic.printers.text import columns, text
 from freebody.symbolic.symbols import Name, unicode_name
+from freebody.symbolic.tree import Add, Sym, is_zero, symbols
 
 _LONGEST = 8  # columns of an expression that is written out for a mass
 

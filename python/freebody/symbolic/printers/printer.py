@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from freebody.equations import layout
-from freebody.equations.letters import Letters
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
+from freebody.symbolic import layout
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
 
 @dataclass(frozen=True)

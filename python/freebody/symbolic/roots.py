@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from freebody.equations.to_sympy import from_sympy, to_sympy
-from freebody.equations.tree import Sym, Tree, evaluate
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import Sym, Tree
 
 _HALVES = 2
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from freebody.equations.tree import Sym
 from freebody.symbolic.symbols import Name, Renamed
+from freebody.symbolic.tree import Sym
 
 KINDS = ("coordinate", "parameter", "time", "unknown", "constant", "indeterminate")
 

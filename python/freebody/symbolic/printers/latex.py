@@ -9,12 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.equations import breaking, layout
-from freebody.equations.breaking import ROOM
-from freebody.equations.letters import Letters
-from freebody.equations.printer import Printer
-from freebody.equations.tree import Entries, Fn, Sym, Tree
+from freebody.symbolic import layout
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers import breaking
+from freebody.symbolic.printers.breaking import ROOM
+from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import latex_name, upright
+from freebody.symbolic.tree import Entries, Fn, Sym, Tree
 
 ROW = " \\\\\n"
 """Between two rows of an equation."""

@@ -1,33 +1,56 @@
-"""Derivatives of what a person wrote, by time or by one letter, by the rules of the calculus."""
+"""Derivatives of expressions, by time or by one letter, by the rules of the calculus."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from fractions import Fraction
 
-from .errors import StatementError
-from .nodes import Call, Column, Cross, Dot, Letter, Matrix, Negative, Node, Number, Power, Product, Quotient, Sum, Unit, walk
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import (
+    Add,
+    Column,
+    Cross,
+    Dot,
+    Fn,
+    Matrix,
+    Mul,
+    Negative,
+    Node,
+    Num,
+    Pow,
+    Quotient,
+    Sym,
+    Unit,
+    power,
+    walk,
+)
 
-_ZERO, _ONE, _TWO = Number(0.0, "0"), Number(1.0, "1"), Number(2.0, "2")
+_ZERO, _ONE, _TWO = Num(0.0, "0"), Num(1.0, "1"), Num(2.0, "2")
 _MOST = 400  # parts, beyond which an equation is no longer one that a person wrote
 
 
-def derivative(node: Node, still: Collection[str] = ()) -> Node:
-    """Its rate. Letters in ``still`` do not change; the others get one dot more, and ``t`` has the rate 1.
+def derivative(node: Node, letter: Callable[[Sym], Node]) -> Node:
+    """Its derivative, where ``letter`` has that of each letter. Raises ``StatementError`` at what has none."""
+    return _Rules(letter).of(node)
+
+
+def rate(node: Node, still: Collection[str] = ()) -> Node:
+    """What a person wrote, differentiated by time. Letters in ``still`` do not change; the others get one dot more, and ``t`` has the rate 1.
 
     Raises ``StatementError`` at what has no derivative.
     """
-    return _short(node, _Rules(lambda letter: _rate(letter, still)).of(node))
+    return _short(node, derivative(node, lambda letter: _rate(letter, still)))
 
 
-def partial(node: Node, by: Letter) -> Node:
+def partial(node: Node, by: Sym) -> Node:
     """Its change with one letter, all others held. Raises ``StatementError`` at what has no derivative."""
-    return _short(node, _Rules(lambda letter: _ONE if letter == by else _ZERO).of(node))
+    return _short(node, derivative(node, lambda letter: _ONE if letter == by else _ZERO))
 
 
-def _rate(letter: Letter, still: Collection[str]) -> Node:
-    if letter == Letter("t"):
+def _rate(letter: Sym, still: Collection[str]) -> Node:
+    if letter == Sym("t"):
         return _ONE
-    return _ZERO if letter.name in still else Letter(letter.name, letter.dots + 1, span=letter.span)
+    return _ZERO if letter.name in still else Sym(letter.name, letter.dots + 1, span=letter.span)
 
 
 def _short(node: Node, found: Node) -> Node:
@@ -37,28 +60,31 @@ def _short(node: Node, found: Node) -> Node:
 
 
 class _Rules:
-    def __init__(self, letter: Callable[[Letter], Node]) -> None:
+    def __init__(self, letter: Callable[[Sym], Node]) -> None:
         self.letter = letter
 
     def of(self, node: Node) -> Node:
         match node:
-            case Number() | Unit():
+            case Num() | Unit():
                 return _ZERO
-            case Letter():
+            case Sym():
                 return self.letter(node)
             case Negative(of=of):
                 return _negative(self.of(of))
-            case Sum(terms=terms):
+            case Add(terms=terms):
                 return _sum([self.of(term) for term in terms])
-            case Product(factors=factors):
+            case Mul(factors=factors):
                 return self.each(factors, lambda parts: _product(parts))
             case Cross(left=left, right=right) | Dot(left=left, right=right):
                 return self.each((left, right), lambda parts: _ZERO if _ZERO in parts else type(node)(*parts))
             case Quotient(top=top, bottom=bottom):
                 return self.quotient(top, bottom)
-            case Power(base=base, exponent=exponent):
+            case Pow(base=base, exponent=exponent):
                 return self.power(node, base, exponent)
-            case Call(function=function, arguments=(inside,)) if function in _SLOPES:
+            case Fn(name="atan2", args=(y, x)):
+                above = _sum([_product([x, self.of(y)]), _negative(_product([y, self.of(x)]))])
+                return _ZERO if above == _ZERO else Quotient(above, Add((Pow(x, _TWO), Pow(y, _TWO))))
+            case Fn(name=function, args=(inside,)) if function in _SLOPES:
                 return _product([_SLOPES[function](inside), self.of(inside)])
             case Column(items=items):
                 return Column(tuple(self.of(item) for item in items))
@@ -70,7 +96,7 @@ class _Rules:
 
     def stands(self, node: Node) -> bool:
         """Whether it does not change."""
-        return all(self.letter(n) == _ZERO for n in walk(node) if isinstance(n, Letter))
+        return all(self.letter(n) == _ZERO for n in walk(node) if isinstance(n, Sym))
 
     def each(self, factors: Sequence[Node], product: Callable[[list[Node]], Node]) -> Node:
         """Each factor in turn."""
@@ -82,28 +108,30 @@ class _Rules:
         first = self.of(top)
         terms = [_ZERO if first == _ZERO else Quotient(first, bottom)]
         if not self.stands(bottom):
-            terms.append(Negative(Quotient(_product([top, self.of(bottom)]), Power(bottom, _TWO))))
+            terms.append(Negative(Quotient(_product([top, self.of(bottom)]), Pow(bottom, _TWO))))
         return _sum(terms)
 
-    def power(self, node: Node, base: Node, exponent: Node) -> Node:
+    def power(self, node: Node, base: Node, exponent: Node | Fraction) -> Node:
         """(aⁿ)˙ = n aⁿ⁻¹ ȧ."""
+        if isinstance(exponent, Fraction):
+            return _product([Num(exponent), power(base, exponent - 1), self.of(base)])
         if not self.stands(exponent):
             raise StatementError("an exponent that changes", node.span, "write the derivative out")
-        less = Number(exponent.value - 1) if isinstance(exponent, Number) else Sum((exponent, Number(-1.0)))
-        lower = base if less == _ONE else Power(base, less)
+        less = Num(exponent.value - 1) if isinstance(exponent, Num) else Add((exponent, Num(-1.0)))
+        lower = base if less == _ONE else Pow(base, less)
         return _product([exponent, lower, self.of(base)])
 
 
 _SLOPES: dict[str, Callable[[Node], Node]] = {
-    "sin": lambda x: Call("cos", (x,)),
-    "cos": lambda x: Negative(Call("sin", (x,))),
-    "tan": lambda x: Quotient(_ONE, Power(Call("cos", (x,)), _TWO)),
-    "sinh": lambda x: Call("cosh", (x,)),
-    "cosh": lambda x: Call("sinh", (x,)),
-    "exp": lambda x: Call("exp", (x,)),
+    "sin": lambda x: Fn("cos", (x,)),
+    "cos": lambda x: Negative(Fn("sin", (x,))),
+    "tan": lambda x: Quotient(_ONE, Pow(Fn("cos", (x,)), _TWO)),
+    "sinh": lambda x: Fn("cosh", (x,)),
+    "cosh": lambda x: Fn("sinh", (x,)),
+    "exp": lambda x: Fn("exp", (x,)),
     "ln": lambda x: Quotient(_ONE, x),
-    "sqrt": lambda x: Quotient(_ONE, Product((_TWO, Call("sqrt", (x,))))),
-    "abs": lambda x: Call("sign", (x,)),
+    "sqrt": lambda x: Quotient(_ONE, Mul((_TWO, Fn("sqrt", (x,))))),
+    "abs": lambda x: Fn("sign", (x,)),
 }
 
 
@@ -113,7 +141,7 @@ def _negative(node: Node) -> Node:
 
 def _sum(terms: Sequence[Node]) -> Node:
     left = [term for term in terms if term != _ZERO]
-    return _ZERO if not left else left[0] if len(left) == 1 else Sum(tuple(left))
+    return _ZERO if not left else left[0] if len(left) == 1 else Add(tuple(left))
 
 
 def _product(factors: Sequence[Node]) -> Node:
@@ -123,5 +151,5 @@ def _product(factors: Sequence[Node]) -> Node:
     negative = sum(isinstance(factor, Negative) for factor in factors) % 2
     plain = [factor.of if isinstance(factor, Negative) else factor for factor in factors]
     left = [factor for factor in plain if factor != _ONE] or [_ONE]
-    found = left[0] if len(left) == 1 else Product(tuple(left))
+    found = left[0] if len(left) == 1 else Mul(tuple(left))
     return Negative(found) if negative else found

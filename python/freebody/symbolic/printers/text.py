@@ -8,11 +8,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.equations import layout
-from freebody.equations.letters import Letters
-from freebody.equations.printer import Printer
-from freebody.equations.tree import Add, Fn, Num, Sym, Tree
+from freebody.symbolic import layout
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
+from freebody.symbolic.tree import Add, Fn, Num, Sym, Tree
 
 WIDTH = 100
 _VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.document import Equation, MatrixEquation, is_tree
-from freebody.equations.letters import Letters
-from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree
 
 if TYPE_CHECKING:
     import sympy
@@ -51,21 +50,6 @@ def from_sympy(expression: sympy.Expr) -> Tree:
             return Sym(function.func.__name__, expression.derivative_count)
         case _:
             return _special(expression)
-
-
-def equations(blocks: Iterable[Any], letters: Letters | None = None, *, time: bool = True) -> list[Any]:
-    """The equations among the blocks of a document, as SymPy ``Eq``."""
-    import sympy
-
-    made = []
-    for block in blocks:
-        if isinstance(block, Equation) and is_tree(block.left) and is_tree(block.right):
-            made.append(sympy.Eq(*(to_sympy(side, letters, time=time) for side in (block.left, block.right)), evaluate=False))
-        elif isinstance(block, MatrixEquation):
-            matrix = sympy.Matrix([[to_sympy(entry, letters, time=time) for entry in row] for row in block.matrix])
-            x, b = (sympy.Matrix([to_sympy(e, letters, time=time) for e in side]) for side in (block.unknowns, block.right))
-            made.append(sympy.Eq(sympy.MatMul(matrix, x, evaluate=False), b, evaluate=False))
-    return made
 
 
 def _special(expression: sympy.Expr) -> Tree:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.equations.letters import Letters
-from freebody.equations.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, power, symbols, walk
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, power, symbols, walk
 
 SIMPLE_FUNCTIONS = ("sin", "cos", "tan", "ln")
 """Functions that a person writes without brackets when what they are of is one letter."""

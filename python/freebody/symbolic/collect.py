@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from freebody.equations.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul, number, power, symbols
+from freebody.symbolic.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul, number, power, symbols
 
 Powers = dict[Tree, Fraction]
 Term = tuple[Fraction | float, Powers]

@@ -9,11 +9,12 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from freebody.equations.letters import Letters
-from freebody.equations.measured import is_measured, measured
-from freebody.equations.text import text
-from freebody.equations.to_sympy import from_sympy
-from freebody.equations.tree import MINUS_ONE, Fn, Num, Tree, evaluate, symbols, walk
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.measured import is_measured, measured
+from freebody.symbolic.printers.text import text
+from freebody.symbolic.to_sympy import from_sympy
+from freebody.symbolic.tree import MINUS_ONE, Fn, Num, Tree, symbols, walk
 
 PATIENCE = 5.0
 """Seconds after which no further form of an answer is tried."""

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import ClassVar
 
-from freebody.equations.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, children
+from freebody.symbolic.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, children
 
 _SUM, _PRODUCT, _ATOM = range(3)
 _LONGEST_POWER = 4  # whole powers up to it are products

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from freebody.equations.collect import factored, quotient
-from freebody.equations.to_sympy import from_sympy
-from freebody.equations.tree import PI, ZERO, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number
+from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.to_sympy import from_sympy
+from freebody.symbolic.tree import PI, ZERO, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number
 
 _RATIONAL = 1e-12
 _DENOMINATORS = 1000

@@ -1,70 +1,135 @@
-"""Expressions in letters, as trees: read from JSON, evaluated with NumPy."""
+"""Expressions as trees. What is computed with is made of ``Num``, ``Sym``, ``Add``, ``Mul``, ``Pow`` and ``Fn``; what a person wrote
+has quotients, signs, units, vectors and matrices besides, and every node knows its place in the text."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
+from dataclasses import replace as _with
 from fractions import Fraction
-from typing import Any, TypeAlias
+from functools import cache
+from typing import Any, TypeAlias, TypeVar
 
-import numpy as np
-
-FUNCTIONS: Mapping[str, Callable[..., Any]] = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "exp": np.exp, "ln": np.log,
-    "atan2": np.arctan2, "abs": np.abs, "sign": np.sign,
-}  # fmt: skip
-"""What the names of functions mean; any other name is a table of the model."""
+Span = tuple[int, int]
+"""Start and end in a text, in characters."""
 PI = "pi"
 """The one letter whose value is known."""
 
 
-@dataclass(frozen=True, slots=True)
-class Num:
-    """A number, exact (``Fraction``) or measured (``float``)."""
+@dataclass(frozen=True)
+class Node:
+    """A piece of an expression; ``span`` is its place in the text that it was read from, which does not count in comparisons."""
+
+    span: Span = field(default=(0, 0), compare=False, kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Num(Node):
+    """A number, exact (``Fraction``) or measured (``float``); the digits as written, where it was read from a text."""
 
     value: Fraction | float
+    text: str = field(default="", compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Sym:
-    """A letter, differentiated ``dots`` times with respect to time (0, 1 or 2)."""
+@dataclass(frozen=True)
+class Sym(Node):
+    """A letter, differentiated ``dots`` times with respect to time."""
 
     name: str
     dots: int = 0
 
-
-@dataclass(frozen=True, slots=True)
-class Add:
-    """A sum."""
-
-    terms: tuple[Tree, ...]
+    @property
+    def key(self) -> str:
+        """In one word: ``theta``, ``thetadot``, ``thetaddot``."""
+        return self.name + ("d" * (self.dots - 1) + "dot" if self.dots else "")
 
 
-@dataclass(frozen=True, slots=True)
-class Mul:
-    """A product."""
+@dataclass(frozen=True)
+class Add(Node):
+    """A sum; what is taken away is a ``Negative``, or has a negative number in front."""
 
-    factors: tuple[Tree, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Pow:
-    """A power with a rational exponent: −1 divides, 1/2 is the square root."""
-
-    base: Tree
-    exponent: Fraction
+    terms: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Fn:
-    """A function: sin, cos, tan, exp, ln, atan2, abs, sign, or a table of the model by its name."""
+@dataclass(frozen=True)
+class Mul(Node):
+    """A product, from left to right."""
+
+    factors: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Pow(Node):
+    """A power. A rational exponent is a ``Fraction``: −1 divides, 1/2 is the square root; a written one is a node."""
+
+    base: Node
+    exponent: Fraction | Node
+
+
+@dataclass(frozen=True)
+class Fn(Node):
+    """A function of numbers: sin, cos, tan, exp, ln, atan2, abs, sign, …, or a table of the model by its name."""
 
     name: str
-    args: tuple[Tree, ...]
+    args: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Negative(Node):
+    """The opposite."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
+class Quotient(Node):
+    """Top over bottom."""
+
+    top: Node
+    bottom: Node
+
+
+@dataclass(frozen=True)
+class Unit(Node):
+    """A unit behind a number or a bracket, as a factor: its size in SI."""
+
+    size: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Cross(Node):
+    """The sign ×: the cross product of vectors; between numbers, times."""
+
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True)
+class Dot(Node):
+    """The sign ·: the scalar product of vectors; otherwise, times."""
+
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True)
+class Column(Node):
+    """A column of numbers, written (a, b)."""
+
+    items: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Matrix(Node):
+    """Rows of numbers, written [a, b; c, d]."""
+
+    rows: tuple[tuple[Node, ...], ...]
 
 
 Tree: TypeAlias = Num | Sym | Add | Mul | Pow | Fn
+N = TypeVar("N", bound=Node)
 ZERO, ONE, MINUS_ONE = Num(Fraction(0)), Num(Fraction(1)), Num(Fraction(-1))
 
 
@@ -123,24 +188,87 @@ def is_negative(term: Tree) -> bool:
     return isinstance(first, Num) and first.value < 0
 
 
-def children(tree: Tree) -> tuple[Tree, ...]:
-    """The trees directly below."""
+def children(tree: Node) -> tuple[Node, ...]:
+    """The nodes directly below, in the order of the text."""
     match tree:
         case Add(parts) | Mul(parts) | Fn(_, parts):
             return parts
-        case Pow(base, _):
-            return (base,)
-        case _:
+        case Num() | Sym():
             return ()
+        case Pow(base, Fraction()):
+            return (base,)
+    return tuple(_nodes([getattr(tree, name) for name in _names(type(tree))]))
 
 
-def walk(tree: Tree) -> Iterator[Tree]:
-    """The tree and everything below it."""
+@cache
+def _names(kind: type[Node]) -> tuple[str, ...]:
+    """The fields in which nodes can stand."""
+    return tuple(f.name for f in fields(kind) if f.name not in ("span", "text"))
+
+
+def _nodes(values: object) -> Iterator[Node]:
+    if isinstance(values, Node):
+        yield values
+    elif isinstance(values, tuple | list):
+        for value in values:
+            yield from _nodes(value)
+
+
+def walk(tree: Node) -> Iterator[Node]:
+    """The node and everything below it, outer ones first."""
     waiting = [tree]
     while waiting:
         node = waiting.pop()
         yield node
         waiting.extend(reversed(children(node)))
+
+
+def exchange(tree: N, old: Node, new: Node) -> N:
+    """The same with ``new`` in the place of ``old``: that very node, not others that read alike."""
+    if tree is old:
+        return new  # type: ignore[return-value]
+    values = {name: getattr(tree, name) for name in _names(type(tree))}
+    changed = {name: after for name, value in values.items() if (after := _exchanged(value, old, new)) is not value}
+    return _with(tree, **changed) if changed else tree
+
+
+def _exchanged(value: object, old: Node, new: Node) -> object:
+    if isinstance(value, Node):
+        return exchange(value, old, new)
+    if isinstance(value, tuple):
+        after = tuple(_exchanged(v, old, new) for v in value)
+        return after if any(x is not y for x, y in zip(after, value, strict=True)) else value
+    return value
+
+
+def substitute(tree: N, expressions: Mapping[Sym, Node]) -> N:
+    """The same with an expression in the place of each of these letters, otherwise as it was written."""
+    found = [n for n in walk(tree) if isinstance(n, Sym) and n in expressions]
+    for letter in found:
+        tree = exchange(tree, letter, expressions[letter])
+    return tree
+
+
+def canonical(tree: Node) -> Tree:
+    """What a person wrote in numbers, sums, products and rational powers; vectors, matrices and units are none of these."""
+    match tree:
+        case Num() | Sym():
+            return tree
+        case Add(terms):
+            return add(*map(canonical, terms))
+        case Mul(factors):
+            return mul(*map(canonical, factors))
+        case Negative(of):
+            return negative(canonical(of))
+        case Quotient(top, bottom):
+            return over(canonical(top), canonical(bottom))
+        case Pow(base, Fraction() as exponent):
+            return power(canonical(base), exponent)
+        case Pow(base, Num(value)):
+            return power(canonical(base), Fraction(value).limit_denominator(1000))
+        case Fn(name, args):
+            return Fn(name, tuple(map(canonical, args)))
+    raise ValueError(f"{type(tree).__name__} has no canonical form")
 
 
 def operations(tree: Tree) -> int:
@@ -195,37 +323,6 @@ def rebuilt(tree: Tree, put: Callable[[Tree], Tree | None]) -> Tree:
     return tree
 
 
-def evaluate(tree: Tree, values: Mapping[Sym, Any], tables: Mapping[str, Callable[..., Any]] | None = None) -> Any:
-    """The value of the tree: a number, or an array if the values are arrays (they are broadcast).
-
-    ``tables`` has the tables of the model by name. A letter or a table without a value is a ``KeyError`` that names it."""
-    match tree:
-        case Num(value):
-            return float(value)
-        case Sym():
-            return _value(tree, values)
-        case Add(terms):
-            return sum(evaluate(term, values, tables) for term in terms)
-        case Mul(factors):
-            return math.prod(evaluate(factor, values, tables) for factor in factors)
-        case Pow(base, exponent):
-            return raised(evaluate(base, values, tables), exponent)
-        case Fn(name, args):
-            function = FUNCTIONS.get(name) or (tables or {}).get(name)
-            if function is None:
-                raise KeyError(f"no table {name!r} is given; pass it in `tables`")
-            return function(*(evaluate(arg, values, tables) for arg in args))
-
-
-def raised(base: Any, exponent: Fraction) -> Any:
-    """base to the power of a fraction, roots and reciprocals by their own operations."""
-    if exponent == -1:
-        return 1.0 / base
-    if exponent == Fraction(1, 2):
-        return np.sqrt(base)
-    return np.power(np.asarray(base, dtype=float), float(exponent))[()]
-
-
 def read(data: Mapping[str, Any]) -> Tree:
     """A tree from JSON: ``{"add": [{"sym": "x", "dots": 2}, {"num": "3/2"}]}``."""
     match data:
@@ -263,14 +360,6 @@ def write(tree: Tree) -> dict[str, Any]:
 
 def _is(tree: Tree, value: int) -> bool:
     return isinstance(tree, Num) and tree.value == value
-
-
-def _value(letter: Sym, values: Mapping[Sym, Any]) -> Any:
-    if letter in values:
-        return values[letter]
-    if letter == Sym(PI):
-        return math.pi
-    raise KeyError(f"no value for {letter.name!r} differentiated {letter.dots} times")
 
 
 Entries: TypeAlias = Tree | Sequence["Entries"]

@@ -1,0 +1,1 @@
+"""Expressions written: text, LaTeX, MathML for a reader, NumPy and C for a machine."""
