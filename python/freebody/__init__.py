@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ._core import ExpressionError, ModelError, MotionError
     from .compare import compare
-    from .instant import Indeterminate, Instant
+    from .free_body import Indeterminate
+    from .instant import Instant
     from .model import Mechanism, ModelFileError
     from .run import Run
 
 _HOMES = {
     "ExpressionError": "_core",
-    "Indeterminate": "instant",
+    "Indeterminate": "free_body",
     "Instant": "instant",
     "Mechanism": "model",
     "ModelError": "_core",

@@ -9,13 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from freebody.instant import Indeterminate
 from freebody.model.cards import LoadCard
 from freebody.results import Array
 
 GROUND = "ground"
 _DRIVEN = ("motion", "coupling", "force")
 Pair = tuple[float, float]
+
+
+class Indeterminate(LookupError):
+    """A reaction that the balance equations do not determine was asked for as if they did."""
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from freebody import _core
+from freebody.grid import Times
 from freebody.instant import State
 from freebody.results import quote
-from freebody.run import Progress, Run, Settings, Times, simulate
+from freebody.run import Progress, Run, simulate
+from freebody.source import Settings
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freebody import tables
+from freebody.free_body import FreeBodies, Indeterminate
 from freebody.results import PARTS, Array, quote
 from freebody.switched import Limit, limits_of, with_dimensions
 from freebody.tables import figure
@@ -20,17 +21,12 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from freebody import _core
-    from freebody.free_body import FreeBodies
     from freebody.grid import Motion
 
 STILL = 1e-4
 """Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
 it a load that nothing carries."""
 _FORCES = "N|T|F|Fx|Fy|tension"
-
-
-class Indeterminate(LookupError):
-    """A reaction that the balance equations do not determine was asked for as if they did."""
 
 
 @dataclass(frozen=True)
@@ -228,8 +224,6 @@ class Instant:
 
     def free_bodies(self) -> FreeBodies:
         """Every load on every body, and what it gives their mass centres."""
-        from freebody.free_body import FreeBodies
-
         at = self.state
         told = self.core.free_bodies(at.p, at.t, at.q, at.u) if self.motion is None else self.motion.free_bodies(at.t)
         return FreeBodies.read(told)

@@ -16,11 +16,13 @@ if TYPE_CHECKING:
     from freebody.blow import Blow
     from freebody.check import Verdict
     from freebody.equations.answers import Answers
-    from freebody.equations.derivation import Equations
+    from freebody.equations.derivation.derive import Equations
     from freebody.free_body import FreeBodies
+    from freebody.grid import Times
     from freebody.instant import Instant, State
     from freebody.model.builder import Builder
-    from freebody.run import Progress, Run, Source, Times
+    from freebody.run import Progress, Run
+    from freebody.source import Source
     from freebody.strike import Strike
     from freebody.views.diagram import Diagram
 
@@ -101,7 +103,7 @@ class Moving:
 
         ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
         coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``."""
-        from freebody.equations.derivation import derive
+        from freebody.equations.derivation.derive import derive
         from freebody.equations.derivation.told import Subject
 
         chosen = dict(fixed or {})
@@ -295,7 +297,7 @@ class Moving:
 
     def source(self: Builder, notes: Sequence[str] = ()) -> Source:
         """The compiled mechanism with all that views want to know of it."""
-        from freebody.run import Source
+        from freebody.source import Source
 
         lowered = self.lowered()
         core = self.compile()
@@ -306,7 +308,7 @@ class Moving:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
         from freebody.model.errors import ModelFileError, Problem
         from freebody.model.start import evaluate
-        from freebody.run import Settings
+        from freebody.source import Settings
 
         known = ("method", "rtol", "step", "max_step", "every", "route", "impacts", "painleve")
         unknown = [name for name in overrules if name not in known]

@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
 PARTS = ("Fx", "Fy", "M")
+KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
+"""Of columns, in their order."""
 BEFORE = "before "
 """In front of an event's name: the moment just before it."""
 ENTRIES = ("parameter changes", "impacts", "balance")

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody import _core, storage
 from freebody.grid import Motion, Times, output_times
 from freebody.instant import Instant, Reaction, Reactions, State, refuse_indeterminate
 from freebody.results import (
     BEFORE,
     ENTRIES,
+    KINDS,
     Array,
     Column,
     Energy,
@@ -37,11 +39,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from freebody import _core
-
-
 Progress = Callable[[float], bool]
-KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
 
 
 def simulate(
@@ -262,28 +260,22 @@ class Run:
 
     def to_xarray(self) -> xarray.Dataset:
         """An xarray Dataset with time, coordinate, joint, ledger and body as dimensions."""
-        from freebody.storage import to_xarray
-
-        return to_xarray(self)
+        return storage.to_xarray(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A pandas table, one row a time and one column each of ``columns``; indeterminate reactions are NaN."""
-        from freebody.storage import to_pandas
-
-        return to_pandas(self)
+        return storage.to_pandas(self)
 
     def save(self, path: str | Path) -> Path:
         """Write ``.nc`` (netCDF) or ``.csv``, with the model, the settings and the versions inside."""
-        from freebody.storage import save
-
-        return save(self, Path(path))
+        return storage.save(self, Path(path))
 
     @staticmethod
-    def load(path: str | Path) -> Run:
-        """A run from a file. It knows its saved times; ``again()`` knows all."""
-        from freebody.storage import load
-
-        return load(Path(path))
+    def load(path: str | Path, mechanism: Callable[[str], Any] | None = None) -> Run:
+        """A run from a file. It knows its saved times; ``again()`` knows all. ``mechanism`` makes the compiled model out of its
+        saved JSON (default: the core)."""
+        source, start, settings, motion, report = storage.load(Path(path), mechanism or _core.Mechanism)
+        return Run(source, start, settings, motion, motion.saved_times, report)
 
     # On from here
 
@@ -303,8 +295,6 @@ class Run:
 
         Raises ``ValueError`` for a run from a file on whose way parts were released or engaged: the file does not hold them.
         """
-        from freebody import _core
-
         after = self.motion if isinstance(self.motion, _core.Trajectory) else None
         if after is None and any(change.kind in ("released", "engaged") for change in self.changes):
             raise ValueError("a saved run does not know what its events released and engaged\n  simulate again, to the later end")

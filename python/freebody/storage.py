@@ -14,12 +14,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.instant import State
-from freebody.results import PARTS, Array, Reported, ReportItem
-from freebody.run import KINDS, Run, Settings, Source
+from freebody.results import KINDS, PARTS, Array, Reported, ReportItem
+from freebody.source import Settings, Source
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+    from freebody.run import Run
 
 FORMAT = 1
 TITLE = "freebody run"
@@ -191,24 +193,19 @@ def save(run: Run, path: Path) -> Path:
     return path
 
 
-def load(path: Path, mechanism: Callable[[str], Any] | None = None) -> Run:
-    """A run from a file; ``mechanism`` makes the compiled model out of its saved JSON (default: the core)."""
+def load(path: Path, mechanism: Callable[[str], Any]) -> tuple[Source, State, Settings, Recorded, dict[str, Reported]]:
+    """What a file holds of a run: what was simulated, from where and how, the motion, what was reported; ``mechanism`` makes the
+    compiled model out of its saved JSON."""
     readers = {".nc": _read_netcdf, ".csv": _read_csv}
     if path.suffix not in readers:
         raise ValueError(f"{path}: a saved run is a .nc or a .csv file")
     t, names, blocks, meta = readers[path.suffix](path)
     report = tuple(ReportItem(**{**item, "over": tuple(item["over"]) if item["over"] else None}) for item in meta["report_items"])
-    source = Source((mechanism or _core_mechanism)(meta["spec"]), meta["spec"], meta["model"], report)
+    source = Source(mechanism(meta["spec"]), meta["spec"], meta["model"], report)
     begun = meta["start"]
     start = State(np.array(begun["p"]), begun["t"], np.array(begun["q"]), np.array(begun["u"]))
     reported = {label: Reported(**value) for label, value in meta["report"].items()}
-    return Run(source, start, Settings(**meta["settings"]), Recorded(t, names, blocks, meta), t, reported)
-
-
-def _core_mechanism(spec: str) -> Any:
-    from freebody._core import Mechanism
-
-    return Mechanism(spec)
+    return source, start, Settings(**meta["settings"]), Recorded(t, names, blocks, meta), reported
 
 
 def _matrix(run: Run) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,13 @@ def figure(value: float) -> str:
     if math.isnan(value):
         return "indeterminate"
     return f"{value + 0.0:.6g}"
+
+
+class PlainText:
+    """What a notebook shows as its text, line by line."""
+
+    def _repr_html_(self) -> str:
+        return f'<div style="white-space: pre-wrap">{html.escape(str(self))}</div>'
 
 
 def of_accelerations(coordinates: Iterable[Mapping[str, Any]], values: Mapping[str, float]) -> Table:

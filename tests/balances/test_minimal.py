@@ -10,7 +10,6 @@ from store import ANSWERED, every
 from test_smallest import MODELS, connected, null_space, states
 
 from freebody.balances.minimal import minimal_form, regular
-from freebody.balances.show import show
 from freebody.balances.states import nearby
 from freebody.balances.system import problem
 
@@ -113,7 +112,7 @@ def test_textbook_forms_have_their_textbook_names():
 def test_an_arm_from_a_file_and_how_it_is_told():
     form = store.mechanism("EX-ARM/model").minimal_form()
     assert titles(form) == ["AMB about elbow for forearm", "AMB about shoulder for upper + forearm"]
-    told = show(form)
+    told = str(form)
     assert "elbow.Fx, elbow.Fy: they act at elbow" in told
     assert "they are internal to upper + forearm" in told
 
@@ -126,4 +125,4 @@ def test_the_force_of_a_motion_takes_the_place_of_the_acceleration_that_it_presc
 def test_a_mechanism_that_motions_move_has_no_equation_of_motion():
     form = minimal_form(states(planar.four_bar))
     assert (form.coordinates, form.equations, form.stays) == ((), (), ())
-    assert "prescribe every acceleration" in show(form)
+    assert "prescribe every acceleration" in str(form)

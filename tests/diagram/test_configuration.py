@@ -16,7 +16,7 @@ from freebody.model.cards import joints
 from freebody.views.diagram.configuration import Configuration, Places
 from freebody.views.diagram.names import letter
 from freebody.views.measures import measures
-from freebody.views.scene import sketch_of_state
+from freebody.views.sketch import sketch_of_state
 
 HEAD = """
 freebody: 1

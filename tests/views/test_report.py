@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from freebody import storage
+from freebody.run import Run
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html, write_report
 
@@ -90,7 +90,7 @@ def test_peaks_are_refined(four_bar):
 
 
 def test_a_loaded_run_has_a_report(four_bar, tmp_path):
-    back = storage.load(four_bar.save(tmp_path / "run.csv"), FakeMechanism)
+    back = Run.load(four_bar.save(tmp_path / "run.csv"), FakeMechanism)
     assert "Peak reactions" in report_html(back)
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from freebody.compare import compare
-from freebody.instant import Indeterminate, Instant
+from freebody.free_body import Indeterminate
+from freebody.instant import Instant
 from freebody.results import ReportItem, Window, integral, maximum, plain, quote, symbol, unit_of
 from freebody.run import output_times
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,9 +14,12 @@ from freebody.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.balances.system import Problem
 from freebody.free_body import Pair
 from freebody.results import Array
+from freebody.tables import figure
 
 NO_TURN = 1e-9
 """Turn of a unit motion below which it is a shift."""
+ROUND_OFF = 1e-14
+"""Part of the largest coefficient of an equation below which one is 0 at this state."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,22 @@ class BalanceEquation:
         """Which equation it is: ``AMB about E for forearm``."""
         where = "about" if self.kind == "AMB" else "along"
         return f"{self.kind} {where} {self.about} for {' + '.join(self.bodies)}"
+
+    def lines(self, number: int) -> list[str]:
+        """As text: its bodies, its point or direction, its coefficients, what drops out and why."""
+        where, unit = ("at", "N·m") if self.kind == "AMB" else ("direction", "N")
+        place = f" ({where} {figure(self.at[0])}, {figure(self.at[1])})" if self.constructed else ""
+        sign = -1 if all(value < 0 for value in self.coefficients.values()) else 1
+        least = ROUND_OFF * max(map(abs, self.coefficients.values()), default=0.0)
+        terms = [_term(sign * value if abs(value) > least else 0.0, name) for name, value in self.coefficients.items()]
+        sides = f"{' '.join(terms).removeprefix('+ ')} = {figure(sign * self.right + 0.0)} {unit}"
+        absent = [f"   {', '.join(item.unknowns)}: {item.why}" for item in self.dropped]
+        return [f"{number}. {self.title}{place}", f"   {sides}", *absent]
+
+
+def _term(value: float, name: str) -> str:
+    size = "" if math.isclose(abs(value), 1.0, rel_tol=1e-12) else f"{figure(abs(value))} "
+    return f"{'-' if value < 0 else '+'} {size}{name}"
 
 
 def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:

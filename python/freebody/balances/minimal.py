@@ -12,13 +12,15 @@ from freebody.balances.equation import BalanceEquation, equation
 from freebody.balances.exact import fewest, without_reactions
 from freebody.balances.groups import groups
 from freebody.balances.search import Supports, plainest, set_cost, unions, within
+from freebody.balances.smallest import COUNT
 from freebody.balances.system import DEPENDENT, Problem, problem
 from freebody.balances.twists import NamedPoints
 from freebody.free_body import FreeBodies
+from freebody.tables import PlainText
 
 
 @dataclass(frozen=True)
-class MinimalForm:
+class MinimalForm(PlainText):
     """Independent equations that hold the accelerations of ``coordinates``, and the ``forces`` of prescribed motions if these
     were asked for: as many as there are, and no other unknowns. Where something slides with friction, the forces that this
     follows from, ``rubbing``, are asked for as well, as a person does who needs them for the friction.
@@ -49,15 +51,25 @@ class MinimalForm:
         """How many accelerations and forces the equations are for."""
         return len(self.coordinates) + len(self.forces) + len(self.rubbing)
 
+    @property
+    def fewest_words(self) -> str:
+        """How many reactions stay in every set of balances, and of which sets of bodies that was shown."""
+        some = f"{self.groups} connected sets of bodies"
+        tried = f"all {some} were tried" if self.exact else f"{some} were tried, there are too many to try all: this is no proof"
+        stay = "reaction stays" if self.least == 1 else "reactions stay"
+        return f"at least {COUNT[self.least]} {stay} in every set of balances ({tried}, with every point and direction)"
+
     def __str__(self) -> str:
-        from freebody.balances.show import show
-
-        return show(self)
-
-    def _repr_html_(self) -> str:
-        from freebody.equations.rendering.page import lines
-
-        return lines(str(self))
+        names = ", ".join([*self.coordinates, *self.forces, *self.rubbing])
+        if not names:
+            return "Motions and loops prescribe every acceleration: there is no equation of motion."
+        told = [f"Minimal form in {names}, without {'other reactions' if self.rubbing else 'reactions'}:"]
+        if self.stays or not self.equations:
+            stay = f"here {', '.join(self.stays)}" if self.stays else "and more are not worth it"
+            told = [f"No set in {names} alone: {self.fewest_words}, {stay}."]
+        for i, each in enumerate(self.equations, 1):
+            told += ["", *each.lines(i)]
+        return "\n".join(told)
 
 
 def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None, forces: bool = False) -> MinimalForm:

@@ -12,11 +12,12 @@ from freebody.balances.equation import BalanceEquation, disagreement, equation, 
 from freebody.balances.search import smallest
 from freebody.balances.system import Problem, problem, released
 from freebody.balances.twists import NamedPoints
-from freebody.free_body import FreeBodies
-from freebody.instant import Indeterminate
+from freebody.free_body import FreeBodies, Indeterminate
+from freebody.tables import PlainText, figure
 
 DETERMINED = 1e-8
 """What virtual power leaves of other unknowns, relative to the one that it gives, below which it leaves nothing."""
+COUNT = ("no", "one", "two", "three", "four", "five")
 
 
 @dataclass(frozen=True)
@@ -33,9 +34,17 @@ class VirtualPower:
         """Which equation it is."""
         return f"virtual power, in the motion in which only {self.unknown} has any"
 
+    def lines(self) -> list[str]:
+        """As text: how the bodies move in it, and what it gives."""
+        moves = [
+            f"   {body}: G moves with ({figure(vx)}, {figure(vy)}), turns with {figure(turn)}"
+            for body, (vx, vy, turn) in self.motion.items()
+        ]
+        return [self.title, *moves, f"   {self.unknown} = {figure(self.right)}"]
+
 
 @dataclass(frozen=True)
-class SmallestSet:
+class SmallestSet(PlainText):
     """The fewest equations that give ``wanted``, and no more unknowns than they are.
 
     ``equations`` is empty where that takes more than four; ``virtual`` then is the one equation of virtual power.
@@ -54,14 +63,24 @@ class SmallestSet:
     known_motion: bool = False
 
     def __str__(self) -> str:
-        from freebody.balances.show import show
-
-        return show(self)
-
-    def _repr_html_(self) -> str:
-        from freebody.equations.rendering.page import lines
-
-        return lines(str(self))
+        number, names = len(self.equations), ", ".join(self.values)
+        if self.virtual:
+            told = [f"{self.wanted} takes more than four balance equations; one of virtual power gives it:"]
+            told += ["", *self.virtual.lines()]
+        else:
+            plural = "balance equation gives" if number == 1 else f"balance equations in {names} give"
+            told = [f"{COUNT[number].capitalize()} {plural} {self.wanted}:"]
+            for i, each in enumerate(self.equations, 1):
+                told += ["", *each.lines(i)]
+        told += ["", *(f"{name} = {figure(value)}" for name, value in self.values.items())]
+        told.append(f"differs from the full solve by {self.check:.1e}")
+        if self.known_motion:
+            told.append("the accelerations are taken as known")
+        if not self.exact:
+            told.append("not every set of bodies was tried: there are too many")
+        if not self.structural:
+            told.append("seen at this state only: something may drop out here that does not in general")
+        return "\n".join(told)
 
     @property
     def value(self) -> float:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.symbolic.errors import StatementError
+from freebody.tables import PlainText
 
 from .assumptions import assumption, linearised, tiny
 from .case import Case
@@ -68,7 +69,7 @@ class Evidence:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(PlainText):
     """What is so about one statement. ``reason`` is a sentence; ``assumption`` names under what it holds; ``mends`` are the
     smallest edits that make it true, equally small ones side by side; ``true`` is the nearest true equation, where nothing mends
     it; ``untested`` are terms about which nothing was learnt."""
@@ -105,11 +106,6 @@ class Verdict:
 
     def __str__(self) -> str:
         return "\n  ".join([self.kind.value, *self.details])
-
-    def _repr_html_(self) -> str:
-        from freebody.equations.rendering.page import lines
-
-        return lines(str(self))
 
 
 def judged(case: Case) -> Verdict:

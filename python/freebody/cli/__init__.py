@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,13 +14,13 @@ from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.mistakes import Guarded, Mistake
+from freebody.cli.models import moment, obtained, opened, pairs, simulated
 
 if TYPE_CHECKING:
     from freebody.catalogue import Asked, System
     from freebody.run import Run
 
 BAD_END = 3
-HINT_AT_START = "look for laws without a value at the start, like 1/x at x = 0"
 
 app = typer.Typer(
     cls=Guarded,
@@ -254,36 +254,6 @@ def version() -> None:
     typer.echo(installed("freebody"))
 
 
-def opened(path: Path, changes: list[str] | None = None) -> Any:
-    """The mechanism of a model file, with some parameters changed."""
-    from freebody.model import Mechanism
-
-    mechanism = Mechanism.load(path)
-    mechanism.parameters.update(pairs(changes))
-    return mechanism
-
-
-def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> Run:
-    """The run of a model file; settings that are None stay as the file has them."""
-    from freebody.cli.progress import watched
-    from freebody.model.errors import ModelFileError, Problem
-
-    given = {name: value for name, value in settings.items() if value is not None}
-    mechanism = opened(path, changes)
-    end = mechanism.run_plan(given.pop("until", None), given).until
-    with watched(end) as progress:
-        done = mechanism.simulate(end, progress=progress, **given)
-    if not done.outcome.ok and done.outcome.t == done.start.t:
-        # Nothing moved, so there is nothing to show.
-        sentence, _, hint = done.outcome.sentence.partition("; ")
-        *more, hint = hint.split("; ")
-        what = "\n  ".join([f"the run ends where it begins, t = {done.outcome.t:g} s: {sentence}", *more])
-        if done.outcome.path:
-            raise ModelFileError([Problem(mechanism.lowered().where(done.outcome.path), what, hint)])
-        raise Mistake(what, hint or HINT_AT_START)
-    return done
-
-
 def legs(first: Run) -> Iterator[Run]:
     """The run, then those of the models to which it hands over."""
     run: Run | None = first
@@ -306,32 +276,6 @@ def files_of(done: Run, number: int, output: Path | None, page: Path | None) -> 
     return written
 
 
-def obtained(path: Path) -> Run:
-    """A saved run, or the run of a model."""
-    if path.suffix not in (".nc", ".csv"):
-        return simulated(path)
-    from freebody.run import Run
-
-    return Run.load(path)
-
-
-def pairs(texts: list[str] | None) -> dict[str, str]:
-    """``["theta=30 deg"]`` → ``{"theta": "30 deg"}``."""
-    split = [text.partition("=") for text in texts or []]
-    for name, equals, value in split:
-        if not (name.strip() and equals and value.strip()):
-            raise Mistake(f"{name!r} is not NAME=VALUE", "write it like 'theta=30 deg'")
-    return {name.strip(): value.strip() for name, _, value in split}
-
-
-def moment(at: list[str] | None) -> tuple[str | None, dict[str, str]]:
-    """``["theta=30 deg"]`` → no time, coordinates; ``["200 ms"]`` → a time."""
-    times = [text for text in at or [] if "=" not in text]
-    if times and len(at or []) > 1:
-        raise Mistake("--at takes one time, or coordinates", "write it like --at '200 ms', or --at 'theta=30 deg'")
-    return (times[0], {}) if times else (None, pairs(at))
-
-
 def chosen(identity: str | None) -> list[System]:
     """The system of that name, or all."""
     from freebody import catalogue
@@ -347,7 +291,7 @@ def chosen(identity: str | None) -> list[System]:
 def derived(system: System) -> None:
     """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
     from freebody import _core
-    from freebody.equations.derivation import FORMS
+    from freebody.equations.derivation.derive import FORMS
 
     for model in system.models:
         try:

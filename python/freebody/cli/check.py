@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from freebody.cli.mistakes import Mistake
+from freebody.cli.models import opened
 
 if TYPE_CHECKING:
     from freebody.check import Verdict
@@ -50,7 +51,6 @@ def _statements(
     from freebody.check import Checker
     from freebody.check.file import as_json, judged_alone
     from freebody.check.letters import declarations
-    from freebody.cli import opened
 
     checker, texts = Checker(opened(path, changes), declarations(where or [])), list(texts)
     verdicts = []

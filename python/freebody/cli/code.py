@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from freebody.cli.models import opened
+
 
 def code(
     model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
@@ -17,11 +19,11 @@ def code(
     ] = None,
 ) -> None:
     """Print functions that compute accelerations and all reactions: Python that needs NumPy only, or C99."""
-    from freebody.cli import opened, show
+    from freebody.cli.show import written
 
     text = opened(model, changes).code("c" if c or (output and output.suffix == ".c") else "python")
     if output is None:
         typer.echo(text.rstrip("\n"))
     else:
         output.write_text(text, encoding="utf-8")
-        show.written([output])
+        written([output])

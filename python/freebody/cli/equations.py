@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from freebody.cli.mistakes import Mistake
+from freebody.cli.models import opened, pairs
 
 if TYPE_CHECKING:
-    from freebody.equations.derivation import Equations
+    from freebody.equations.derivation.derive import Equations
     from freebody.equations.document import Document
     from freebody.model import Mechanism
 
@@ -64,8 +65,6 @@ def equations(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json.")] = None,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
-    from freebody.cli import opened, pairs
-
     if limits and form is not Form.solved:
         raise Mistake(f"--limit is not for --form {form.value}", "take --form solved")
     wanted = [name.strip() for each in want or () for name in each.split(",")]
@@ -81,9 +80,9 @@ def equations(
     kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
     _refuse(kind)
     if output:
-        from freebody.cli import show
+        from freebody.cli.show import written
 
-        show.written(found.save(output, kind))
+        written(found.save(output, kind))
     else:
         typer.echo(found.printed(kind).rstrip("\n"))
 

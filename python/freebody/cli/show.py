@@ -15,7 +15,7 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from freebody.instant import Indeterminate
+from freebody.free_body import Indeterminate
 from freebody.views.peaks import Peak, peak_reactions
 
 if TYPE_CHECKING:

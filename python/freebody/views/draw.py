@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.free_body import GROUND
 from freebody.instant import State
 from freebody.results import Array, plain
 from freebody.views import shapes
 from freebody.views.labels import Label, place_labels
 from freebody.views.measures import digits, measures, place_of
 from freebody.views.paint import frame_axes, paint
-from freebody.views.scene import GROUND, Scene, Sketch, drawn, sketch_of_state
+from freebody.views.scene import Scene, drawn
+from freebody.views.sketch import Sketch, sketch_of_state
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, axes, colour, quiet
 from freebody.views.touching import string_label
@@ -22,7 +24,7 @@ from freebody.views.touching import string_label
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from freebody.run import Source
+    from freebody.source import Source
 
 LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"

@@ -8,9 +8,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from freebody.free_body import GROUND
 from freebody.results import Array
 from freebody.views import shapes
-from freebody.views.scene import GROUND, Sketch, named_points
+from freebody.views.sketch import Sketch, named_points
 from freebody.views.symbols import points_of_curve
 
 _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0

@@ -1,12 +1,10 @@
-"""What there is to draw, as pure data: outlines in body frames, and the frames' poses over time.
+"""What there is to draw, as pure data: figures, what is stretched between them, and the figures' poses over time.
 
-Matplotlib and the browser draw the same scene. Everything moves in one of three ways: a ``Stroke`` with its
-body's frame, a ``Pair`` stretched between two points, a ``Cord`` as it is laid anew at every time.
+Matplotlib and the browser draw the same scene.
 """
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -14,74 +12,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.free_body import GROUND
 from freebody.instant import State
-from freebody.results import Array, quote
-from freebody.switched import Limit, limits_of, there
+from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.flashes import LASTING, Flash, flashes
+from freebody.views.sketch import Cord, Figure, Pair, Sketch, Stroke, named_points, sketch_of_state
+from freebody.views.symbols import draw_forces, draw_joints
+from freebody.views.touching import draw_contacts, draw_strings
 
 if TYPE_CHECKING:
-    from freebody.run import Run, Source
+    from freebody.run import Run
+    from freebody.source import Source
 
-GROUND = "ground"
 _OWN_POINTS = ("origin", "G", "centre", "start")
-
-
-@dataclass(frozen=True)
-class Stroke:
-    """A polyline (k, 2) in m with its style.
-
-    Styles: ``body`` and ``block`` (filled in the body's colour), ``band`` (a thick line), ``mass`` (solid), ``mark``
-    (a line in the body's colour), ``slot`` and ``pin`` (filled with the paper), ``weld`` (solid dark), ``rail``,
-    ``hatch`` and ``dash`` (lines in the colour of ground). ``shown`` (nt,): whether it is there; None: always.
-    """
-
-    points: Array
-    style: str
-    closed: bool = True
-    shown: Array | None = None
-
-    def is_there(self, frame: int) -> bool:
-        """Whether it is drawn."""
-        return self.shown is None or bool(self.shown[frame])
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A body: strokes and named points in its frame."""
-
-    name: str
-    strokes: list[Stroke] = field(default_factory=list)
-    points: dict[str, tuple[float, float]] = field(default_factory=dict)
-
-    def add(self, points: Array, style: str, closed: bool = True) -> None:
-        """One more stroke."""
-        self.strokes.append(Stroke(np.asarray(points, float), style, closed))
-
-
-@dataclass(frozen=True)
-class Pair:
-    """Something stretched between two points of bodies.
-
-    ``ends``: (index of the figure, x, y) twice. ``lines``: polylines of (along, across): ``along`` runs from 0 at
-    the first end to 1 at the second, ``across`` is in m to the left. ``shown`` (nt,): whether it is there.
-    """
-
-    name: str
-    kind: str
-    ends: tuple[tuple[int, float, float], tuple[int, float, float]]
-    lines: list[Array]
-    shown: Array
-
-
-@dataclass(frozen=True)
-class Cord:
-    """A string: its way (nt, k, 2) in the fixed axes, whether it is taut (nt,) and whether it is there (nt,)."""
-
-    name: str
-    path: Array
-    taut: Array
-    shown: Array
 
 
 @dataclass(frozen=True)
@@ -175,125 +119,6 @@ def _shown(item: Stroke | Pair | Cord) -> dict[str, Any]:
     return {} if item.shown is None or item.shown.all() else {"shown": item.shown.tolist()}
 
 
-class Sketch:
-    """What symbols are drawn with: the model's numbers and points, and the figures to draw on. ``run``: where the times are
-    from, None for a state by itself."""
-
-    def __init__(self, source: Source, state: State, t: Array, q: Array, poses: Array, run: Run | None = None) -> None:
-        self.spec: dict[str, Any] = json.loads(source.spec)
-        self.about = source.about
-        self._core, self._state, self._run = source.core, state, run
-        self.t, self.q = t, q
-        fixed = np.zeros((len(t), 1, 3))
-        self.poses = np.concatenate([fixed, poses], axis=1)
-        self.names = [GROUND, *(body["name"] for body in self.about["bodies"])]
-        self.figures = {name: Figure(name) for name in self.names}
-        self.pairs: list[Pair] = []
-        self.cords: list[Cord] = []
-        self.at: dict[str, tuple[str, Array]] = {}
-        self.owners: dict[str, str] = {}
-        for name, place in json.loads(source.core.points(state.p)).items():
-            if not (isinstance(place, list) and len(place) == 3):
-                continue
-            self.owners[name] = place[0]
-            if ".outline[" not in name:  # a corner that only contacts know
-                self.at[name] = (place[0], np.array(place[1:], float))
-                self.figures[place[0]].points[name] = (float(place[1]), float(place[2]))
-        self.outlines = {body: value for body, value in _outlines(source.model).items() if body in self.figures}
-        self.size = self._size()
-
-    def number(self, value: float | str) -> float:
-        """A number of the model."""
-        return float(value) if isinstance(value, (int, float)) else self.value(value)
-
-    def value(self, text: str) -> float:
-        """An expression at the drawn state."""
-        return float(self.values([text])[0])
-
-    def values(self, texts: Sequence[str]) -> Array:
-        """Expressions at the drawn state."""
-        s = self._state
-        return np.array(self._core.evaluate(list(texts), s.p, s.t, s.q, s.u), float)
-
-    def gap(self, limit: str) -> Array:
-        """How far (nt,) a contact is from touching or a string from being taut, m."""
-        text = f"{quote(limit)}.gap"
-        return np.array([self.value(text)]) if self._run is None else self._run[text]
-
-    def there(self, part: str, engaged: bool = True) -> Array:
-        """Whether a part is in place (nt,); ``engaged``: from the start."""
-        return there(self._run.changes if self._run else [], part, engaged, self.t)
-
-    def limits(self) -> list[Limit]:
-        """What contacts, strings and stops do at the drawn state; nothing where that has no answer."""
-        from freebody._core import MotionError
-
-        s = self._state
-        try:
-            told = self._core.instant(s.p, s.t, s.q, s.u).limits if self.about["limits"] else "[]"
-        except MotionError:
-            return []
-        return list(limits_of(json.loads(told), self.about).values())
-
-    def travel(self, coordinate: str) -> tuple[float, float]:
-        """Smallest and largest value of a coordinate; twice its value now where it is not of the state."""
-        names = [c["name"] for c in self.about["coordinates"]]
-        if coordinate not in names:
-            return (self.value(quote(coordinate)),) * 2
-        values = self.q[:, names.index(coordinate)]
-        return float(values.min()), float(values.max())
-
-    def line(self, place: Mapping[str, Any] | str) -> tuple[str, Array, Array]:
-        """Body, point (2,) and unit direction (2,) of a line, in the body's frame."""
-        named = {line["name"]: line["line"] for line in self.spec.get("lines", [])}
-        told: Mapping[str, Any] = named[place] if isinstance(place, str) else place
-        body, point = self.at[told["point"]]
-        if told.get("towards"):
-            along = self.at[told["towards"]][1] - point
-            return body, point, along / np.hypot(*along)
-        angle = self.number(told.get("angle") or 0.0)
-        return body, point, np.array([np.cos(angle), np.sin(angle)])
-
-    def seen_from(self, body: str, name: str) -> Array:
-        """The path (nt, 2) of a named point in the frame of a body."""
-        owner, at = self.at[name]
-        x, y, angle = self.poses[:, self.names.index(owner)].T
-        c, s = np.cos(angle), np.sin(angle)
-        px, py = x + at[0] * c - at[1] * s, y + at[0] * s + at[1] * c
-        x, y, angle = self.poses[:, self.names.index(body)].T
-        c, s = np.cos(angle), np.sin(angle)
-        return np.column_stack([c * (px - x) + s * (py - y), c * (py - y) - s * (px - x)])
-
-    def pair(self, name: str, kind: str, ends: Sequence[str], lines: list[Array], engaged: bool = True) -> None:
-        """Something stretched between two named points, as long as it is there."""
-        (first, a), (second, b) = (self.at[point] for point in ends)
-        index = self.names.index
-        shown = self.there(name, engaged)
-        self.pairs.append(Pair(name, kind, ((index(first), a[0], a[1]), (index(second), b[0], b[1])), lines, shown))
-
-    def _size(self) -> float:
-        """A size for symbols that suits the mechanism: a small part of its extent at the start, larger where it travels far."""
-        seen = [self.place(name) for name, (body, _) in self.at.items() if body != GROUND]
-        for i, body in enumerate(self.spec["bodies"]):
-            spans = [self.number(size) for piece in body["pieces"] for size in piece.get("sizes", {}).values()]
-            half = max(spans, default=0.0) / 2
-            seen += [self.poses[0, i + 1, :2] + half, self.poses[0, i + 1, :2] - half]
-        extent = np.ptp(np.array(seen or [np.zeros(2)]), axis=0)
-        travel = np.ptp(self.poses[:, 1:, :2].reshape(-1, 2), axis=0) if len(self.poses[0]) > 1 else np.zeros(2)
-        own, far = float(np.hypot(*extent)), float(np.hypot(*travel))
-        return float(np.clip(0.006 * far, 0.02 * own, 0.05 * own)) or 0.02
-
-    def place(self, point: str) -> Array:
-        """Where a named point is at the start, in the fixed axes (2,)."""
-        body, at = self.at[point]
-        return self.moved(body, at[None])[0]
-
-    def moved(self, body: str, points: Array) -> Array:
-        """Points (k, 2) of a body in the fixed axes."""
-        x, y, angle = self.poses[0, self.names.index(body)]
-        return shapes.turn(points, angle, (x, y))
-
-
 def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Sequence[str] | None = None) -> Scene:
     """The scene of a run at times within it (default: its output times)."""
     shown = run if times is None else run.at(times)
@@ -307,19 +132,8 @@ def of_state(source: Source, state: State, traces: Sequence[str] | None = None) 
     return drawn(sketch_of_state(source, state), traces)
 
 
-def sketch_of_state(source: Source, state: State) -> Sketch:
-    """What is needed to draw on one state."""
-    bodies = [quote(body["name"]) for body in source.about["bodies"]]
-    texts = [text.format(body) for body in bodies for text in ("x({}.origin)", "y({}.origin)", "angle({})")]
-    poses = source.core.evaluate(texts, state.p, state.t, state.q, state.u).reshape(1, -1, 3)
-    return Sketch(source, state, np.array([state.t]), state.q[None], poses)
-
-
 def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Scene:
     """Everything drawn; ``traces`` names the points to be traced (default: a few worth it)."""
-    from freebody.views.symbols import draw_forces, draw_joints
-    from freebody.views.touching import draw_contacts, draw_strings
-
     for body in sketch.spec["bodies"]:
         _draw_body(sketch, body)
     draw_joints(sketch)
@@ -375,12 +189,6 @@ def _reach_out(figure: Figure, points: Array, thickness: float) -> None:
             figure.strokes.insert(0, Stroke(arm, "body"))
 
 
-def _outlines(model: str) -> dict[str, Any]:
-    """What the model says of outlines: ``none``, or points by name or as numbers in m."""
-    said = {name: body.get("outline") for name, body in json.loads(model).get("bodies", {}).items() if isinstance(body, dict)}
-    return {name: outline for name, outline in said.items() if outline is not None}
-
-
 def _worth_tracing(sketch: Sketch) -> list[str]:
     """Up to three points that move and where nothing is joined; mass centres where there is none."""
     joined = [sketch.at[n] for j in sketch.spec["joints"] for n in named_points(j["with"]) if n in sketch.at]
@@ -392,12 +200,3 @@ def _worth_tracing(sketch: Sketch) -> list[str]:
         and not any(body == other and np.allclose(at, place) for other, place in joined)
     ]
     return free[:3] or [name for name in sketch.at if name.endswith(".G")][-1:]
-
-
-def named_points(value: Any) -> list[str]:
-    """All names in the fields of an element."""
-    if isinstance(value, str):
-        return [value]
-    if isinstance(value, Mapping):
-        return [name for item in value.values() for name in named_points(item)]
-    return [name for item in value for name in named_points(item)] if isinstance(value, list) else []

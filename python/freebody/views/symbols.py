@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from freebody.free_body import GROUND
 from freebody.model.cards import joints
 from freebody.results import Array
 from freebody.views import shapes
-from freebody.views.scene import GROUND, Sketch, Stroke
+from freebody.views.sketch import Sketch, Stroke
 
 Fields = Mapping[str, Any]
 

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from freebody.free_body import GROUND
 from freebody.results import Array, quote
 from freebody.views import shapes
-from freebody.views.scene import GROUND, Cord, Sketch
+from freebody.views.sketch import Cord, Sketch
 
 Surface = Mapping[str, Any]
 _ROUND = np.linspace(0, 2 * np.pi, 121)

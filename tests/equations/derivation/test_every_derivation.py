@@ -7,7 +7,8 @@ import pytest
 from evaluated import numbers, off, other_parameters, rate
 from store import ANSWERED, derived, elsewhere, every, subject
 
-from freebody.equations.derivation import FORMS, conserved
+from freebody.equations.derivation import conserved
+from freebody.equations.derivation.derive import FORMS
 from freebody.equations.document import Equation, is_tree
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import add

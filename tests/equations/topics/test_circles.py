@@ -6,7 +6,7 @@ import pytest
 from models import SYSTEMS
 
 import freebody as fb
-from freebody.equations.derivation import FORMS
+from freebody.equations.derivation.derive import FORMS
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import TOPICS, NotHere, topic
 from freebody.symbolic.collect import pythagorean

@@ -14,8 +14,8 @@ from freebody.cli import app
 from freebody.cli.equations import Form
 from freebody.equations import Sym, evaluate, symbols
 from freebody.equations.departures import linearised, numbers
-from freebody.equations.derivation import FORMS
 from freebody.equations.derivation.coordinates import stated
+from freebody.equations.derivation.derive import FORMS
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Equation
 from freebody.equations.topics import TOPICS, NotHere, topic

@@ -8,7 +8,6 @@ from typing import Any
 
 from freebody.balances.equation import BalanceEquation
 from freebody.balances.minimal import MinimalForm, minimal_form
-from freebody.balances.show import fewest_words
 from freebody.equations.derivation import closing, rubbing, virtual
 from freebody.equations.derivation.balancing import Stated, blocks, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
@@ -125,7 +124,7 @@ def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
     each = "" if number == 1 else ", one for each degree of freedom,"
     said = [f"{count}{each} in which no reaction stands."]
     if others and search:
-        said = [f"No set of balance equations is free of reactions: {fewest_words(search)}."]
+        said = [f"No set of balance equations is free of reactions: {search.fewest_words}."]
         said.append(
             f"Here {joined(others)} {'stays' if len(others) == 1 else 'stay'}, so there {'is' if number == 1 else 'are'} {number}."
             if search.equations

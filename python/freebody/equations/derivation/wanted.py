@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from freebody.balances.show import show
-from freebody.balances.smallest import SmallestSet, smallest_set
+from freebody.balances.smallest import COUNT, SmallestSet, smallest_set
 from freebody.equations.derivation import closing
 from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.minimal import from_search
@@ -14,8 +13,6 @@ from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.document import Block, Bullets, Heading, Paragraph, Table, Words
 from freebody.symbolic.tree import Sym
 from freebody.tables import figure
-
-_COUNT = ("no", "one", "two", "three", "four")
 
 
 def wanted(subject: Subject, name: str) -> Form:
@@ -63,7 +60,7 @@ def _introduction(found: SmallestSet) -> Words:
     names = _listed([_letter(name) for name in found.values])
     if number == 1:
         return ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
-    count = _COUNT[number].capitalize()
+    count = COUNT[number].capitalize()
     return [
         f"{count} balance equations hold ", *names, " and no other unknown; fewer do not give ", _letter(found.wanted), "."
     ]  # fmt: skip
@@ -90,7 +87,7 @@ def _numeric(found: SmallestSet) -> list[Block]:
             Paragraph(f"{said}of all unknowns only {found.virtual.unknown} does work."),
             Bullets(moves),
         ]
-    lines = [line.strip() for line in show(found).splitlines() if line.strip()]
+    lines = [line.strip() for line in str(found).splitlines() if line.strip()]
     return [Heading("Balance equations"), Paragraph("The points of this set have no letters; in numbers it is:"), Bullets(lines)]
 
 

@@ -37,11 +37,6 @@ def fragment(body: str) -> str:
     return f'<div class="derivation">\n<style>\n{_FORMULAS}</style>\n{body}</div>\n'
 
 
-def lines(text: str) -> str:
-    """Plain text for a notebook, line by line."""
-    return f'<div style="white-space: pre-wrap">{html.escape(text)}</div>'
-
-
 def page(title: str, body: str) -> str:
     """A page by itself; it needs nothing from elsewhere."""
     head = f'<meta charset="utf-8">\n<meta name="viewport" content="width=device-width">\n<title>{html.escape(title)}</title>'

@@ -12,7 +12,7 @@ from freebody.free_body import FreeBodies
 from freebody.instant import State
 from freebody.naming import Naming
 from freebody.results import Array
-from freebody.run import Source
+from freebody.source import Source
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged

@@ -11,7 +11,7 @@ from freebody.free_body import Body, FreeBodies, Load, Part
 from freebody.results import Array
 from freebody.views.diagram.names import Labels
 from freebody.views.measures import digits, place_of
-from freebody.views.scene import Sketch
+from freebody.views.sketch import Sketch
 
 _ROUND_OFF = 1e-9
 """Relative to the largest force of a diagram, below which an arrow would show only round-off."""

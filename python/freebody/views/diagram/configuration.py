@@ -9,13 +9,13 @@ from functools import cached_property
 import numpy as np
 
 from freebody.instant import State
-from freebody.run import Source
+from freebody.source import Source
 from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import Row
 from freebody.views.diagram.scenery import Scenery, Tag, whole
 from freebody.views.measures import places
-from freebody.views.scene import sketch_of_state
+from freebody.views.sketch import sketch_of_state
 
 _TURNED = 0.2  # rad, below which an angle can hardly be seen
 _MORE = np.array([3.0, 1.9, 2.4])

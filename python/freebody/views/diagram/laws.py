@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 from freebody.free_body import FreeBodies, Load
 from freebody.instant import State
-from freebody.run import Source
+from freebody.source import Source
 from freebody.symbolic.printers import breaking
 from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read

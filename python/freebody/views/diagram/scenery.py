@@ -9,17 +9,18 @@ from typing import TypeAlias
 
 import numpy as np
 
-from freebody.free_body import FreeBodies
+from freebody.free_body import GROUND, FreeBodies
 from freebody.instant import State
 from freebody.model.cards import joints
 from freebody.results import Array
-from freebody.run import Source
+from freebody.source import Source
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.draw import UNTOLD
 from freebody.views.measures import Measure, measures
-from freebody.views.scene import GROUND, Scene, Sketch, drawn, sketch_of_state
+from freebody.views.scene import Scene, drawn
+from freebody.views.sketch import Sketch, sketch_of_state
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import colour
 
