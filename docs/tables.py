@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from freebody.model import cards
+from freebody.core import cards
 
 DOCS = Path(__file__).parent
 WRITTEN = {"point": "P", "points": "[P, Q]", "line": "LINE", "circle": "{centre, radius}", "curve": "CURVE", "numbers": "[a, b]"}

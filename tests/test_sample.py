@@ -1,6 +1,5 @@
 """The models that are always visited are a sample of everything that a model can hold."""
 
-import json
 
 from store import MODELS, REPRESENTATIVE, mechanism, sample
 
@@ -31,7 +30,7 @@ def parts(spec):
 
 
 def test_what_is_always_visited_holds_every_kind_of_part():
-    found = {name: set(parts(json.loads(mechanism(name).source().spec))) for name in MODELS}
+    found = {name: set(parts(mechanism(name).source().spec)) for name in MODELS}
     missing = set.union(*found.values()) - set.union(*(found[name] for name in REPRESENTATIVE))
     assert not missing, {part: [name for name in MODELS if part in found[name]] for part in missing}
 

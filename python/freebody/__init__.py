@@ -10,21 +10,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._core import ExpressionError, ModelError, MotionError
     from .compare import compare
-    from .free_body import Indeterminate
+    from .core import ExpressionError, Indeterminate, ModelError, MotionError
     from .instant import Instant
     from .model import Mechanism, ModelFileError
     from .run import Run
 
 _HOMES = {
-    "ExpressionError": "_core",
-    "Indeterminate": "free_body",
+    "ExpressionError": "core",
+    "Indeterminate": "core",
     "Instant": "instant",
     "Mechanism": "model",
-    "ModelError": "_core",
+    "ModelError": "core",
     "ModelFileError": "model",
-    "MotionError": "_core",
+    "MotionError": "core",
     "Run": "run",
     "compare": "compare",
 }

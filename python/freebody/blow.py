@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -11,14 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from freebody.free_body import Body, FreeBodies, Load
-from freebody.instant import State
+from freebody.core import Body, Change, CompiledModel, FreeBodies, Load, State, SymbolicAnswers
 from freebody.results import Array
-from freebody.switched import Change
 
 if TYPE_CHECKING:
     from freebody.run import Run
-    from freebody.source import Source
 
 Question: TypeAlias = Mapping[str, Any]
 _ROUND_OFF = 1e-13
@@ -38,13 +34,13 @@ class Impulsive(ABC):
     """What happened, with the state before and after."""
     state: State
     """The state just before."""
-    source: Source
+    source: CompiledModel
     """The mechanism, to be drawn in that state."""
     free: FreeBodies
     """All loads during the blow: those of what was struck for a unit of each."""
 
     @abstractmethod
-    def letters(self, questions: Sequence[Question]) -> dict[str, Any]:
+    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it in letters, with the rates before it."""
 
     @abstractmethod
@@ -77,7 +73,7 @@ class Impulsive(ABC):
         sides = {
             each["name"]: {each["first"], each["second"]} for each in self.source.about["joints"] + self.source.about["limits"]
         }
-        impulses, joints = self.change.impulses, json.loads(self.source.spec)["joints"]
+        impulses, joints = self.change.impulses, self.source.spec["joints"]
         spared = impulses.spared if impulses else ()
         here = [name for name in spared if sides[name] & chosen]
         idle = [name for name in self._idle() if name not in spared and sides[name] & chosen]
@@ -155,18 +151,19 @@ class Blow(Impulsive):
         return State(p, self.change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
 
     @cached_property
-    def source(self) -> Source:
+    def source(self) -> CompiledModel:
         """The mechanism, to be drawn in the state of the blow."""
-        return replace(self.run.source, core=_Places(self.run))
+        source = self.run.source
+        return _During(source.mechanism, source.spec, source.model, source.report, source.notes, self.run)
 
     @cached_property
     def free(self) -> FreeBodies:
         """All loads during the blow: those of what was struck for a unit of each."""
-        return FreeBodies.read(self.run.motion.free_bodies_of_blow(self.place))
+        return self.run.motion.free_bodies_of_impact(self.place)
 
-    def letters(self, questions: Sequence[Question]) -> dict[str, Any]:
+    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it in letters, with the rates before it."""
-        return json.loads(self.run.motion.letters_of_blow(self.place, "{}", json.dumps(list(questions))))
+        return self.run.motion.letters_of_impact(self.place, questions)
 
     def rows_before(self) -> list[Any]:
         """What held just before, in letters; nothing where that is not known, as at the start."""
@@ -174,27 +171,19 @@ class Blow(Impulsive):
         since = max((each.t for each in self.run.changes if each.t < t), default=float(self.run.t[0]))
         if not since < t:
             return []
-        told = json.loads(self.run.motion.letters(t - _JUST_BEFORE * (t - since), "{}", json.dumps([{"ask": "rows"}])))
-        return told["answers"][0]
+        return self.run.motion.letters(t - _JUST_BEFORE * (t - since), [{"ask": "rows"}]).answers[0]
 
 
-@dataclass(frozen=True)
-class _Places:
-    """What drawings read of the core, from the motion at the time: by itself a state that strikes may have no answer."""
+@dataclass(frozen=True, eq=False)
+class _During(CompiledModel):
+    """The model, whose expressions are read of a run at the time: by itself a state that strikes may have no answer."""
 
-    run: Run
+    run: Run | None = None
 
-    def describe(self) -> str:
-        """As ``_core.Mechanism.describe``."""
-        return self.run.source.core.describe()
-
-    def points(self, p: Array) -> str:
-        """As ``_core.Mechanism.points``."""
-        return self.run.source.core.points(p)
-
-    def evaluate(self, texts: list[str], p: Array, t: float, q: Array, u: Array) -> Array:
-        """As ``_core.Mechanism.evaluate``."""
-        return self.run.motion.evaluate(texts, np.array([t]))[0]
+    def evaluate(self, texts: Sequence[str], state: State) -> Array:
+        """Values (k,) of expressions."""
+        assert self.run is not None
+        return self.run.motion.evaluate(texts, np.array([state.t]))[0]
 
 
 def blows(run: Run) -> Iterator[Blow]:

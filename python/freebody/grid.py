@@ -1,45 +1,17 @@
-"""What a run reads of a motion, and the times at which it shows it."""
+"""The times at which a run shows a motion."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from freebody.results import Array
-
-if TYPE_CHECKING:
-    from freebody import _core
+from freebody.core import Array, Trajectory
 
 Times = Sequence[float] | Array
 
 
-class Motion(Protocol):
-    """What a run reads: the core's ``Trajectory``, or what a file holds of one."""
-
-    @property
-    def steps(self) -> Array: ...
-    @property
-    def events(self) -> str: ...
-    @property
-    def changes(self) -> str: ...
-    @property
-    def outcome(self) -> str: ...
-    @property
-    def stats(self) -> str: ...
-    def sample(self, times: Array) -> tuple[Array, Array]: ...
-    def evaluate(self, texts: Sequence[str], times: Array) -> Array: ...
-    def poses(self, times: Array) -> Array: ...
-    def instants(self, times: Array) -> tuple[Array, Any]: ...
-    def instant(self, t: float, route: str) -> _core.Instant: ...
-    def free_bodies(self, t: float) -> str: ...
-    def ledger(self, times: Array) -> tuple[list[str], Array]: ...
-    def final(self) -> tuple[float, Array, Array, Array, str]: ...
-
-
-def output_times(motion: Motion, every: float | None = None, t_eval: Times | None = None) -> Array:
+def output_times(motion: Trajectory, every: float | None = None, t_eval: Times | None = None) -> Array:
     """The output grid (nt,) in s: what was asked for, or 60 a second and at least 400, with the events, all that switched and,
     while they are no more than that, the steps."""
     start, end = motion.steps[0], motion.steps[-1]
@@ -50,7 +22,7 @@ def output_times(motion: Motion, every: float | None = None, t_eval: Times | Non
         # The end belongs to the grid even where the spacing does not meet it.
         return _merged(np.array([start, end]), start + every * np.arange(1, np.floor((end - start) / every * (1 + 1e-12)) + 1))
     uniform = np.linspace(start, end, int(np.clip(60 * (end - start), 400, 6000)) + 1)
-    told = [event["t"] for event in json.loads(motion.events) + json.loads(motion.changes)]
+    told = [each.t for each in (*motion.events, *motion.changes)]
     marks = np.array([start, end] + [t for t in told if start <= t <= end])
     return _merged(np.union1d(marks, motion.steps) if len(motion.steps) <= len(uniform) else np.unique(marks), uniform)
 

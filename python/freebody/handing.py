@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from freebody import _core
+from freebody.core import CompiledModel, MotionError, Settings, State
 from freebody.grid import Times
-from freebody.instant import State
 from freebody.results import quote
 from freebody.run import Progress, Run, simulate
-from freebody.source import Settings
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -57,7 +54,7 @@ def follow(leg: Leg, first: Run) -> Run:
         run = run.next
         if at_once and run.end.t == run.start.t:
             what = f"the models hand over to one another at t = {run.end.t:g} s without any motion between"
-            raise _core.MotionError("hands_over_at_once", what, "let each begin on the far side of its event")
+            raise MotionError("hands_over_at_once", "", what, "let each begin on the far side of its event")
     return first
 
 
@@ -68,19 +65,19 @@ def carried(before: Builder, run: Run, after: Builder) -> dict[str, Any]:
     """
     from freebody.model.start import parameter_values
 
-    end, core = run.end, run.source.core
+    end, core = run.end, run.source
     gauges = [gauge["name"] for gauge in before.lowered().spec["gauges"]]
     known = {*coordinates(core), *gauges}
     names = [name for name in coordinates(after.compile()) if name in known]
     texts = [quote(name) for name in names] + [f"rate({quote(name)})" for name in names]
-    values = core.evaluate(texts, end.p, end.t, end.q, end.u).tolist() if texts else []
+    values = core.evaluate(texts, end).tolist() if texts else []
     taken = after.lowered().start.parameters
     parameters = {name: value for name, value in parameter_values(core, end.p).items() if name in taken}
     rates = {"rates": dict(zip(names, values[len(names) :], strict=True))} if names else {}
     return parameters | dict(zip(names, values, strict=False)) | rates
 
 
-def coordinates(core: _core.Mechanism) -> list[str]:
+def coordinates(core: CompiledModel) -> list[str]:
     """The names of all coordinates, also of those that only close loops."""
-    about = json.loads(core.describe())
+    about = core.about
     return [coordinate["name"] for coordinate in about["coordinates"] + about["closure_coordinates"]]

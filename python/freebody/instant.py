@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -12,16 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freebody import tables
-from freebody.free_body import FreeBodies, Indeterminate
+from freebody.core import CompiledModel, FreeBodies, Indeterminate, Limit, Motion, State
 from freebody.results import PARTS, Array, quote
-from freebody.switched import Limit, limits_of, with_dimensions
 from freebody.tables import figure
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from freebody import _core
-    from freebody.grid import Motion
 
 STILL = 1e-4
 """Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
@@ -134,36 +130,22 @@ class Reactions(Mapping[str, Reaction]):
         return len(self._items)
 
 
-@dataclass(frozen=True)
-class State:
-    """A place in the motion: parameters (np,), time in s, coordinates (n,) and rates (n,)."""
-
-    p: Array
-    t: float
-    q: Array
-    u: Array
-
-
 class Instant:
-    """Accelerations and all reactions at a state; ``about`` is what the mechanism says of itself, where it is known already.
-    ``motion``: one that is at this state then; what it has switched holds here, too."""
+    """Accelerations and all reactions at a state. ``motion``: one that is at this state then; what it has switched holds here, too."""
 
     def __init__(
         self,
-        core: _core.Mechanism,
+        core: CompiledModel,
         state: State,
         route: str = "minimal",
-        about: Mapping[str, Any] | None = None,
         motion: Motion | None = None,
     ) -> None:
         self.state = state
         self.route = route
         self.core = core
-        self._about = about or with_dimensions(json.loads(core.describe()), {})
+        self._about = core.about
         self.motion = motion
-        at = state.p, state.t, state.q, state.u
-        self._solved = core.instant(*at, route) if motion is None else motion.instant(state.t, route)
-        self._rank: dict[str, Any] = json.loads(self._solved.rank)
+        self._solved = core.instant(state, route) if motion is None else motion.instant(state.t, route)
 
     @property
     def accelerations(self) -> dict[str, float]:
@@ -185,7 +167,7 @@ class Instant:
     @property
     def limits(self) -> dict[str, Limit]:
         """What every contact, string and stop does, by name."""
-        return limits_of(json.loads(self._solved.limits) if self._about["limits"] else [], self._about)
+        return self._solved.limits
 
     @property
     def motions(self) -> dict[str, float]:
@@ -224,24 +206,22 @@ class Instant:
 
     def free_bodies(self) -> FreeBodies:
         """Every load on every body, and what it gives their mass centres."""
-        at = self.state
-        told = self.core.free_bodies(at.p, at.t, at.q, at.u) if self.motion is None else self.motion.free_bodies(at.t)
-        return FreeBodies.read(told)
+        return self.core.free_bodies(self.state) if self.motion is None else self.motion.free_bodies(self.state.t)
 
     @property
     def freedom(self) -> int:
         """Degrees of freedom, by rank."""
-        return int(self._rank["freedom"])
+        return self._solved.rank.freedom
 
     @property
     def explanation(self) -> str:
         """How the degrees of freedom come about, and what is redundant, in words."""
-        return str(self._rank["explanation"])
+        return self._solved.rank.explanation
 
     @property
     def self_stress(self) -> list[str]:
         """In words, each way in which the parts could be pre-stressed."""
-        return list(self._rank["self_stress"])
+        return self._solved.rank.self_stress
 
     def __getitem__(self, text: str) -> float:
         """The value of any expression at this instant; a reaction that is not determined raises."""
@@ -253,7 +233,7 @@ class Instant:
     def _values(self, texts: list[str]) -> Array:
         if self.motion is not None:
             return self.motion.evaluate(texts, np.array([self.state.t]))[0]
-        return self.core.evaluate(texts, self.state.p, self.state.t, self.state.q, self.state.u)
+        return self.core.evaluate(texts, self.state)
 
     def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
         texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -15,14 +14,13 @@ if TYPE_CHECKING:
     from freebody.balances.smallest import SmallestSet
     from freebody.blow import Blow
     from freebody.check import Verdict
+    from freebody.core import CompiledModel, FreeBodies, State
     from freebody.equations.answers import Answers
     from freebody.equations.derivation.derive import Equations
-    from freebody.free_body import FreeBodies
     from freebody.grid import Times
-    from freebody.instant import Instant, State
+    from freebody.instant import Instant
     from freebody.model.builder import Builder
     from freebody.run import Progress, Run
-    from freebody.source import Source
     from freebody.strike import Strike
     from freebody.views.diagram import Diagram
 
@@ -34,15 +32,12 @@ class Moving:
 
     def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
         """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
-        and what is worth saying about the assembly. Raises ``ModelFileError`` and ``_core.MotionError``."""
-        from freebody.instant import State
+        and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
 
         given = self.initial_state(changes, initial)
         p = given.pop("p")
         with self.told():
-            q, u, notes = self.compile().assemble(p, t, **given)
-        told = json.loads(notes)
-        return State(p, t, q, u), [*told["adjusted"], *told["branch"]]
+            return self.compile().assemble(p, t, **given)
 
     def solve(
         self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
@@ -56,15 +51,14 @@ class Moving:
 
         state, _ = self.start(initial, t, **changes)
         with self.told():
-            return Instant(self.compile(), state, route, self.source().about)
+            return Instant(self.compile(), state, route)
 
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
         """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
-        from freebody.free_body import FreeBodies
 
         state, _ = self.start(initial, t, **changes)
         with self.told():
-            return FreeBodies.read(self.compile().free_bodies(state.p, state.t, state.q, state.u))
+            return self.compile().free_bodies(state)
 
     def smallest(
         self: Builder,
@@ -123,7 +117,7 @@ class Moving:
     def code(
         self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
     ) -> str:
-        """Source of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
+        """CompiledModel of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
         (C99). Changed parameters become the defaults; a changed place says no more than on which branch things are. Raises
         ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.equations.program``."""
         from freebody.equations.program import program
@@ -140,7 +134,7 @@ class Moving:
 
         state, _ = self.start(initial, t, **changes)
         with self.told():
-            return nearby(self.source(), state), json.loads(self.compile().points(state.p))
+            return nearby(self.source(), state), self.compile().points(state.p)
 
     def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
         """A moment of motion from the state of ``solve``: at its start the events there have happened (``changes``, ``instant``);
@@ -205,13 +199,13 @@ class Moving:
     @contextmanager
     def told(self: Builder) -> Iterator[None]:
         """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
-        from freebody import _core
+        from freebody.core import MotionError
 
         try:
             yield
-        except _core.MotionError as error:
-            if path := error.args[1]:
-                error.where = self.lowered().where(path)
+        except MotionError as error:
+            if error.path:
+                error.where = self.lowered().where(error.path)
             raise
 
     def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
@@ -295,20 +289,17 @@ class Moving:
             raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
         return run.instant(max(t, 0.0))
 
-    def source(self: Builder, notes: Sequence[str] = ()) -> Source:
+    def source(self: Builder, notes: Sequence[str] = ()) -> CompiledModel:
         """The compiled mechanism with all that views want to know of it."""
-        from freebody.source import Source
 
-        lowered = self.lowered()
-        core = self.compile()
-        model = self.model.model_dump_json(by_alias=True, exclude_unset=True)
-        return Source(core, json.dumps(lowered.spec), model, tuple(self.report_items()), tuple(notes))
+        model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
+        return replace(self.compile(), model=model, report=tuple(self.report_items()), notes=tuple(notes))
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
+        from freebody.core import Settings
         from freebody.model.errors import ModelFileError, Problem
         from freebody.model.start import evaluate
-        from freebody.source import Settings
 
         known = ("method", "rtol", "step", "max_step", "every", "route", "impacts", "painleve")
         unknown = [name for name in overrules if name not in known]

@@ -7,7 +7,6 @@ the model, else ``m_rod``, ``I_rod``, g.
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
@@ -16,10 +15,7 @@ from functools import cached_property
 from typing import Any, TypeAlias
 
 from freebody.blow import Impulsive
-from freebody.free_body import GROUND, FreeBodies, Load
-from freebody.instant import State
-from freebody.model import cards
-from freebody.run import Source
+from freebody.core import GROUND, CompiledModel, FreeBodies, Load, State, SymbolicAnswers, cards
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name, Renamed, Taken, folded
 from freebody.symbolic.tree import Tree, read
@@ -46,7 +42,7 @@ class Symbols:
     """What is not written as usual, by its name."""
 
     @classmethod
-    def of(cls, source: Source, loads: Iterable[Load], table: Mapping[str, Mapping[str, Any]]) -> Symbols:
+    def of(cls, source: CompiledModel, loads: Iterable[Load], table: Mapping[str, Mapping[str, Any]]) -> Symbols:
         """Those of a model with some loads; ``table`` are the letters as the core lists them.
 
         What the user names goes first, then time and numbers, then loads. A force whose law is one letter, or whose name is, has
@@ -72,9 +68,9 @@ class Symbols:
         return self.taken.give(f"{what} of {body}", Name.parse(f"{stem}_{body}"), Name.parse(f"{long}_{body}"))
 
 
-def _of_loads(source: Source, loads: Iterable[Load], taken: Taken) -> dict[str, Name]:
+def _of_loads(source: CompiledModel, loads: Iterable[Load], taken: Taken) -> dict[str, Name]:
     """The letter of every load but weights. Two that would have the same are written by their symbols."""
-    forces = {force["name"]: force for force in json.loads(source.spec).get("forces", [])}
+    forces = {force["name"]: force for force in source.spec.get("forces", [])}
     laws = {load: forces.get(load.name) if load.kind == "force" else None for load in loads if load.kind != "weight"}
     made = {load.symbol: _name(load, law) for load, law in laws.items()}
     own, named = {load.symbol for load, law in laws.items() if _given(law)}, {load.symbol: load for load in laws}
@@ -108,9 +104,9 @@ def _between(load: Load, bodies: Collection[str]) -> str:
     return f" on {on}, from {other}" if on != other else ""
 
 
-def coefficient(source: Source, name: str) -> str:
+def coefficient(source: CompiledModel, name: str) -> str:
     """The letter that the model has for the friction of a contact or joint, if it has one."""
-    spec = json.loads(source.spec)
+    spec = source.spec
     told = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == name)
     value = (told | told.get("with", {})).get("friction")
     value = value["kinetic"] if isinstance(value, dict) else value
@@ -152,14 +148,14 @@ def _owner(name: str) -> tuple[str, tuple[str, ...]]:
 class Naming:
     """All letters of a model at a state."""
 
-    source: Source
+    source: CompiledModel
     state: State
     free: FreeBodies
 
     @cached_property
     def symbols(self) -> Symbols:
         """How everything is written."""
-        return Symbols.of(self.source, self.free.loads, self._told([])["letters"])
+        return Symbols.of(self.source, self.free.loads, self._told([]).letters)
 
     @cached_property
     def loads(self) -> Mapping[str, Name]:
@@ -174,18 +170,17 @@ class Naming:
     @cached_property
     def bodies(self) -> dict[str, tuple[Tree, Tree]]:
         """Mass and inertia of every body, as they stand in the equations."""
-        [told] = self._told([{"ask": "kinematics"}])["answers"]
+        [told] = self._told([{"ask": "kinematics"}]).answers
         return {each["body"]: (read(each["mass"]), read(each["inertia"])) for each in told}
 
-    def _told(self, questions: list[dict[str, str]]) -> dict[str, Any]:
+    def _told(self, questions: list[dict[str, str]]) -> SymbolicAnswers:
         """What the core answers at the state."""
-        s = self.state
-        return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps(questions)))
+        return self.source.letters(self.state, questions)
 
     @cached_property
     def gravity(self) -> Name | None:
         """The letter of gravity: its parameter's, else g; None where it is a vector of two letters."""
-        x, y = (str(part).strip("-()") for part in json.loads(self.source.spec)["gravity"] or (0, 0))
+        x, y = (str(part).strip("-()") for part in self.source.spec["gravity"] or (0, 0))
         if _PLAIN.search(x) or float(x):
             return None
         if _PLAIN.fullmatch(y):
@@ -212,11 +207,11 @@ class ImpulseNaming(Naming):
     @cached_property
     def loads(self) -> dict[str, Name]:
         """The letters of impulses, by the symbols of their forces."""
-        forces = Symbols.of(self.source, self.blow.free.loads, self._told([])["letters"]).loads
+        forces = Symbols.of(self.source, self.blow.free.loads, self._told([]).letters).loads
         given = {load.symbol: self.blow.given[load.name] for load in self.blow.acting if load.name in self.blow.given}
         made = {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
         return made | {symbol: Name.parse(letter) for symbol, letter in given.items()}
 
-    def _told(self, questions: list[dict[str, str]]) -> dict[str, Any]:
+    def _told(self, questions: list[dict[str, str]]) -> SymbolicAnswers:
         """What the core answers during the blow."""
         return self.blow.letters(questions)

@@ -8,11 +8,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from freebody.core import Array
 from freebody.symbolic.symbols import GREEK
 
-Array = NDArray[np.float64]
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
 PARTS = ("Fx", "Fy", "M")
@@ -82,31 +81,6 @@ class Column:
     symbol: str
     unit: str
     kind: str
-
-
-@dataclass(frozen=True)
-class Event:
-    """Something that happened: time in s, ``crossing``, ``touch`` or ``start``, ±1 rising or falling, the state just before."""
-
-    name: str
-    t: float
-    kind: str
-    direction: int
-    q: Mapping[str, float]
-    u: Mapping[str, float]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How a run ended: one of a closed list of names, whether that is what was asked for, when, and why.
-
-    ``path`` is the item of the model that the sentence is about, like ``bodies.crank``, or empty."""
-
-    name: str
-    ok: bool
-    t: float
-    sentence: str
-    path: str = ""
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
 from functools import cached_property
 from pathlib import Path
@@ -12,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody import _core, storage
-from freebody.grid import Motion, Times, output_times
-from freebody.instant import Instant, Reaction, Reactions, State, refuse_indeterminate
+from freebody import storage
+from freebody.core import Change, CompiledModel, Event, Motion, Outcome, Settings, Spec, State, Trajectory
+from freebody.grid import Times, output_times
+from freebody.instant import Instant, Reaction, Reactions, refuse_indeterminate
 from freebody.results import (
     BEFORE,
     ENTRIES,
@@ -22,8 +22,6 @@ from freebody.results import (
     Array,
     Column,
     Energy,
-    Event,
-    Outcome,
     Reported,
     ReportItem,
     Window,
@@ -32,8 +30,6 @@ from freebody.results import (
     reduce,
     unit_of,
 )
-from freebody.source import Settings, Source
-from freebody.switched import Change, changes_of
 
 if TYPE_CHECKING:
     import pandas
@@ -43,17 +39,17 @@ Progress = Callable[[float], bool]
 
 
 def simulate(
-    source: Source,
+    source: CompiledModel,
     start: State,
     settings: Settings,
     t_eval: Times | None = None,
     progress: Progress | None = None,
-    after: _core.Trajectory | None = None,
+    after: Trajectory | None = None,
 ) -> Run:
     """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps. ``after``: the
     motion that ended in this state."""
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
-    trajectory = source.core.simulate(start.p, start.t, start.q, start.u, progress=progress, after=after, **options)
+    trajectory = source.simulate(start, progress=progress, after=after, **options)
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
@@ -67,7 +63,7 @@ class Run:
 
     def __init__(
         self,
-        source: Source,
+        source: CompiledModel,
         start: State,
         settings: Settings,
         motion: Motion,
@@ -86,34 +82,30 @@ class Run:
 
     # What happened
 
-    @cached_property
+    @property
     def outcome(self) -> Outcome:
         """How the run ended."""
-        told = json.loads(self.motion.outcome)
-        return Outcome(told["name"], told["ok"], told["t"], told["sentence"], told.get("path", ""))
+        return self.motion.outcome
 
-    @cached_property
+    @property
     def events(self) -> list[Event]:
         """What happened, in order of time."""
-        return [
-            Event(e["name"], e["t"], e["kind"], e["direction"], self._named(e["q"]), self._named(e["u"]))
-            for e in json.loads(self.motion.events)
-        ]
+        return self.motion.events
 
-    @cached_property
+    @property
     def changes(self) -> list[Change]:
         """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
-        return changes_of(json.loads(self.motion.changes), self.about)
+        return self.motion.changes
 
     @property
     def impacts(self) -> list[Change]:
         """The changes with impulses."""
         return [change for change in self.changes if change.impulses]
 
-    @cached_property
+    @property
     def stats(self) -> dict[str, Any]:
         """What it took: accepted and rejected steps, evaluations, the worst gap of a loop."""
-        return dict(json.loads(self.motion.stats))
+        return self.motion.stats
 
     # The motion
 
@@ -151,8 +143,7 @@ class Run:
     @cached_property
     def points(self) -> dict[str, tuple[str, float, float]]:
         """Named points: body, x and y in its frame (m)."""
-        listed = json.loads(self.source.core.points(self.start.p))
-        return {name: tuple(at) for name, at in listed.items() if isinstance(at, list) and len(at) == 3}
+        return self.source.points(self.start.p)
 
     def point(self, name: str) -> Array:
         """Path of a named point (nt, 2) in the fixed axes, m."""
@@ -199,14 +190,13 @@ class Run:
     def instant(self, t: float, route: str = "minimal") -> Instant:
         """The whole instant at a time within the run, with what is in place and holds then."""
         q, u = self.motion.sample(np.array([t]))
-        return Instant(self.source.core, State(self.end.p, t, q[0], u[0]), route, self.about, self.motion)
+        return Instant(self.source, State(self.end.p, t, q[0], u[0]), route, self.motion)
 
     def before(self, text: str, t: float) -> float:
         """The value of an expression just before a time, at which something may switch."""
         if t > self.edges[0]:
             return self.evaluate(text, float(np.nextafter(t, -np.inf)))
-        s = self.start
-        return float(self.source.core.evaluate([text], s.p, s.t, s.q, s.u)[0])
+        return float(self.source.evaluate([text], self.start)[0])
 
     @cached_property
     def report(self) -> dict[str, Reported]:
@@ -271,10 +261,9 @@ class Run:
         return storage.save(self, Path(path))
 
     @staticmethod
-    def load(path: str | Path, mechanism: Callable[[str], Any] | None = None) -> Run:
-        """A run from a file. It knows its saved times; ``again()`` knows all. ``mechanism`` makes the compiled model out of its
-        saved JSON (default: the core)."""
-        source, start, settings, motion, report = storage.load(Path(path), mechanism or _core.Mechanism)
+    def load(path: str | Path, mechanism: Callable[[Spec], CompiledModel] = CompiledModel.of) -> Run:
+        """A run from a file. It knows its saved times; ``again()`` knows all. ``mechanism`` compiles its model (default: the core)."""
+        source, start, settings, motion, report = storage.load(Path(path), mechanism)
         return Run(source, start, settings, motion, motion.saved_times, report)
 
     # On from here
@@ -287,15 +276,14 @@ class Run:
     @property
     def end(self) -> State:
         """The state at the end, enough to continue from."""
-        t, q, u, p, _ = self.motion.final()
-        return State(p, t, q, u)
+        return self.motion.end
 
     def continue_(self, until: float, progress: Progress | None = None) -> Run:
         """The motion from the end of this run on, with what is in place then. Works and the ledger start anew.
 
         Raises ``ValueError`` for a run from a file on whose way parts were released or engaged: the file does not hold them.
         """
-        after = self.motion if isinstance(self.motion, _core.Trajectory) else None
+        after = self.motion if isinstance(self.motion, Trajectory) else None
         if after is None and any(change.kind in ("released", "engaged") for change in self.changes):
             raise ValueError("a saved run does not know what its events released and engaged\n  simulate again, to the later end")
         return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress, after=after)
@@ -354,8 +342,5 @@ class Run:
         if not np.array_equal(p, self.start.p):
             raise ValueError("an event changed parameters during this run: ask for the least reactions instant by instant")
         rows = zip(self.t, self.q, self.u, strict=True)
-        least = [self.source.core.instant(p, float(t), q, u).least_reactions for t, q, u in rows]
+        least = [self.source.instant(State(p, float(t), q, u)).least_reactions for t, q, u in rows]
         return np.array(least)[:, i]
-
-    def _named(self, values: Sequence[float]) -> dict[str, float]:
-        return dict(zip(self.coordinates, values, strict=True))

@@ -6,16 +6,15 @@ import csv
 import json
 import platform
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, replace
 from importlib import import_module, metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.instant import State
+from freebody.core import CompiledModel, Motion, Settings, Spec, State
 from freebody.results import KINDS, PARTS, Array, Reported, ReportItem
-from freebody.source import Settings, Source
 
 if TYPE_CHECKING:
     import pandas
@@ -55,39 +54,16 @@ _MEANING = {
 }
 
 
-@dataclass(frozen=True)
-class Recorded:
+class Recorded(Motion):
     """What a file holds of a motion: everything at the saved times (nt,), nothing between them."""
 
-    saved_times: Array
-    names: Sequence[str]
-    blocks: Mapping[str, Array]
-    meta: Mapping[str, Any]
-
-    @property
-    def steps(self) -> Array:
+    def __init__(
+        self, saved_times: Array, names: Sequence[str], blocks: Mapping[str, Array], meta: Mapping[str, Any], about: Any
+    ) -> None:
+        super().__init__(meta, about)
+        self.saved_times, self.names, self.blocks, self.meta = saved_times, names, blocks, meta
+        self.steps = np.array(meta["steps"])
         """Times of the accepted steps."""
-        return np.array(self.meta["steps"])
-
-    @property
-    def events(self) -> str:
-        """As the core gave them, JSON."""
-        return json.dumps(self.meta["events"])
-
-    @property
-    def changes(self) -> str:
-        """As the core gave them, JSON."""
-        return json.dumps(self.meta["changes"])
-
-    @property
-    def outcome(self) -> str:
-        """As the core gave it, JSON."""
-        return json.dumps(self.meta["outcome"])
-
-    @property
-    def stats(self) -> str:
-        """As the core gave them, JSON."""
-        return json.dumps(self.meta["stats"])
 
     def sample(self, times: Array) -> tuple[Array, Array]:
         """Coordinates and rates (nt, n) at saved times."""
@@ -118,10 +94,10 @@ class Recorded:
         """The energy ledger at saved times."""
         return list(self.meta["ledger"]), self.blocks["energy"][self._rows(times)]
 
-    def final(self) -> tuple[float, Array, Array, Array, str]:
-        """Time, coordinates, rates, parameters and mode at the end."""
-        end = self.meta["end"]
-        return end["t"], np.array(end["q"]), np.array(end["u"]), np.array(end["p"]), end["mode"]
+    @property
+    def end(self) -> State:
+        """The state at the end."""
+        return _state(self.meta["end"])
 
     def _rows(self, times: Array) -> Any:
         rows = np.searchsorted(self.saved_times, times).clip(max=len(self.saved_times) - 1)
@@ -193,19 +169,28 @@ def save(run: Run, path: Path) -> Path:
     return path
 
 
-def load(path: Path, mechanism: Callable[[str], Any]) -> tuple[Source, State, Settings, Recorded, dict[str, Reported]]:
-    """What a file holds of a run: what was simulated, from where and how, the motion, what was reported; ``mechanism`` makes the
-    compiled model out of its saved JSON."""
+def load(
+    path: Path, mechanism: Callable[[Spec], CompiledModel]
+) -> tuple[CompiledModel, State, Settings, Recorded, dict[str, Reported]]:
+    """What a file holds of a run: what was simulated, from where and how, the motion, what was reported; ``mechanism`` compiles
+    its model."""
     readers = {".nc": _read_netcdf, ".csv": _read_csv}
     if path.suffix not in readers:
         raise ValueError(f"{path}: a saved run is a .nc or a .csv file")
     t, names, blocks, meta = readers[path.suffix](path)
     report = tuple(ReportItem(**{**item, "over": tuple(item["over"]) if item["over"] else None}) for item in meta["report_items"])
-    source = Source(mechanism(meta["spec"]), meta["spec"], meta["model"], report)
-    begun = meta["start"]
-    start = State(np.array(begun["p"]), begun["t"], np.array(begun["q"]), np.array(begun["u"]))
+    source = replace(mechanism(json.loads(meta["spec"])), model=json.loads(meta["model"]), report=report)
     reported = {label: Reported(**value) for label, value in meta["report"].items()}
-    return source, start, Settings(**meta["settings"]), Recorded(t, names, blocks, meta), reported
+    recorded = Recorded(t, names, blocks, meta, source.about)
+    return source, _state(meta["start"]), Settings(**meta["settings"]), recorded, reported
+
+
+def _state(data: Mapping[str, Any]) -> State:
+    return State(np.array(data["p"]), data["t"], np.array(data["q"]), np.array(data["u"]))
+
+
+def _plain(state: State) -> dict[str, Any]:
+    return {"p": state.p.tolist(), "t": state.t, "q": state.q.tolist(), "u": state.u.tolist()}
 
 
 def _matrix(run: Run) -> Array:
@@ -218,22 +203,18 @@ def _report(run: Run) -> dict[str, Any]:
 
 def _meta(run: Run) -> dict[str, Any]:
     """Everything about a run that is no column, ready for JSON."""
-    t, q, u, p, mode = run.motion.final()
     return {
         "format": FORMAT,
         "versions": versions(),
-        "spec": run.source.spec,
-        "model": run.source.model,
+        "spec": json.dumps(run.source.spec),
+        "model": json.dumps(run.source.model),
         "report_items": [asdict(item) for item in run.source.report],
         "report": _report(run),
         "settings": asdict(run.settings),
-        "start": {key: np.asarray(value).tolist() for key, value in vars(run.start).items()},
-        "end": {"t": t, "q": q.tolist(), "u": u.tolist(), "p": p.tolist(), "mode": mode},
+        "start": _plain(run.start),
+        "end": _plain(run.end),
         "steps": np.asarray(run.motion.steps).tolist(),
-        "events": json.loads(run.motion.events),
-        "changes": json.loads(run.motion.changes),
-        "outcome": json.loads(run.motion.outcome),
-        "stats": run.stats,
+        **{part: run.motion.record[part] for part in ("events", "changes", "outcome", "stats")},
         "ledger": list(run.energy.names),
         "columns": [asdict(column) for column in run.columns],
     }

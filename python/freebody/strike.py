@@ -6,7 +6,6 @@ without all that stays finite, with a force in place of the impulse: N·s for N,
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -14,12 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody import _core
 from freebody.blow import Impulsive, NoBlow, Question
-from freebody.free_body import FreeBodies, Load
-from freebody.instant import State
-from freebody.source import Source
-from freebody.switched import Change, Impulses, Snapshot
+from freebody.core import Change, CompiledModel, FreeBodies, Impulses, Load, Snapshot, State, SymbolicAnswers
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -38,8 +33,8 @@ class Strike(Impulsive):
 
     ``before`` is its state without the impulse; ``source`` is the model without weights, springs, dampers, motors and friction of joints; its force ``blow`` is the impulse."""
 
-    whole: Source
-    source: Source
+    whole: CompiledModel
+    source: CompiledModel
     state: State
     before: State
     letter: str
@@ -51,9 +46,8 @@ class Strike(Impulsive):
 
     @cached_property
     def free(self) -> FreeBodies:
-        """All loads while it acts, in N for N·s. Raises ``_core.MotionError`` where they leave the outcome open."""
-        s = self.state
-        return FreeBodies.read(self.source.core.free_bodies(s.p, s.t, s.q, s.u))
+        """All loads while it acts, in N for N·s. Raises ``MotionError`` where they leave the outcome open."""
+        return self.source.free_bodies(self.state)
 
     @property
     def size(self) -> float:
@@ -64,8 +58,7 @@ class Strike(Impulsive):
     @property
     def finite(self) -> list[Load]:
         """Loads of the whole model that stay finite: weights, springs, dampers, motors."""
-        s = self.before
-        return [x for x in FreeBodies.read(self.whole.core.free_bodies(s.p, s.t, s.q, s.u)).loads if not self.grows(x)]
+        return [x for x in self.whole.free_bodies(self.before).loads if not self.grows(x)]
 
     @cached_property
     def change(self) -> Change:
@@ -80,13 +73,13 @@ class Strike(Impulsive):
         before, after = Snapshot(q, dict.fromkeys(names, 0.0)), Snapshot(q, {name: jumps[name] for name in names})
         return Change(self.state.t, "struck", (), -self._energy(jumps), impulses=told, before=before, after=after)
 
-    def letters(self, questions: Sequence[Question]) -> dict[str, Any]:
+    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it in letters."""
-        return _letters(self.source, self.state, questions)
+        return self.source.letters(self.state, questions)
 
     def rows_before(self) -> list[Any]:
         """What holds the model at rest, in letters."""
-        return _letters(self.whole, self.before, [{"ask": "rows"}])["answers"][0]
+        return self.whole.letters(self.before, [{"ask": "rows"}]).answers[0]
 
     def _closed(self) -> list[str]:
         limits = {each["name"] for each in self.source.about["limits"]}
@@ -120,8 +113,8 @@ def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, imp
     model.parameter(letter, given_quantity(impulse, "N*s"))
     model.force(name=_NAME, at=point, value=letter, direction=direction, frame=frame)
     lowered = model.lowered()
-    core = _core.Mechanism(json.dumps(_bare(lowered.spec)))
-    source = replace(mechanism.source(), core=core, spec=json.dumps(lowered.spec))
+    core = CompiledModel.of(_bare(lowered.spec))
+    source = replace(mechanism.source(), mechanism=core.mechanism, spec=lowered.spec)
     p = dict(zip((each["name"] for each in mechanism.source().about["parameters"]), state.p, strict=True))
     values = np.array([p.get(each["name"], given_quantity(impulse, "N*s")) for each in source.about["parameters"]])
     return Strike(mechanism.source(), source, replace(state, p=values), state, letter)
@@ -134,8 +127,3 @@ def _bare(spec: Mapping[str, Any]) -> dict[str, Any]:
     still = [motion | {"is": 0.0, "level": "velocity"} for motion in spec["motions"]]
     blow = [force for force in spec["forces"] if force["name"] == _NAME]
     return {**spec, "gravity": None, "joints": joints, "motions": still, "forces": blow, "events": []}
-
-
-def _letters(source: Source, state: State, questions: Sequence[Question]) -> dict[str, Any]:
-    s = state
-    return json.loads(source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps(list(questions))))

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from freebody.core import Limit
     from freebody.instant import Reaction
-    from freebody.switched import Limit
 
 _WORDS = ("coordinate", "unit", "joint", "on", "body", "", "state")
 _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what rounding left

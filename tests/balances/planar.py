@@ -1,12 +1,11 @@
 """Hand-made free bodies: rigid bodies in absolute coordinates, joined, driven and loaded, solved by Newton and Euler.
 
-It speaks the JSON of ``_core.Mechanism.free_bodies``, and shares nothing with the core: the coordinates are x, y and angle of
+It speaks the data of ``_core.Mechanism.free_bodies``, and shares nothing with the core: the coordinates are x, y and angle of
 every body, and every joint is a row.
 """
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -116,7 +115,7 @@ class Fake:
                 w[i : i + 3] += [*f, part["couple"] + r[0] * f[1] - r[1] * f[0]]
         return w
 
-    def text(self):
+    def data(self):
         """The JSON, solved."""
         names = list(self.bodies)
         W = np.column_stack([self.column(load) for load in self.unknown])
@@ -147,7 +146,7 @@ class Fake:
             for x, w, y in zip(self.unknown, W.T, bias, strict=True)
         ]
         found = dict(zip(coordinates, map(float, a), strict=True))
-        return json.dumps({"bodies": bodies, "loads": loads, "rows": rows, "accelerations": found})
+        return {"bodies": bodies, "loads": loads, "rows": rows, "accelerations": found}
 
 
 def chain(rng, n):

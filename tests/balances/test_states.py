@@ -8,7 +8,7 @@ import pytest
 import freebody as fb
 from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
-from freebody.free_body import FreeBodies
+from freebody.core import FreeBodies
 
 SYSTEMS = Path(__file__).parents[2] / "systems"
 

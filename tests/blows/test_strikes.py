@@ -1,6 +1,6 @@
 """A model at rest that is struck: closed forms of textbooks, and theorems on impulses."""
 
-import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,13 +8,13 @@ import sympy
 from struck import SYSTEMS
 
 import freebody as fb
+from freebody.core import State
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
 from freebody.equations.topics.blow import after, hammered
 from freebody.equations.topics.jumps import jumps
 from freebody.equations.topics.rows import Rows
-from freebody.instant import State
 from freebody.strike import strike
 from freebody.symbolic.simplify import equal
 
@@ -93,12 +93,12 @@ def at_rest(name):
     model = fb.load(SYSTEMS / name / "model.yaml")
     start = model.start()[0]
     state = State(start.p, start.t, start.q, np.zeros_like(start.u))
-    core = model.source().core
-    points = [point for point, (body, _, _) in sorted(json.loads(core.points(state.p)).items()) if body != "ground"]
+    core = model.compile()
+    points = [point for point, (body, _, _) in sorted(core.points(state.p).items()) if body != "ground"]
 
     def velocity(struck, angle, seen):
         u = np.array(list(strike(model, state, struck, float(angle)).change.after.u.values()))
-        return core.evaluate([f"rate(x({seen}))", f"rate(y({seen}))"], state.p, state.t, state.q, u)
+        return core.evaluate([f"rate(x({seen}))", f"rate(y({seen}))"], replace(state, u=u))
 
     return model, state, points, velocity
 

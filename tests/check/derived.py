@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from freebody.core import SymbolicAnswers
 from freebody.equations import text
 from freebody.model import Mechanism
 from freebody.symbolic.tree import Tree, add, negative, read
@@ -39,7 +39,7 @@ def equations(mechanism: Mechanism, rng: np.random.Generator) -> list[str]:
 
 def numbers(mechanism: Mechanism) -> dict[str, str]:
     """Letters that the core gives to masses and inertias that are plain numbers in the model, with these numbers."""
-    table = _ask(mechanism, [])["letters"]
+    table = _ask(mechanism, []).letters
     return {name: f"{e['value']!r} {e['unit']}" for name, e in table.items() if e["kind"] == "number" and name != "g"}
 
 
@@ -47,17 +47,16 @@ def _has_letters(line: str) -> bool:
     return any(sign.isalpha() for sign in line)
 
 
-def _ask(mechanism: Mechanism, questions: list[dict[str, Any]]) -> dict[str, Any]:
+def _ask(mechanism: Mechanism, questions: list[dict[str, Any]]) -> SymbolicAnswers:
     state, _ = mechanism.start()
-    core = mechanism.compile()
-    return json.loads(core.letters(state.p, state.t, state.q, state.u, "{}", json.dumps(questions)))
+    return mechanism.compile().letters(state, questions)
 
 
 def _derived(mechanism: Mechanism, rng: np.random.Generator) -> Iterator[tuple[Tree, Tree]]:
-    about = json.loads(mechanism.compile().describe())
+    about = mechanism.compile().about
     names = [c["name"] for c in about["coordinates"]]
     questions = [{"ask": "coordinate", "name": name} for name in names] + list(_balances(mechanism, about, rng))
-    *balances, rows, lagrange = _ask(mechanism, [*questions, {"ask": "rows"}, {"ask": "lagrange"}])["answers"]
+    *balances, rows, lagrange = _ask(mechanism, [*questions, {"ask": "rows"}, {"ask": "lagrange"}]).answers
     for answer in balances:
         yield read(answer["left"]), add(*(read(part["tree"]) for part in answer["inertia"]))
     for row in rows:
@@ -68,7 +67,7 @@ def _derived(mechanism: Mechanism, rng: np.random.Generator) -> Iterator[tuple[T
 def _balances(mechanism: Mechanism, about: dict[str, Any], rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     """Moments about random points, and forces along the axes, for each body and for all."""
     state, _ = mechanism.start()
-    points = list(json.loads(mechanism.compile().points(state.p)))
+    points = list(mechanism.compile().points(state.p))
     bodies = [b["name"] for b in about["bodies"]]
     for group in [[], *([name] for name in bodies if len(bodies) > 1)]:
         for i in rng.permutation(len(points))[:_POINTS]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,16 +22,15 @@ class States:
     def __init__(self, model: fb.Mechanism) -> None:
         self.core = model.compile()
         start, _ = model.start()
-        self.states = [(start.p, start.t, start.q, factor * start.u) for factor in (1.0, -0.7)]
+        self.states = [replace(start, u=factor * start.u) for factor in (1.0, -0.7)]
 
     def values(self, texts):
-        rows = np.array([self.core.evaluate(texts, *state) for state in self.states])
+        rows = np.array([self.core.evaluate(texts, state) for state in self.states])
         return {text: rows[:, i] for i, text in enumerate(texts)}
 
     def masses(self):
-        found = [json.loads(self.core.free_bodies(*state))["bodies"] for state in self.states]
-        names = [body["name"] for body in found[0]]
-        return {n: tuple(np.array([[b[i][w] for b in found] for w in ("mass", "inertia")])) for i, n in enumerate(names)}
+        found = [self.core.free_bodies(state).bodies for state in self.states]
+        return {n: tuple(np.array([[getattr(b[n], w) for b in found] for w in ("mass", "inertia")])) for n in found[0]}
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from freebody import _core, cli
+from freebody import cli
 from freebody.cli.mistakes import Mistake, explained
+from freebody.core import ModelError, MotionError
 
 ROOT = Path(__file__).parents[2]
 GUN = str(ROOT / "examples" / "new_gun.yaml")
@@ -143,10 +144,10 @@ def test_a_missing_file_is_said_in_a_line(command):
     "error, told",
     [
         (
-            _core.ModelError("joints.pivot.of[1]", "no point is called rod.Z", "did you mean rod.A?"),
+            ModelError("joints.pivot.of[1]", "no point is called rod.Z", "did you mean rod.A?"),
             "joints.pivot.of[1]: no point",
         ),
-        (_core.MotionError("cannot_assemble", "", "the loop stays open by 2 mm", "give a guess"), "the loop stays open"),
+        (MotionError("cannot_assemble", "", "the loop stays open by 2 mm", "give a guess"), "the loop stays open"),
         (RuntimeError("an MP4 needs ffmpeg"), "an MP4 needs"),
         (ValueError("until must be positive"), "until must be positive"),
     ],

@@ -1,6 +1,5 @@
 """The sketch of a derivation: every coordinate of every joint is drawn as what it measures."""
 
-import json
 import re
 from dataclasses import replace
 from functools import cache
@@ -10,9 +9,9 @@ import numpy as np
 import pytest
 from store import SYSTEMS, every, mechanism, start
 
+from freebody.core.cards import joints
 from freebody.equations.topics import topic
 from freebody.model import Mechanism
-from freebody.model.cards import joints
 from freebody.views.diagram.configuration import Configuration, Places
 from freebody.views.diagram.names import letter
 from freebody.views.measures import measures
@@ -76,7 +75,7 @@ def test_no_two_labels_overlap_and_all_are_on_the_paper(model, picture):
 def test_every_body_is_placed_by_itself(model):
     """x and y of its mass centre from the origin, and its angle from the x axis, as the state is drawn."""
     found = drawn(model, Places)
-    bodies = json.loads(found.source.spec)["bodies"]
+    bodies = found.source.spec["bodies"]
     marks = {each.text: each for each in found.scenery.dimensions}
     assert list(marks) == [
         letter(f"{word}_{body['name']}") for body in bodies for word in ("x", "y", "phi")[: 2 if body["particle"] else 3]

@@ -1,6 +1,5 @@
 """Free-body diagrams of every model of the catalogue: complete, equal and opposite, legible."""
 
-import json
 from collections import Counter, defaultdict
 from dataclasses import replace
 from functools import cache
@@ -13,8 +12,8 @@ from matplotlib.transforms import Bbox
 from store import WITHOUT_ANSWER, every, mechanism
 from store import diagram as drawn
 
+from freebody.core import FreeBodies
 from freebody.equations import Letter, Letters, Sym, latex
-from freebody.free_body import FreeBodies
 from freebody.naming import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.layout import AIR, extent
@@ -28,12 +27,12 @@ every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER))
 def free_bodies(model):
     """The bodies and loads as the core tells them."""
     state, _ = store.start(model)
-    return mechanism(model).compile().free_bodies(state.p, state.t, state.q, state.u)
+    return mechanism(model).compile().mechanism.free_bodies(state.arrays)
 
 
 @cache
 def told(model):
-    return json.loads(free_bodies(model))["loads"]
+    return free_bodies(model)["loads"]
 
 
 def going(body, place):
@@ -130,7 +129,7 @@ def sliding(model):
 @pytest.mark.parametrize("model", ["S19.15/model", "S19.15/free"])
 def test_friction_that_slides_is_against_the_sliding(model):
     """Its power on the two bodies together, at the velocities that their touching points take up, is below zero."""
-    free = json.loads(free_bodies(model))
+    free = free_bodies(model)
     bodies = {body["name"]: body for body in free["bodies"]}
     assert sliding(model)
     for load in sliding(model):
@@ -188,7 +187,7 @@ def test_the_motor_of_an_elbow_is_internal_to_both_arms():
 @every_model
 def test_a_tension_pulls(model):
     """The arrow of a string, a link or a spring between points begins at its body."""
-    spec = json.loads(mechanism(model).source().spec)
+    spec = mechanism(model).source().spec
     springs = {force["name"] for force in spec["forces"] if force["type"] == "spring" and "between" in force["with"]}
     links = {joint["name"] for joint in spec["joints"] if joint["type"] == "link"}
     for cut in drawn(model).cuts:
@@ -224,7 +223,7 @@ def joints(model):
     """The joints of a model with their fields and the names of their bodies."""
     source = mechanism(model).source()
     about = {joint["name"]: joint for joint in source.about["joints"]}
-    spec = json.loads(source.spec)["joints"]
+    spec = source.spec["joints"]
     return [joint | about[joint["name"]] | {"type": joint["type"]} for joint in spec if joint["name"] in about]
 
 
@@ -289,7 +288,7 @@ def test_no_leader_runs_through_a_label(model, of):
 def test_forces_of_hinges_touch_their_pins(model):
     """Or stand beside them, where another force has the same line."""
     now = store.instant(model)
-    joints = {j["name"]: j["with"]["of"] for j in json.loads(mechanism(model).source().spec)["joints"] if j["type"] == "hinge"}
+    joints = {j["name"]: j["with"]["of"] for j in mechanism(model).source().spec["joints"] if j["type"] == "hinge"}
     for cut in drawn(model).cuts:
         scale = cut.row.panels[0].scenery.scale
         for mark in cut.forces:

@@ -10,7 +10,6 @@ from store import SYSTEMS, every, mechanism, start
 
 import freebody as fb
 from freebody.equations.derivation.told import Subject
-from freebody.free_body import FreeBodies
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.printers.latex import latex
 from freebody.views.diagram import diagram
@@ -29,7 +28,7 @@ def moved(model):
     for size in (0.05, 0.0):  # one that closes loops stays where they are closed
         try:
             then = replace(state, q=state.q + size * rng.random(len(state.q)), u=state.u + size * rng.random(len(state.u)))
-            return source, then, FreeBodies.read(source.core.free_bodies(then.p, then.t, then.q, then.u))
+            return source, then, source.free_bodies(then)
         except fb.MotionError:
             continue
     raise AssertionError(model)

@@ -66,7 +66,7 @@ def states(mechanism: fb.Mechanism, seed: int) -> Iterator[SimpleNamespace]:
         p = core.bind(dict(zip(names, start.p * rng.uniform(0.6, 1.7, len(names)), strict=True)))
         q, u = start.q + rng.uniform(-0.2, 0.6, len(start.q)), rng.uniform(-2, 2, len(start.u))
         state = type(start)(p, 0.0, q, u)
-        yield SimpleNamespace(state=state, subject=Subject(mechanism.source(), state), instant=core.instant(p, 0.0, q, u))
+        yield SimpleNamespace(state=state, subject=Subject(mechanism.source(), state), instant=core.instant(state))
 
 
 @pytest.mark.parametrize("seed", SEEDS)

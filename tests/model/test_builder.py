@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import inspect
-import json
 import subprocess
 import sys
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
-from freebody.model import cards
+from freebody.core import cards
 from freebody.model.errors import ModelFileError
 from freebody.model.mechanism import Mechanism
 
@@ -18,8 +18,7 @@ from freebody.model.mechanism import Mechanism
 class Core:
     """A compiled mechanism that knows two parameters."""
 
-    def describe(self):
-        return json.dumps({"parameters": [{"name": "T", "unit": "N*m", "value": 1.0}, {"name": "l", "unit": "m", "value": 2.0}]})
+    about: ClassVar = {"parameters": [{"name": "T", "unit": "N*m", "value": 1.0}, {"name": "l", "unit": "m", "value": 2.0}]}
 
     def bind(self, values):
         return np.array([values.get("T", 1.0), values.get("l", 2.0)])

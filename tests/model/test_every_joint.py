@@ -7,9 +7,9 @@ import pytest
 
 import freebody as fb
 from freebody.check import Checker, Kind
+from freebody.core import cards
 from freebody.equations.derivation.derive import FORMS
 from freebody.equations.document import Document, Equation
-from freebody.model import cards
 from freebody.results import quote
 
 BODIES = """

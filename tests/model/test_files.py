@@ -102,7 +102,7 @@ def test_the_example_of_the_page_runs():
     page = (Path(__file__).parents[2] / "docs" / "model_file.md").read_text()
     example = page.split("```yaml\n")[1].split("```")[0]
     m = Mechanism.loads(example)
-    q, _, _ = m.compile().assemble(**m.initial_state())
+    q = m.compile().assemble(**m.initial_state())[0].q
     assert list(q) == [0.0, 0.1]
     assert m.report_items()[0].at == "leaves"
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from freebody import _core
+from freebody.core import CompiledModel, ModelError
 from freebody.model import lower, reading, syntax
 from freebody.model.errors import ModelFileError
 from freebody.model.mechanism import Mechanism
@@ -216,9 +216,9 @@ def test_reports(text):
 def complaining(monkeypatch):
     def complain(*problem):
         def refuse(spec):
-            raise _core.ModelError(*problem)
+            raise ModelError(*problem)
 
-        monkeypatch.setattr(_core, "Mechanism", refuse)
+        monkeypatch.setattr(CompiledModel, "of", refuse)
 
     return complain
 

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from switching import MODEL, lowered
 
-from freebody.model import cards, elements, file, lower, reading
+from freebody.core import cards
+from freebody.model import elements, file, lower, reading
 from freebody.model.errors import ModelFileError
 from freebody.model.mechanism import Mechanism
 

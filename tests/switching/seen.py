@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 
@@ -29,7 +28,7 @@ def motion(text: str, until: float, settings: Mapping[str, object] | None = None
 
 def changes(run: fb.Run, *kinds: str) -> list[SimpleNamespace]:
     """What switched, in order of time; only of these kinds, if any are given."""
-    told = [SimpleNamespace(**change) for change in json.loads(run.motion.changes)]
+    told = [SimpleNamespace(**change) for change in run.motion.record["changes"]]
     return [change for change in told if not kinds or change.kind in kinds]
 
 

@@ -6,9 +6,7 @@ the bodies from the fixed x axis; a hinge whose second body is already placed cl
 
 from __future__ import annotations
 
-import json
 import re
-from types import SimpleNamespace
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -32,8 +30,8 @@ def turned(angle, at):
 
 
 class FakeMechanism:
-    def __init__(self, spec: str) -> None:
-        self.spec = json.loads(spec)
+    def __init__(self, spec) -> None:
+        self.spec = spec
         self.numbers = {p["name"]: self._number(p["value"], {}) for p in self.spec.get("parameters", [])}
         self.names = [b["name"] for b in self.spec["bodies"]]
         self.points_ = {p["name"]: (p["body"], [self._number(x) for x in p["at"]]) for p in self.spec["points"]}
@@ -58,10 +56,10 @@ class FakeMechanism:
     def _number(self, value, names=None):
         return float(eval(str(value), {"pi": np.pi}, self.numbers if names is None else names))
 
-    def describe(self) -> str:
+    def describe(self):
         joint = lambda j: {"name": j["name"], "type": j["type"], "first": self._ends(j)[0], "second": self._ends(j)[1],
-                           "point": "", "cut": False, "coordinates": [c["name"] for c in j.get("coordinates", [])], "reaction": ["Fx", "Fy"]}  # fmt: skip
-        return json.dumps({
+                           "point": "", "cut": False, "coordinates": [c["name"] for c in j.get("coordinates", [])], "reaction": ["Fx", "Fy"], "couple": False}  # fmt: skip
+        return {
             "bodies": [{"name": n, "mass": m, "inertia": i, "centre": [0, 0], "particle": False}
                        for n, m, i in zip(self.names, self.mass, self.inertia, strict=True)],
             "parameters": [{"name": n, "unit": "", "value": v} for n, v in self.numbers.items()],
@@ -69,14 +67,14 @@ class FakeMechanism:
             "closure_coordinates": [],
             "joints": [joint(j) for j in self.spec["joints"]]
                       + [{"name": f"{n} free", "type": "free", "first": "ground", "second": n, "point": "", "cut": False,
-                          "coordinates": [], "reaction": []} for n in self.names if self._joint_of(n) == f"{n} free"],
+                          "coordinates": [], "reaction": [], "couple": False} for n in self.names if self._joint_of(n) == f"{n} free"],
             "limits": [],
             "forces": [{"name": f["name"], "type": f["type"], "conservative": f["type"] == "spring"} for f in self.spec.get("forces", [])],
             "motions": [],
             "events": [e["name"] for e in self.spec.get("events", [])],
             "freedom": {"count": 1, "joints_count": len(self.hinges)},
             "notes": ["hinges without friction", "air is ignored"],
-        })  # fmt: skip
+        }  # fmt: skip
 
     def _ends(self, joint):
         with_ = joint["with"]
@@ -95,8 +93,8 @@ class FakeMechanism:
     def bind(self, values):
         return np.array([{**self.numbers, **values}[n] for n in self.numbers])
 
-    def points(self, p) -> str:
-        return json.dumps({name: [body, *at] for name, (body, at) in self.points_.items()})
+    def points(self, p):
+        return {name: [body, *at] for name, (body, at) in self.points_.items()}
 
     # Kinematics: mass centres from the angles, from hinge to hinge
 
@@ -133,7 +131,7 @@ class FakeMechanism:
 
             q[free] = fsolve(gap, q[free], xtol=1e-14)
         u = np.array([(rates or {}).get(self._coordinate(n), 0.0) for n in self.names])
-        return q, u, json.dumps({"branch": [], "adjusted": [], "gap": float(np.abs(self.gaps(q)).max(initial=0))})
+        return q, u, {"branch": [], "adjusted": []}
 
     # Forces and one instant
 
@@ -171,18 +169,20 @@ class FakeMechanism:
         solution = np.linalg.lstsq(system, np.concatenate([self._loads(t, q).ravel(), bias]), rcond=None)[0]
         return solution[: 3 * nb].reshape(nb, 3), solution[3 * nb :].reshape(nh, 2)
 
-    def instant(self, p, t, q, u, route="minimal"):
+    def instant(self, state, route="minimal"):
+        _, t, q, u = state
         bodies, forces = self._solve(t, q, u)
         where = {name: force for (name, *_), force in zip(self.hinges, forces, strict=True)}
         least = np.array([[*where.get(j["name"], (0, 0)), 0] for j in self.spec["joints"]])
         known = np.ones_like(least, dtype=bool)
         known[[j["name"] in self.unknown for j in self.spec["joints"]], 0] = False
-        rank = {"freedom": 1, "count": 1, "rank": 2, "rows": 2, "redundant": 0, "explanation": "1 degree of freedom: 3 − 2",
+        rank = {"freedom": 1, "count": 1, "rows": 2, "redundant": 0, "always_redundant": 0, "driven": 0, "uncertain": False, "explanation": "1 degree of freedom: 3 − 2",
                 "self_stress": [f"{n} can be pulled along x" for n in self.unknown]}  # fmt: skip
-        return SimpleNamespace(
-            accelerations=bodies[:, 2], body_accelerations=bodies, reactions=np.where(known, least, np.nan), least_reactions=least,
-            determinate=known, motions=np.zeros(0), residual=1e-16, body_residuals=np.full((len(bodies), 3), 1e-16), rank=json.dumps(rank),
-        )  # fmt: skip
+        return {
+            "accelerations": bodies[:, 2], "body_accelerations": bodies, "reactions": np.where(known, least, np.nan),
+            "least_reactions": least, "determinate": known, "motions": np.zeros(0), "residual": 1e-16,
+            "body_residuals": np.full((len(bodies), 3), 1e-16), "rank": rank, "sizes": (1.0, 1.0), "limits": [],
+        }  # fmt: skip
 
     def energies(self, q, u):
         at = self.centres(q)
@@ -200,7 +200,8 @@ class FakeMechanism:
         at = self.centres(q + 1j * h * u)[body]
         return np.imag(at[0] + turned(at[1], s)) / h
 
-    def evaluate(self, texts, p, t, q, u):
+    def evaluate(self, texts, state):
+        _, t, q, u = state
         return np.array([self._value(text, t, q, u) for text in texts])
 
     def _value(self, text, t, q, u, work=np.nan):
@@ -220,9 +221,9 @@ class FakeMechanism:
             return repr(float({"rate": u, "omega": u, "angle": q}[word][i] if word != "accel" else self._solve(t, q, u)[0][i, 2]))
 
         text = re.sub(r"\b(x|y|speed|rate|accel|omega|angle|kinetic|potential|energy)\(([^()]*)\)", call, text)
-        now = self.instant(None, t, q, u)
+        now = self.instant((None, t, q, u))
         for i, joint in enumerate(self.spec["joints"]):
-            fx, fy, m = now.reactions[i]
+            fx, fy, m = now["reactions"][i]
             parts = {"Fx": fx, "Fy": fy, "M": m, "F": np.hypot(fx, fy), "Fs": fx, "Fn": fy}
             for part, value in parts.items():
                 for name in (joint["name"], f"'{joint['name']}'"):
@@ -237,10 +238,7 @@ class FakeMechanism:
 
     def simulate(
         self,
-        p,
-        t,
-        q,
-        u,
+        state,
         until,
         method="dop853",
         rtol=1e-9,
@@ -253,7 +251,7 @@ class FakeMechanism:
         painleve="stop",
         after=None,
     ):
-        return FakeTrajectory(self, p, t, np.asarray(q), np.asarray(u), until)
+        return FakeTrajectory(self, *state, until)
 
 
 class FakeTrajectory:
@@ -286,10 +284,15 @@ class FakeTrajectory:
             for e, times, ys in zip(asked, run.t_events or [], run.y_events or [], strict=True)
             for when, y in zip(times, ys, strict=True)
         ]
-        self.events = json.dumps(sorted(happened, key=lambda e: e["t"]))
-        self.changes = "[]"
-        self.outcome = json.dumps({"name": "finished", "ok": True, "t": until, "sentence": f"reached t = {until:g} s"})
-        self.stats = json.dumps({"accepted": len(run.t), "rejected": 0, "evaluations": int(run.nfev), "method": "dop853", "rtol": 1e-10, "closure": 1e-13})  # fmt: skip
+        self.told = {
+            "events": sorted(happened, key=lambda e: e["t"]),
+            "changes": [],
+            "outcome": {"name": "Completed", "ok": True, "t": until, "sentence": f"reached t = {until:g} s"},
+            "stats": {"accepted": len(run.t), "rejected": 0, "evaluations": int(run.nfev), "method": "dop853", "rtol": 1e-10, "closure": 1e-13},
+        }  # fmt: skip
+
+    def record(self):
+        return self.told
 
     def sample(self, times):
         y = self.dense(np.asarray(times)).T
@@ -310,7 +313,7 @@ class FakeTrajectory:
         return self._each(times, pose)
 
     def instants(self, times):
-        values = self._each(times, lambda t, q, u, w: self.core.instant(self.p, t, q, u).reactions)
+        values = self._each(times, lambda t, q, u, w: self.core.instant((self.p, t, q, u))["reactions"])
         return values, ~np.isnan(values)
 
     def ledger(self, times):
@@ -322,6 +325,6 @@ class FakeTrajectory:
 
         return ["kinetic", "potential", "motor.work", "balance"], self._each(times, row)
 
-    def final(self):
+    def end(self):
         q, u = (x[0] for x in self.sample(self.steps[-1:]))
-        return float(self.steps[-1]), q, u, self.p, "{}"
+        return self.p, float(self.steps[-1]), q, u

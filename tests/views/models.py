@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
-from freebody.instant import State
+from freebody.core import CompiledModel, Settings
 from freebody.results import ReportItem
-from freebody.run import Run, Settings, Source, simulate
+from freebody.run import Run, simulate
 
 from .fake import FakeMechanism
 
@@ -29,9 +27,12 @@ def hinge(name, first, second):
     return {"name": name, "type": "hinge", "with": {"of": [first, second]}, "coordinates": []}
 
 
+def compiled(spec):
+    return CompiledModel(FakeMechanism(spec), spec)
+
+
 def source(spec, report=()):
-    text = json.dumps(spec)
-    return Source(FakeMechanism(text), text, json.dumps({"freebody": 1, "name": spec["name"]}), tuple(report))
+    return CompiledModel(FakeMechanism(spec), spec, {"freebody": 1, "name": spec["name"]}, tuple(report))
 
 
 def double_pendulum(upper="upper", **more):
@@ -96,11 +97,10 @@ def four_bar():
 
 def run_double_pendulum(until=2.0, **more) -> Run:
     made = double_pendulum(**more)
-    q, u, _ = made.core.assemble(None, fixed={"phi1": 0.0, "phi2": -0.4})
-    return simulate(made, State(made.core.bind({}), 0.0, q, u), Settings(until=until))
+    return simulate(made, made.assemble(made.bind(), fixed={"phi1": 0.0, "phi2": -0.4})[0], Settings(until=until))
 
 
 def run_four_bar(until=3.0) -> Run:
     made = four_bar()
-    q, u, _ = made.core.assemble(None, fixed={"theta": 1.0}, guess={"beta": 0.4, "psi": 1.4})
-    return simulate(made, State(made.core.bind({}), 0.0, q, u), Settings(until=until))
+    start, _ = made.assemble(made.bind(), fixed={"theta": 1.0}, guess={"beta": 0.4, "psi": 1.4})
+    return simulate(made, start, Settings(until=until))

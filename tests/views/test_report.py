@@ -12,8 +12,7 @@ from freebody.run import Run
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html, write_report
 
-from .fake import FakeMechanism
-from .models import run_double_pendulum
+from .models import compiled, run_double_pendulum
 
 EVIL = '</script><script>document.title="hacked"</script><img src=x onerror=alert(1)>'
 
@@ -90,7 +89,7 @@ def test_peaks_are_refined(four_bar):
 
 
 def test_a_loaded_run_has_a_report(four_bar, tmp_path):
-    back = Run.load(four_bar.save(tmp_path / "run.csv"), FakeMechanism)
+    back = Run.load(four_bar.save(tmp_path / "run.csv"), compiled)
     assert "Peak reactions" in report_html(back)
 
 

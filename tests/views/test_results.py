@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from freebody.compare import compare
-from freebody.free_body import Indeterminate
+from freebody.core import Indeterminate
 from freebody.instant import Instant
 from freebody.results import ReportItem, Window, integral, maximum, plain, quote, symbol, unit_of
 from freebody.run import output_times
@@ -76,7 +76,7 @@ def test_an_indeterminate_reaction_is_never_a_plain_number(indeterminate):
 
 
 def test_an_instant_tells_signs_ranks_and_refuses_the_indeterminate(indeterminate):
-    now = Instant(indeterminate.source.core, indeterminate.start)
+    now = Instant(indeterminate.source, indeterminate.start)
     assert now.reactions["pivot"].on("ground").Fy == -now.reactions["pivot"].Fy
     with pytest.raises(Indeterminate):
         _ = now["knee.Fx"]

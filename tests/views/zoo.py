@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from freebody.instant import State
+from freebody.core import State
 
 from .models import point, source
 
@@ -91,4 +91,4 @@ def zoo():
     }
     made = source(spec)
     q = np.array([z.poses[body["name"]][2] for body in z.bodies])
-    return made, State(made.core.bind({}), 0.0, q, 0 * q)
+    return made, State(made.bind({}), 0.0, q, 0 * q)

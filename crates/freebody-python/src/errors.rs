@@ -1,21 +1,14 @@
-//! Errors of the core as Python exceptions.
+//! Errors of the core as the exceptions of `freebody.core.errors`.
 
 use freebody::balance::Trouble;
 use freebody::error::CompileError;
 use freebody::expr::ExprError;
-use pyo3::create_exception;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::import_exception;
 use pyo3::prelude::*;
 
-create_exception!(_core, ModelError, PyValueError, "A model that cannot be compiled: (path, what, hint).");
-create_exception!(_core, ExpressionError, PyValueError, "Text that is no expression: (start, end, what, hint).");
-create_exception!(_core, MotionError, PyRuntimeError, "A state that has no answer: (kind, path, what, hint).");
-
-pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add("ModelError", m.py().get_type::<ModelError>())?;
-    m.add("ExpressionError", m.py().get_type::<ExpressionError>())?;
-    m.add("MotionError", m.py().get_type::<MotionError>())
-}
+import_exception!(freebody.core.errors, ModelError);
+import_exception!(freebody.core.errors, ExpressionError);
+import_exception!(freebody.core.errors, MotionError);
 
 pub fn model(e: CompileError) -> PyErr {
     ModelError::new_err((e.path, e.what, e.hint))

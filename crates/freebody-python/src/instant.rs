@@ -1,112 +1,35 @@
-//! One solved instant.
+//! One solved instant as arrays by name; `freebody.core.Solution` says what they are.
 
-use crate::array;
-use freebody::balance;
+use crate::data::{array, plain};
+use freebody::balance::{Freedom, Instant};
 use freebody::mechanism::Mechanism;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
-/// One instant, solved.
-#[pyclass(frozen)]
-pub struct Instant {
-    pub solved: balance::Instant,
-    pub rank: String,
-    /// Row of each body of the model.
-    pub order: Vec<usize>,
-    /// Which drives are prescribed motions.
-    pub motions: Vec<usize>,
-}
-
-#[pymethods]
-impl Instant {
-    #[getter]
-    fn accelerations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.solved.accelerations)
-    }
-    #[getter]
-    fn body_accelerations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.by_body(py, &self.solved.bodies)
-    }
-    #[getter]
-    fn body_residuals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.by_body(py, &self.solved.residuals)
-    }
-    #[getter]
-    fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let sure = |x: f64, sure: bool| if sure { x } else { f64::NAN };
-        let loads = self.loads().into_iter().zip(&self.solved.determinate);
-        let flat = loads.flat_map(|(l, s)| [sure(l[0], s[0]), sure(l[1], s[1]), sure(l[2], s[2])]).collect();
-        array(py, flat, [self.solved.joints.len(), 3])
-    }
-    #[getter]
-    fn least_reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, self.loads().concat(), [self.solved.joints.len(), 3])
-    }
-    #[getter]
-    fn determinate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        PyArray1::from_vec(py, self.solved.determinate.concat()).reshape([self.solved.joints.len(), 3])
-    }
-    /// Direction of the first body's marker at each joint, rad.
-    #[getter]
-    fn axes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.solved.joints.iter().map(|l| l.axes).collect())
-    }
-    /// Where each reaction acts, fixed axes, m.
-    #[getter]
-    fn places<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let flat = self.solved.joints.iter().flat_map(|l| [l.point.x, l.point.y]).collect();
-        array(py, flat, [self.solved.joints.len(), 2])
-    }
-    #[getter]
-    fn motions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let sure = |d: usize| if self.solved.drives_determinate[d] { self.solved.drives[d] } else { f64::NAN };
-        PyArray1::from_vec(py, self.motions.iter().map(|&d| sure(d)).collect())
-    }
-    #[getter]
-    fn residual(&self) -> f64 {
-        self.solved.residual
-    }
-    /// Largest force (N) and acceleration (m/s²) among the terms that balance.
-    #[getter]
-    fn sizes(&self) -> (f64, f64) {
-        (self.solved.sizes.load, self.solved.sizes.acceleration)
-    }
-    /// JSON, one for each contact, stop and string.
-    #[getter]
-    fn limits(&self) -> String {
-        let told = |l: &balance::LimitLoad| {
-            serde_json::json!({
-                "state": l.state, "gap": l.gap, "normal": l.along[0], "friction": l.along[1],
-                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]), "determinate": l.determinate,
-            })
-        };
-        serde_json::Value::Array(self.solved.limits.iter().map(told).collect()).to_string()
-    }
-    #[getter]
-    fn rank(&self) -> &str {
-        &self.rank
-    }
-}
-
-impl Instant {
-    pub fn new(m: &Mechanism, solved: balance::Instant, freedom: &balance::Freedom) -> Self {
-        let rank = rank_json(freedom, &solved.self_stress);
-        let motions = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling).collect();
-        Instant { solved, rank, order: m.listed_bodies(), motions }
-    }
-    fn loads(&self) -> Vec<[f64; 3]> {
-        self.solved.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect()
-    }
-    fn by_body<'py>(&self, py: Python<'py>, rows: &[[f64; 3]]) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let flat = self.order.iter().flat_map(|&body| rows[body - 1]).collect();
-        array(py, flat, [self.order.len(), 3])
-    }
-}
-
-fn rank_json(f: &balance::Freedom, stresses: &[String]) -> String {
-    serde_json::json!({
-        "freedom": f.here, "count": f.count, "rows": f.rows, "redundant": f.redundant, "always_redundant": f.always_redundant, "driven": f.driven,
-        "uncertain": f.uncertain, "explanation": f.explain(), "self_stress": stresses,
-    })
-    .to_string()
+pub fn solution<'py>(
+    py: Python<'py>,
+    m: &Mechanism,
+    solved: &Instant,
+    freedom: &Freedom,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (order, joints) = (m.listed_bodies(), solved.joints.len());
+    let by_body = |rows: &[[f64; 3]]| array(py, order.iter().flat_map(|&b| rows[b - 1]).collect(), [order.len(), 3]);
+    let least: Vec<f64> = solved.joints.iter().flat_map(|l| [l.force.x, l.force.y, l.couple]).collect();
+    let determinate = solved.determinate.concat();
+    let known = |(x, sure): (&f64, &bool)| if *sure { *x } else { f64::NAN };
+    let motions = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
+    let motions: Vec<f64> = motions.map(|d| known((&solved.drives[d], &solved.drives_determinate[d]))).collect();
+    let told = PyDict::new(py);
+    told.set_item("accelerations", array(py, solved.accelerations.clone(), [solved.accelerations.len()])?)?;
+    told.set_item("body_accelerations", by_body(&solved.bodies)?)?;
+    told.set_item("body_residuals", by_body(&solved.residuals)?)?;
+    told.set_item("reactions", array(py, least.iter().zip(&determinate).map(known).collect(), [joints, 3])?)?;
+    told.set_item("least_reactions", array(py, least, [joints, 3])?)?;
+    told.set_item("determinate", array(py, determinate, [joints, 3])?)?;
+    told.set_item("motions", array(py, motions, [m.drives.iter().filter(|d| !d.coupling).count()])?)?;
+    told.set_item("residual", solved.residual)?;
+    told.set_item("sizes", (solved.sizes.load, solved.sizes.acceleration))?;
+    told.set_item("limits", plain(py, &solved.limits())?)?;
+    told.set_item("rank", plain(py, &solved.rank(freedom))?)?;
+    Ok(told)
 }

@@ -1,13 +1,14 @@
 //! A finished run.
 
-use crate::instant::Instant;
+use crate::data::{array, plain};
+use crate::errors;
+use crate::instant::solution;
 use crate::mechanism::Shared;
-use crate::{array, errors};
 use freebody::letters::answer;
-use freebody::motion::{Happening, Kind};
 use freebody::simulation;
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::sync::Arc;
 
 /// A finished run with dense output.
@@ -23,103 +24,54 @@ impl Trajectory {
     fn steps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.run.steps)
     }
-    #[getter]
-    fn events(&self) -> String {
-        let m = self.of.mechanism();
-        let n = m.freedom();
-        let told = |h: &Happening| {
-            let kind = match h.kind {
-                Kind::Crossing => "crossing",
-                Kind::Touch => "touch",
-                Kind::Opening => "start",
-            };
-            serde_json::json!({
-                "name": m.events[h.index].name, "t": h.t, "kind": kind,
-                "direction": h.direction, "q": h.y[..n], "u": h.y[n..2 * n],
-            })
-        };
-        serde_json::Value::Array(self.run.events.iter().map(told).collect()).to_string()
+    /// What happened, what switched, how the run ended and what it took.
+    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        plain(py, &self.run.record(&self.of.mechanism()))
     }
     /// Everything about one time, by a route.
-    #[pyo3(signature = (t, route="minimal"))]
-    fn instant(&self, t: f64, route: &str) -> PyResult<Instant> {
+    fn instant<'py>(&self, py: Python<'py>, t: f64, route: &str) -> PyResult<Bound<'py, PyDict>> {
         let m = self.of.mechanism();
         let route = crate::mechanism::route(route)?;
         let (solved, freedom) = self.run.instant(&m, t, route).map_err(errors::motion)?;
-        Ok(Instant::new(&m, solved, &freedom))
+        solution(py, &m, &solved, &freedom)
     }
-    /// Bodies and loads of the free-body diagrams at one time, in numbers, as JSON.
-    fn free_bodies(&self, t: f64) -> PyResult<String> {
+    /// Bodies and loads of the free-body diagrams at one time, in numbers.
+    fn free_bodies<'py>(&self, py: Python<'py>, t: f64) -> PyResult<Bound<'py, PyAny>> {
         let told = self.run.at(&self.of.mechanism(), t, freebody::free_bodies::free_bodies);
-        Ok(told.map_err(errors::motion)?.to_string())
+        plain(py, &told.map_err(errors::motion)?)
     }
     /// Answers in letters to questions about one time; see `Mechanism.letters`.
-    fn letters(&self, t: f64, setting: &str, questions: &str) -> PyResult<String> {
+    fn letters<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        setting: &Bound<'_, PyAny>,
+        questions: &Bound<'_, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (setting, questions) = crate::mechanism::questions(setting, questions)?;
         let told = self.run.at(&self.of.mechanism(), t, |balance| answer(balance, &setting, &questions));
-        Ok(told.map_err(errors::motion)?.to_string())
+        plain(py, &told.map_err(errors::motion)?)
     }
-    /// Bodies and loads during a blow, given by its place among `changes`: those of what was struck are told for a unit.
-    fn free_bodies_of_blow(&self, change: usize) -> PyResult<String> {
+    /// Bodies and loads during a blow, given by its place among the changes: those of what was struck are told for a unit.
+    fn free_bodies_of_blow<'py>(&self, py: Python<'py>, change: usize) -> PyResult<Bound<'py, PyAny>> {
         let told = self.run.at_blow(&self.of.mechanism(), change, |balance| {
             // What strikes at several places moves there as no constraint allows; where impulses act does not depend on it.
             balance.stand_still();
             freebody::free_bodies::free_bodies(balance)
         });
-        Ok(told.map_err(errors::motion)?.to_string())
+        plain(py, &told.map_err(errors::motion)?)
     }
     /// Answers in letters to questions about a blow, with the rates before it.
-    fn letters_of_blow(&self, change: usize, setting: &str, questions: &str) -> PyResult<String> {
+    fn letters_of_blow<'py>(
+        &self,
+        py: Python<'py>,
+        change: usize,
+        setting: &Bound<'_, PyAny>,
+        questions: &Bound<'_, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (setting, questions) = crate::mechanism::questions(setting, questions)?;
         let told = self.run.at_blow(&self.of.mechanism(), change, |balance| answer(balance, &setting, &questions));
-        Ok(told.map_err(errors::motion)?.to_string())
-    }
-    #[getter]
-    fn changes(&self) -> String {
-        let m = self.of.mechanism();
-        let n = m.freedom();
-        let told = |c: &simulation::Change| {
-            let state = |y: &Vec<f64>| serde_json::json!({"q": y[..n], "u": y[n..2 * n]});
-            let impulses = c.impulses.as_ref().map(|i| {
-                let limits: Vec<_> = i.limits.iter().map(|(name, p)| serde_json::json!([name, [p.x, p.y]])).collect();
-                let struck: Vec<_> = i.struck.iter().map(struck).collect();
-                serde_json::json!({"limits": limits, "joints": i.joints, "struck": struck, "spared": i.spared})
-            });
-            serde_json::json!({
-                "t": c.t, "kind": c.kind, "of": c.of, "lost": c.lost, "note": c.note, "impulses": impulses,
-                "before": c.states.as_ref().map(|s| state(&s[0])), "after": c.states.as_ref().map(|s| state(&s[1])),
-            })
-        };
-        serde_json::Value::Array(self.run.changes.iter().map(told).collect()).to_string()
-    }
-    #[getter]
-    fn outcome(&self) -> String {
-        let o = &self.run.outcome;
-        let sentence = match o {
-            freebody::motion::Outcome::StoppedByEvent { index } => {
-                format!("the event `{}` ended the run", self.of.mechanism().events[*index].name)
-            }
-            freebody::motion::Outcome::Chatter { index } => format!(
-                "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
-                simulation::Machine::switch_name(&self.of.mechanism(), *index)
-            ),
-            other => other.to_string(),
-        };
-        let path = match o {
-            freebody::motion::Outcome::Trouble(trouble) => trouble.path.as_deref(),
-            _ => None,
-        };
-        serde_json::json!({"name": o.name(), "ok": o.is_ok(), "t": self.run.steps.last(), "sentence": sentence, "path": path.unwrap_or("")})
-            .to_string()
-    }
-    #[getter]
-    fn stats(&self) -> String {
-        let r = &self.run;
-        serde_json::json!({
-            "accepted": r.counts[0], "rejected": r.counts[1], "evaluations": r.counts[2], "kinks": r.kinks,
-            "method": r.settings.method, "rtol": r.settings.options.rtol, "closure": r.worst_gap, "stiff_since": r.stiff_since,
-        })
-        .to_string()
+        plain(py, &told.map_err(errors::motion)?)
     }
     #[allow(clippy::type_complexity)]
     fn sample<'py>(
@@ -162,7 +114,7 @@ impl Trajectory {
         let known = |x: f64, sure: bool| if sure { x } else { f64::NAN };
         let values = rows.iter().flatten().flat_map(|(x, s)| (0..3).map(|i| known(x[i], s[i]))).collect();
         let sure: Vec<bool> = rows.iter().flatten().flat_map(|(_, s)| *s).collect();
-        Ok((array(py, values, shape)?, PyArray1::from_vec(py, sure).reshape(shape)?))
+        Ok((array(py, values, shape)?, array(py, sure, shape)?))
     }
     fn ledger<'py>(
         &self,
@@ -173,17 +125,14 @@ impl Trajectory {
         let columns = ledger.names.len();
         Ok((ledger.names, array(py, ledger.rows.concat(), [ledger.rows.len(), columns])?))
     }
+    /// Parameters, time, coordinates and rates at the end.
     #[allow(clippy::type_complexity)]
-    fn r#final<'py>(
+    fn end<'py>(
         &self,
         py: Python<'py>,
-    ) -> (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String) {
+    ) -> (Bound<'py, PyArray1<f64>>, f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
         let (t, q, u, p) = self.run.end(&self.of.mechanism());
-        let list = |v: &[f64]| PyArray1::from_slice(py, v);
-        (t, list(&q), list(&u), list(&p), "{}".to_string())
+        let list = |v: Vec<f64>| PyArray1::from_vec(py, v);
+        (list(p), t, list(q), list(u))
     }
-}
-
-fn struck(s: &simulation::Struck) -> serde_json::Value {
-    serde_json::json!({"name": s.name, "normal": s.normal, "tangent": s.tangent, "restitution": s.restitution})
 }

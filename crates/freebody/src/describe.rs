@@ -1,11 +1,20 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
 use crate::balance::{Count, Source};
-use crate::joints::Joint as _;
+use crate::joints::{Joint as _, Kind};
 use crate::mechanism::{Drive, Joint, Level, Mechanism, Part, Rubbing};
 use crate::mode::Mode;
 use crate::numbers::Numbers;
 use serde_json::{json, Map, Value};
+
+/// The cards of all joints, forces and shapes.
+pub fn cards() -> Value {
+    let joints: Vec<_> = Kind::ALL.iter().map(|k| k.card()).chain([crate::compile::coupling_card()]).collect();
+    let forces: Vec<_> = crate::forces::ALL.iter().map(|f| f.card()).collect();
+    let shapes: Vec<_> =
+        crate::shapes::SHAPES.iter().map(|(word, _, sizes)| json!({"type": word, "sizes": sizes})).collect();
+    json!({"joints": joints, "forces": forces, "shapes": shapes})
+}
 
 /// Bodies, parameters, coordinates, joints, forces, motions, events and notes.
 pub fn describe(m: &Mechanism) -> Value {

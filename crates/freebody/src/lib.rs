@@ -19,6 +19,7 @@ pub mod forces;
 pub mod free_bodies;
 pub mod gauges;
 pub mod graph;
+pub mod initial;
 pub mod joints;
 pub mod kinematics;
 pub mod letters;

@@ -1,6 +1,6 @@
 //! The numbers of a mechanism at given parameters.
 
-use crate::error::CompileError;
+use crate::error::{CompileError, Trouble};
 use crate::expr::{Env, Table};
 use crate::gauges::{Law, Leaf};
 use crate::mechanism::{Body, Coordinate, Mechanism, Slot, Spot};
@@ -208,6 +208,44 @@ impl Mechanism {
             }
         }
         Ok(())
+    }
+}
+
+impl Mechanism {
+    /// Whether arrays are a state: parameters, time, coordinates and rates, finite and as many as the mechanism has.
+    ///
+    /// # Errors
+    /// `wrong_size`, `not_finite`.
+    pub fn check_state(&self, p: &[f64], t: f64, q: &[f64], u: &[f64]) -> Result<(), Trouble> {
+        let coordinate = |i: usize| &self.coordinate(i).name;
+        self.check_parameters(p)?;
+        check_array("coordinate", q, self.freedom(), |i| coordinate(i).clone())?;
+        check_array("rate", u, self.freedom(), |i| format!("rate of {}", coordinate(i)))?;
+        check_array("time", &[t], 1, |_| "t".to_string())
+    }
+
+    /// Whether an array has a finite value of every parameter.
+    ///
+    /// # Errors
+    /// `wrong_size`, `not_finite`.
+    pub fn check_parameters(&self, p: &[f64]) -> Result<(), Trouble> {
+        check_array("parameter", p, self.parameters.len(), |i| self.parameters[i].name.clone())
+    }
+}
+
+fn check_array(what: &str, values: &[f64], wanted: usize, name: impl Fn(usize) -> String) -> Result<(), Trouble> {
+    if values.len() != wanted {
+        let sizes = format!(
+            "{wanted} {what}s are needed, and {} were given; take them from `bind` and `assemble`",
+            values.len()
+        );
+        return Err(Trouble::new("wrong_size", sizes));
+    }
+    match values.iter().position(|x| !x.is_finite()) {
+        Some(i) => {
+            Err(Trouble::new("not_finite", format!("{} = {} is no finite number; give it a value", name(i), values[i])))
+        }
+        None => Ok(()),
     }
 }
 

@@ -12,7 +12,7 @@ import numpy as np
 from freebody.balances.candidates import Candidate, has_letters
 from freebody.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.balances.system import Problem
-from freebody.free_body import Pair
+from freebody.core import Pair
 from freebody.results import Array
 from freebody.tables import figure
 
@@ -30,7 +30,7 @@ class BalanceEquation:
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
     touches the bodies, but is not in the equation, each with the reason. ``question`` asks the core for the equation in
-    letters (``_core.Mechanism.letters``); None where the point has no letters, being one of inertia.
+    letters (``CompiledModel.letters``); None where the point has no letters, being one of inertia.
     """
 
     kind: str

@@ -16,7 +16,7 @@ from freebody.balances.candidates import ABSENT
 from freebody.balances.groups import Group, groups
 from freebody.balances.system import Problem, problem
 from freebody.balances.twists import SAME_PLACE, NamedPoints, Twist, Twists, known_shifts, mass_centre, named_twists
-from freebody.free_body import FreeBodies
+from freebody.core import FreeBodies
 from freebody.results import Array
 
 DISTINCT = 1e-6

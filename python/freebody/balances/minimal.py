@@ -15,7 +15,7 @@ from freebody.balances.search import Supports, plainest, set_cost, unions, withi
 from freebody.balances.smallest import COUNT
 from freebody.balances.system import DEPENDENT, Problem, problem
 from freebody.balances.twists import NamedPoints
-from freebody.free_body import FreeBodies
+from freebody.core import FreeBodies
 from freebody.tables import PlainText
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.balances.candidates import ABSENT, Candidate
 from freebody.balances.system import Problem, Unknown
-from freebody.free_body import Load, Pair
+from freebody.core import Load, Pair
 
 AT = 1e-9
 """Distance over length of the mechanism below which a load acts at a point."""

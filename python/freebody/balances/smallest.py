@@ -12,7 +12,7 @@ from freebody.balances.equation import BalanceEquation, disagreement, equation, 
 from freebody.balances.search import smallest
 from freebody.balances.system import Problem, problem, released
 from freebody.balances.twists import NamedPoints
-from freebody.free_body import FreeBodies, Indeterminate
+from freebody.core import FreeBodies, Indeterminate
 from freebody.tables import PlainText, figure
 
 DETERMINED = 1e-8

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody import _core
 from freebody.balances.system import DEPENDENT, alike
-from freebody.free_body import FreeBodies, Load, Row
-from freebody.instant import State
+from freebody.core import CompiledModel, FreeBodies, Load, MotionError, Row, State
 from freebody.results import Array
 
 if TYPE_CHECKING:
-    from freebody.source import Source
+    pass
 
 SEED = 20
 OTHERS = 3
@@ -34,11 +31,11 @@ CLOSED = 1e-12
 """Gap over size of the mechanism below which what touches does so, and the reasons for zeros hold to round-off."""
 
 
-def nearby(source: Source, state: State, parameters: Sequence[Array] = ()) -> list[FreeBodies]:
+def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()) -> list[FreeBodies]:
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
     there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have
     ``parameters``, one after the other, or come as near to these as they can."""
-    first = _free(source.core, state)
+    first = source.free_bodies(state)
     coordinates = source.about["coordinates"]
     in_order = {c["name"]: first.accelerations[c["name"]] for c in coordinates}
     first = replace(first, accelerations=in_order)
@@ -59,15 +56,15 @@ def nearby(source: Source, state: State, parameters: Sequence[Array] = ()) -> li
     return found
 
 
-def wandering(source: Source, state: State) -> list[FreeBodies]:
+def wandering(source: CompiledModel, state: State) -> list[FreeBodies]:
     """The free bodies at a state, and at ``others`` where the same things act."""
-    return [_free(source.core, each) for each in (state, *others(source, state))]
+    return [source.free_bodies(each) for each in (state, *others(source, state))]
 
 
-def others(source: Source, state: State) -> list[State]:
+def others(source: CompiledModel, state: State) -> list[State]:
     """States of the same mode: at the places of a state and near by, with random rates that keep closed what is closed, each at a
     time of its own. The same things act there, and what slides or bears on a tooth does so in the same sense."""
-    first = _free(source.core, state)
+    first = source.free_bodies(state)
     rng = np.random.default_rng(SEED)
     scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.about["coordinates"]])
     closing, found = Closing(source, state, first), []
@@ -77,17 +74,13 @@ def others(source: Source, state: State) -> list[State]:
             rates, t = scale * rng.uniform(-1, 1, len(scale)), state.t + rng.uniform(0, 1)
             try:
                 other = closing.moving(q, rates, t)
-                free = _free(source.core, other)
-            except _core.MotionError:
+                free = source.free_bodies(other)
+            except MotionError:
                 continue
             held = np.abs(closing.rows(free) @ other.u).max(initial=0.0) < CLOSED_RATE * np.abs(scale).max(initial=1.0)
             if held and alike(free, first) and _senses(free) == _senses(first) and np.isfinite(_places(free)).all():
                 found.append(other)
     return found
-
-
-def _free(core: _core.Mechanism, state: State) -> FreeBodies:
-    return FreeBodies.read(core.free_bodies(state.p, state.t, state.q, state.u))
 
 
 def _senses(free: FreeBodies) -> list[bool]:
@@ -99,8 +92,8 @@ def _senses(free: FreeBodies) -> list[bool]:
 class Closing:
     """Brings coordinates onto closed loops, and what touches or is taut in a state back to a gap of 0."""
 
-    def __init__(self, source: Source, state: State, first: FreeBodies) -> None:
-        self.core, self.state = source.core, state
+    def __init__(self, source: CompiledModel, state: State, first: FreeBodies) -> None:
+        self.core, self.state = source, state
         self.loose = _without_motions(source)
         self.names = [c["name"] for c in source.about["coordinates"]]
         limits = [limit["name"] for limit in source.about["limits"]]
@@ -118,8 +111,8 @@ class Closing:
         if found is None:
             return None
         try:
-            return FreeBodies.read(self.core.free_bodies(s.p, s.t, found, s.u - self.back @ (self.slopes @ s.u)))
-        except _core.MotionError:
+            return self.core.free_bodies(replace(s, q=found, u=s.u - self.back @ (self.slopes @ s.u)))
+        except MotionError:
             return None
 
     def place(self, q: Array) -> Array | None:
@@ -129,7 +122,7 @@ class Closing:
         out = OUT * self.size
         try:
             for _ in range(CORRECTIONS):
-                q, _, _ = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)))
+                q = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)))[0].q
                 gaps = self._gaps(q)
                 if gaps is None:
                     q, out = q + out * outward, 2 * out
@@ -137,16 +130,16 @@ class Closing:
                     return q
                 else:
                     q, out = q - NEARLY * (self.back @ gaps), OUT * largest
-        except _core.MotionError:
+        except MotionError:
             pass
         return None
 
     def moving(self, q: Array, rates: Array, t: float) -> State:
         """A place and a time, with the rates nearest to some that keep closed what is closed: what that is depends on the rates.
-        Raises ``_core.MotionError``."""
+        Raises ``MotionError``."""
         found = State(self.state.p, t, q, np.zeros_like(rates))
         for _ in range(PASSES):
-            held = self.rows(_free(self.core, found))
+            held = self.rows(self.core.free_bodies(found))
             rates = rates - np.linalg.pinv(held, rcond=DEPENDENT) @ (held @ rates)
             found = State(self.state.p, t, q, rates)
         return found
@@ -159,14 +152,13 @@ class Closing:
         """What is left of the gap of every row, 0 for one of friction; None where something is pierced, or stretched too far."""
         if not self.closed:
             return np.zeros(0)
-        s = self.state
         try:
-            told = json.loads(self.core.instant(s.p, s.t, q, np.zeros_like(s.u)).limits)
-        except _core.MotionError as error:
-            if error.args[0] == "penetration":
+            told = list(self.core.instant(self.state.at(q)).limits.values())
+        except MotionError as error:
+            if error.kind == "penetration":
                 return None
             raise
-        return np.array([told[i]["gap"] for i in self.closed]) * self.normal
+        return np.array([told[i].gap for i in self.closed]) * self.normal
 
 
 def _in_pairs(free: FreeBodies) -> Iterator[tuple[Row, Load]]:
@@ -178,13 +170,12 @@ def _in_pairs(free: FreeBodies) -> Iterator[tuple[Row, Load]]:
         )
 
 
-def _without_motions(source: Source) -> _core.Mechanism:
+def _without_motions(source: CompiledModel) -> CompiledModel:
     """The same mechanism, its motions holding accelerations only, so that they have no say in where it is."""
-    spec: dict[str, Any] = json.loads(source.spec)
-    if not spec.get("motions"):
-        return source.core
-    spec["motions"] = [{**motion, "level": "acceleration"} for motion in spec["motions"]]
-    return _core.Mechanism(json.dumps(spec))
+    if not source.spec.get("motions"):
+        return source
+    motions = [{**motion, "level": "acceleration"} for motion in source.spec["motions"]]
+    return CompiledModel.of({**source.spec, "motions": motions})
 
 
 def _size(free: FreeBodies) -> float:

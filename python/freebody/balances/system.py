@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.free_body import GROUND, FreeBodies, Indeterminate, Load, Part
+from freebody.core import GROUND, FreeBodies, Indeterminate, Load, Part
 from freebody.results import Array
 
 DEPENDENT = 1e-7

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from freebody.balances.system import Problem
-from freebody.free_body import FreeBodies, Load, Pair
+from freebody.core import FreeBodies, Load, Pair
 from freebody.results import Array
 
 SAME_PLACE = 1e-9
@@ -23,7 +23,7 @@ ONE_LINE = 1e-7
 """Size of the product of two unit wrenches below which they act along one line."""
 
 NamedPoints = Mapping[str, tuple[str, float, float]]
-"""Points of bodies: name → body, x, y in its frame (``_core.Mechanism.points``)."""
+"""Points of bodies: name → body, x, y in its frame (``CompiledModel.points``)."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from freebody.instant import State
+from freebody.core import State
 
 from .families import NoMotion
 
@@ -61,11 +61,10 @@ class Loop:
 
     def _closed(self, state: State, fixed: Mapping[str, float], rates: Mapping[str, float]) -> State:
         near = dict(zip(self.names, state.q.tolist(), strict=True))
-        q, u, _ = self.core.assemble(state.p, state.t, fixed=fixed, guess=near, rates=rates, branch=self.branch)
-        return State(state.p, state.t, q, u)
+        return self.core.assemble(state.p, state.t, fixed=fixed, guess=near, rates=rates, branch=self.branch)[0]
 
     def _rates(self, state: State) -> dict[str, float]:
         return {name: float(state.u[self.names.index(name)]) for name in self.free}
 
     def _value(self, text: str, state: State) -> float:
-        return float(self.core.evaluate([text], state.p, state.t, state.q, state.u)[0])
+        return float(self.core.evaluate([text], state)[0])

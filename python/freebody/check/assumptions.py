@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from freebody import _core
+from freebody.core import ModelError
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.evaluate import sampled as evaluate
@@ -40,7 +40,7 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     if words := _small(case, equation):
         return (words,)
     for words, families in _limits(case):
-        with suppress(NoMotion, StatementError, _core.ModelError):
+        with suppress(NoMotion, StatementError, ModelError):
             if _tends(case, equation, families):
                 return (words,)
     return ()
@@ -63,7 +63,7 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
 def _excuses(case: Case, equation: Equation, family: Family) -> bool:
     try:
         return _holds(case, equation, family)
-    except (StatementError, _core.ModelError):
+    except (StatementError, ModelError):
         return False
 
 
@@ -79,7 +79,7 @@ def _small(case: Case, equation: Equation) -> str:
     """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
     given, angles = case.hypothesis, _angles(case, equation)
     small = tuple((text, SMALL) for n in angles for text in case.meaning.texts(n))
-    with suppress(NoMotion, StatementError, _core.ModelError):
+    with suppress(NoMotion, StatementError, ModelError):
         if small and not given.small and first_order(case, equation, replace(given, small=small)):
             return f"{_words(angles)}, to first order"
     return ""

@@ -139,8 +139,8 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
 def _along(checker: Checker, sample: Sample) -> Samples:
     """States along the motion that goes on from a true state."""
     truth, state = checker.truth, sample.state
-    motion = truth.core.simulate(state.p, state.t, state.q, state.u, state.t + 1 / truth.rate, rtol=1e-11, max_steps=5000)
-    ends = motion.final()[0]
+    motion = truth.core.simulate(state, state.t + 1 / truth.rate, rtol=1e-11, max_steps=5000)
+    ends = motion.end.t
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     qs, us = motion.sample(times)
     states = [replace(state, t=float(t), q=q, u=u) for t, q, u in zip(times, qs, us, strict=True)]

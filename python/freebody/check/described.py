@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody import _core
-from freebody.instant import State
+from freebody.core import CompiledModel, MotionError, State
 from freebody.model.start import Start, initial_state
 from freebody.model.units import Dimension
-from freebody.switched import with_dimensions
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -27,10 +24,10 @@ class Described:
     def __init__(self, mechanism: Builder) -> None:
         lowered = mechanism.lowered()
         self.start: Start = lowered.start
-        self.spec: dict[str, Any] = json.loads(json.dumps(lowered.spec))
+        self.spec: dict[str, Any] = {**lowered.spec, "parameters": list(lowered.spec["parameters"])}
         self.gravity = self._parametrised_gravity()
-        self.core = _core.Mechanism(json.dumps(self.spec))
-        self.about = with_dimensions(json.loads(self.core.describe()), self.spec)
+        self.core = CompiledModel.of(self.spec)
+        self.about = self.core.about
         self.fixed_counts = _counts(mechanism)
 
     def _parametrised_gravity(self) -> str | None:
@@ -85,14 +82,13 @@ class Described:
         """The start with other parameters. Raises ``MotionError`` and ``Complaint``."""
         words = initial_state(self.start, self.core, parameters)
         p = words.pop("p")
-        q, u, _ = self.core.assemble(p, 0.0, **words)
-        return State(p, 0.0, q, u)
+        return self.core.assemble(p, 0.0, **words)[0]
 
     @cached_property
     def length(self) -> float:
         """A length typical of the model, m."""
-        places = json.loads(self.core.points(self.core.bind({})))
-        found = [math.hypot(*_place(at)) for at in places.values()] if isinstance(places, dict) else []
+        places = self.core.points(self.core.bind({}))
+        found = [math.hypot(x, y) for _, x, y in places.values()]
         state = self.first
         found += [abs(q) for q, c in zip(state.q, self.coordinates, strict=True) if c["dimension"] == "m"]
         return max([x for x in found if x > 0], default=1.0)
@@ -108,9 +104,9 @@ class Described:
         state = self.first
         sizes = np.array([1.0 if c["dimension"] == "rad" else 1 / self.length for c in self.coordinates])
         try:
-            solved = self.core.instant(state.p, state.t, state.q, state.u)
+            solved = self.core.instant(state)
             found = math.sqrt(np.max(np.abs(solved.accelerations * sizes), initial=0.0))
-        except _core.MotionError:
+        except MotionError:
             found = 0.0
         own = float(np.max(np.abs(state.u * sizes), initial=0.0))
         return float(np.clip(max(found, own), 1e-3, 1e3)) if max(found, own) > 0 else 1.0
@@ -118,10 +114,8 @@ class Described:
     @cached_property
     def freedom(self) -> int:
         """Rates that can be given at will."""
-        state = self.first
-        solved = self.core.instant(state.p, state.t, state.q, state.u)
         given = sum(motion["engaged"] and motion["level"] != "acceleration" for motion in self.spec["motions"])
-        return max(int(json.loads(solved.rank)["freedom"]) - given, 0)
+        return max(self.core.instant(self.first).rank.freedom - given, 0)
 
     @cached_property
     def loops(self) -> int:
@@ -135,11 +129,6 @@ class Described:
     def shapes_loops(self, name: str) -> bool:
         """Whether a parameter may be a length of a closed loop."""
         return self.shapes_loop(self.start.parameters.get(name))
-
-
-def _place(at: Any) -> Iterator[float]:
-    """Coordinates of a point in its body's frame."""
-    return (float(x) for x in at[1:3]) if len(at) >= 3 and not isinstance(at[1], list) else iter((0.0,))
 
 
 def _counts(mechanism: Builder) -> set[str]:

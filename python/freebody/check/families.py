@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from freebody import _core
-from freebody.instant import State
+from freebody.core import CompiledModel, State
 from freebody.results import Array
 
 from .declared import LOAD
@@ -60,7 +58,7 @@ class Samples:
 
     Reactions that are not determined have random admissible values; with ``stress`` 0 those of least norm."""
 
-    core: _core.Mechanism
+    core: CompiledModel
     samples: list[Sample]
     names: list[str]
     stress: float = 1.0
@@ -83,10 +81,7 @@ class Samples:
     def _row(self, sample: Sample, texts: Sequence[str]) -> Array:
         state, motion = sample.state, sample.motion
         plain = [text for text in texts if not text.startswith(LOAD)]
-        if motion is not None:
-            found = motion.evaluate(plain, np.array([state.t]))[0]
-        else:
-            found = self.core.evaluate(plain, state.p, state.t, state.q, state.u)
+        found = motion.evaluate(plain, np.array([state.t]))[0] if motion else self.core.evaluate(plain, state)
         if len(plain) == len(texts):
             return found
         known = {**self._loads(sample), **dict(zip(plain, found.tolist(), strict=True))}
@@ -95,8 +90,8 @@ class Samples:
     def _loads(self, sample: Sample) -> dict[str, float]:
         """Every load that is determined, as a text that begins with ``LOAD``."""
         state, motion = sample.state, sample.motion
-        text = motion.free_bodies(state.t) if motion else self.core.free_bodies(state.p, state.t, state.q, state.u)
-        return {LOAD + load["symbol"]: load["value"] for load in json.loads(text)["loads"] if load["value"] is not None}
+        free = motion.free_bodies(state.t) if motion else self.core.free_bodies(state)
+        return {LOAD + load.symbol: load.value for load in free.loads if not np.isnan(load.value)}
 
     def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
         """A row in which what reads reactions that are not determined has a value, too."""
@@ -107,17 +102,16 @@ class Samples:
         state = sample.state
         if lost:
             told = [written_out(texts[i], values) for i in lost]
-            row[lost] = self.core.evaluate(told, state.p, state.t, state.q, state.u)
+            row[lost] = self.core.evaluate(told, state)
             self.loose |= {texts[i] for i in lost}
         return row
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
         if not self.weighed:
-            told = [json.loads(self.core.free_bodies(s.state.p, s.state.t, s.state.q, s.state.u))["bodies"] for s in self.samples]
-            for i, body in enumerate(told[0]):
-                mass, inertia = (np.array([row[i][word] or 0.0 for row in told]) for word in ("mass", "inertia"))
-                self.weighed[body["name"]] = mass, inertia
+            told = [self.core.free_bodies(s.state).bodies for s in self.samples]
+            for name in told[0]:
+                self.weighed[name] = np.array([row[name].mass for row in told]), np.array([row[name].inertia for row in told])
         return self.weighed
 
     def parameters(self, k: int) -> dict[str, float]:

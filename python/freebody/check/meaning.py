@@ -124,8 +124,8 @@ class StatementLetters:
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
         state = self.truth.first
-        told = json.loads(self.truth.core.free_bodies(state.p, state.t, state.q, state.u))["loads"]
-        named = [Sym(load["symbol"]) for load in told if load["unknown"] and load["determinate"]]
+        loads = self.truth.core.free_bodies(state).loads
+        named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
         known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
 

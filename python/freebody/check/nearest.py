@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,6 @@ from freebody.balances.system import Problem, problem
 from freebody.balances.twists import named_twists
 from freebody.equations import Letters as Printed
 from freebody.equations import Tree, equation_text, read, symbols
-from freebody.free_body import FreeBodies
 from freebody.symbolic.tree import Sym
 
 from .families import NoMotion
@@ -52,21 +50,21 @@ def nearest(case: Case, equation: Equation) -> str:
         state = case.samples().samples[0].state
     except NoMotion:
         return ""
-    core, where = case.truth.core, (state.p, state.t, state.q, state.u)
-    given = problem([FreeBodies.read(core.free_bodies(*where))])
-    points = json.loads(core.points(core.bind({})))
+    core = case.truth.core
+    given = problem([core.free_bodies(state)])
+    points = core.points(core.bind())
     asked = list(islice(_questions(given, points), _MOST))
     questions = [{**question, "terms": False, "momentum": False} for _, question in asked]
-    told = json.loads(core.letters(*where, "{}", json.dumps([{"ask": "rows"}, *questions])))
-    said = _said(case, equation, told["letters"])
-    kinds = {name: entry["kind"] for name, entry in told["letters"].items()}
+    told = core.letters(state, [{"ask": "rows"}, *questions])
+    said = _said(case, equation, told.letters)
+    kinds = {name: entry["kind"] for name, entry in told.letters.items()}
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
-    found = [*_balances(asked, told["answers"][1:]), *_rows(told["answers"][0], max((s.dots for s in said), default=0))]
+    found = [*_balances(asked, told.answers[1:]), *_rows(told.answers[0], max((s.dots for s in said), default=0))]
     common = [each for each in found if (unknown & each.unknown if unknown else _rates(said) & _rates(each.unknown))]
     if not common:
         return ""
     best = min(common, key=lambda each: each.distance(said, unknown or _rates(said)))
-    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in told["letters"].items()})
+    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in told.letters.items()})
     told = equation_text(best.left, best.right, table, width=_LONG)
     return f"{best.words} reads: {told}" if len(told) < _LONG else f"{best.words} is too long to be told"
 

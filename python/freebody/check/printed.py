@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from freebody import _core
+from freebody.core import MotionError
 from freebody.model.errors import Complaint
 from freebody.model.names import spell
 from freebody.symbolic.symbols import Renamed, unicode_name
@@ -35,7 +35,7 @@ def printed(mechanism: Builder) -> Mapping[str, str]:
             *_whole(subject),
             *_directions(subject),
         ]
-    except (_core.MotionError, Complaint):
+    except (MotionError, Complaint):
         return {}
     return dict(found)
 
@@ -46,7 +46,7 @@ def renamed(mechanism: Builder) -> list[Renamed]:
 
     try:
         return list(Subject(mechanism.source(), mechanism.start()[0]).symbols.renamed.values())
-    except (_core.MotionError, Complaint):
+    except (MotionError, Complaint):
         return []
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -11,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody import _core
-from freebody.instant import State
+from freebody.core import CompiledModel, Limit, State
 from freebody.results import Array, quote
 
 from .described import Described
@@ -44,9 +42,7 @@ class OnRuns(Described):
         """Whether limits, joint friction or events at the start decide what moves, so that states must lie on runs."""
         if any(event.get("opening") for event in self.spec.get("events", [])) or self._sticky:
             return True
-        state = self.first
-        limits = json.loads(self.core.instant(state.p, state.t, state.q, state.u).limits)
-        return any(limit["state"] != "open" for limit in limits)
+        return not all(limit.is_open for limit in self.core.instant(self.first).limits.values())
 
     @cached_property
     def _sticky(self) -> list[str]:
@@ -64,7 +60,7 @@ class OnRuns(Described):
         return Sample(state, self._run(state, 1e-6 / self.rate))
 
     def _run(self, state: State, until: float) -> Any:
-        return self.core.simulate(state.p, state.t, state.q, state.u, state.t + until, rtol=_RTOL, max_steps=_STEPS)
+        return self.core.simulate(state, state.t + until, rtol=_RTOL, max_steps=_STEPS)
 
     def rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         n = len(self.coordinates)
@@ -83,7 +79,7 @@ class OnRuns(Described):
         if rng.random() < 0.7 and not (family.at_rest or family.at_start or self._lies):
             state = self._moving(rng, state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
-        ends = motion.final()[0]
+        ends = motion.end.t
         t = min(late, 0.9 * ends)
         q, u = (a[0] for a in motion.sample(np.array([t])))
         found = State(state.p, t, q, u)
@@ -97,11 +93,10 @@ class OnRuns(Described):
         if family.since == "rest":
             near = {c["name"]: float(x) for c, x in zip(self.coordinates, state.q, strict=True)}
             rates = self.rates(rng, replace(family, at_rest=True))
-            q, u, _ = self.core.assemble(state.p, state.t, guess=near, rates=rates)
-            state = State(state.p, state.t, q, u)
+            state, _ = self.core.assemble(state.p, state.t, guess=near, rates=rates)
         late = rng.uniform(0.05, 0.3) / self.rate
-        motion = self.core.simulate(state.p, state.t, state.q, state.u, state.t + late, rtol=_EXACT, max_steps=_STEPS)
-        ends = [motion.final()[0], *(change["t"] for change in json.loads(motion.changes) if change["t"] > state.t)]
+        motion = self.core.simulate(state, state.t + late, rtol=_EXACT, max_steps=_STEPS)
+        ends = [motion.end.t, *(change.t for change in motion.changes if change.t > state.t)]
         t = state.t + 0.99 * (min(ends) - state.t)
         q, u = (a[0] for a in motion.sample(np.array([t])))
         found = State(state.p, t, q, u)
@@ -114,21 +109,21 @@ class OnRuns(Described):
         names, sizes = [c["name"] for c in self.coordinates], self._sizes
         q = state.q + _APART * sizes * rng.uniform(-1, 1, len(names))
         for _ in range(_PLACES):
-            q, u, _ = self.core.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)))
-            gaps = self._gaps(State(state.p, state.t, q, u), q)
+            found, _ = self.core.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)))
+            gaps = self._gaps(found, found.q)
             if not np.isfinite(gaps[self._closed]).all():
                 break
             if np.max(np.abs(gaps[self._closed]), initial=0.0) < _TOUCHES * self.length:
-                return State(state.p, state.t, q, u) if not u.any() else state
-            slopes = self._slopes(State(state.p, state.t, q, u), self._closed)
-            q = q - np.linalg.pinv(slopes * sizes) @ gaps[self._closed] * sizes
+                return found if not found.u.any() else state
+            slopes = self._slopes(found, self._closed)
+            q = found.q - np.linalg.pinv(slopes * sizes) @ gaps[self._closed] * sizes
         return state
 
     @cached_property
     def _closed(self) -> list[int]:
         """The limits that are closed at the model's own start."""
-        limits = self._limits(self.core, self.first, self.first.q)
-        return [i for i, held in enumerate(self._own_mode[: len(limits)]) if held[0] != "open"]
+        limits = self._own_mode[: len(self.about["limits"])]
+        return [i for i, held in enumerate(limits) if held[0] not in ("open", "slack")]
 
     @cached_property
     def _sizes(self) -> Array:
@@ -139,16 +134,16 @@ class OnRuns(Described):
         """Random rates that keep closed what is closed."""
         names, sizes = [c["name"] for c in self.coordinates], self.rates(rng, ALL)
         wanted = np.array([sizes.get(name, 0.0) for name in names])
-        q, u, _ = self.core.assemble(
+        found, _ = self.core.assemble(
             state.p,
             state.t,
             guess=dict(zip(names, state.q.tolist(), strict=True)),
             rates={n: x for n, x in zip(names, wanted.tolist(), strict=True) if n in sizes},
         )
-        if not np.allclose(q, state.q, atol=1e-9 * self.length):
+        if not np.allclose(found.q, state.q, atol=1e-9 * self.length):
             return state
-        closed = [i for i, limit in enumerate(self._limits(self.core, state, state.q)) if limit["state"] != "open"]
-        return State(state.p, state.t, state.q, _without(u - state.u, self._slopes(state, closed)) + state.u)
+        closed = [i for i, limit in enumerate(self._limits(self.core, state, state.q)) if not limit.is_open]
+        return State(state.p, state.t, state.q, _without(found.u - state.u, self._slopes(state, closed)) + state.u)
 
     def _slopes(self, state: State, closed: Sequence[int]) -> Array:
         """Gradients of the gaps of limits, a row each."""
@@ -158,28 +153,27 @@ class OnRuns(Described):
 
     def _gaps(self, state: State, q: Array) -> Array:
         """How far every limit is from closing, less than 0 where it is violated, NaN where it has no gap."""
-        return np.array([limit["gap"] for limit in self._limits(self._untouched, state, q)], dtype=float)
+        return np.array([limit.gap for limit in self._limits(self._untouched, state, q)])
 
-    def _limits(self, core: _core.Mechanism, state: State, q: Array) -> list[dict[str, Any]]:
-        return json.loads(core.instant(state.p, state.t, q, np.zeros_like(q)).limits)
+    def _limits(self, core: CompiledModel, state: State, q: Array) -> list[Limit]:
+        return list(core.instant(state.at(q)).limits.values())
 
     @cached_property
-    def _untouched(self) -> _core.Mechanism:
+    def _untouched(self) -> CompiledModel:
         """The model with nothing that its limits do."""
         off = {kind: [{**limit, "engaged": False} for limit in self.spec[kind]] for kind in ("contacts", "strings", "stops")}
-        return _core.Mechanism(json.dumps({**self.spec, **off}))
+        return CompiledModel.of({**self.spec, **off})
 
     @cached_property
     def _own_mode(self) -> tuple[Any, ...]:
         motion = self._run(self.first, 1e-3 / self.rate)
-        t, q, u, *_ = motion.final()
-        return self._mode(motion, State(self.first.p, t, q, u))
+        return self._mode(motion, motion.end)
 
     def _mode(self, motion: Any, state: State) -> tuple[Any, ...]:
         """How every limit is held, to which side it slides, to which side every joint rubs, and at how many places contacts hold."""
         limits = tuple(
-            (x["state"], np.sign(round(x["friction"] or 0.0, 12)) if x["state"] == "sliding" else 0)
-            for x in json.loads(motion.instant(state.t).limits)
+            (x.state, np.sign(round(np.nan_to_num(x.T), 12)) if x.state == "sliding" else 0)
+            for x in motion.instant(state.t).limits.values()
         )
         rubs = motion.evaluate(self._rubbing, np.array([state.t]))[0] if self._rubbing else np.empty(0)
         slow = 1e-9 * self.rate * min(self.length, 1.0)
@@ -193,8 +187,7 @@ class OnRuns(Described):
 
     def _places(self, state: State) -> int:
         """At how many places contacts hold that hold at several."""
-        told = json.loads(self.core.free_bodies(state.p, state.t, state.q, state.u))["loads"]
-        return sum(bool(_ONE_OF_SEVERAL.search(load["symbol"])) for load in told)
+        return sum(bool(_ONE_OF_SEVERAL.search(load.symbol)) for load in self.core.free_bodies(state).loads)
 
 
 def _same(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:

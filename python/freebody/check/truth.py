@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody import _core
-from freebody.instant import State
+from freebody.core import ModelError, MotionError, State
 from freebody.model.errors import Complaint
 from freebody.model.start import evaluate, initial_state
 from freebody.model.units import Dimension
@@ -57,8 +56,8 @@ class Truth(OnRuns):
     def _why_none(self, family: Family) -> str:
         try:
             _ = self.first
-        except _core.MotionError as error:
-            return f"the model does not start: {error.args[2]}"
+        except MotionError as error:
+            return f"the model does not start: {error.what}"
         there = "".join(f"has `{_told(text)}` and " for text in family.vanishing)
         return f"no motion of this model was found that {there}is not singular, on a limit or of another mode than its start"
 
@@ -85,7 +84,7 @@ class Truth(OnRuns):
             try:
                 values = self._parameters(rng, family)
                 made = self._made(rng, values, family)
-            except (_core.MotionError, _core.ModelError, Complaint, ZeroDivisionError):
+            except (MotionError, ModelError, Complaint, ZeroDivisionError):
                 continue
             if made is not None:
                 return made
@@ -151,39 +150,38 @@ class Truth(OnRuns):
         guess = own + spread * rng.uniform(-1, 1, len(own))
         near = {c["name"]: float(x) for c, x in zip(self.coordinates, guess, strict=True)}
         rates = self.rates(rng, family)
-        q, u, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
+        state, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
         small = [f"({text}) - ({size * _about(rng)!r})" for text, size in family.small]
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in family.small if not family.at_rest]
         for text in (*family.vanishing, *small, *slow):
-            q, u = self._vanished(text, State(p, t, q, u), list(rates), words["branch"])
-        solved = self.core.instant(p, t, q, u)
-        if any(limit["state"] != "open" or limit["gap"] < 0 for limit in json.loads(solved.limits)):
+            state = self._vanished(text, state, list(rates), words["branch"])
+        solved = self.core.instant(state)
+        if not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
             return None
         sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(u) < _FAST * sizes)
-        return Sample(State(p, t, q, u)) if good else None
+        good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(state.u) < _FAST * sizes)
+        return Sample(state) if good else None
 
-    def _vanished(self, text: str, state: State, free: list[str], branch: Mapping[str, int]) -> tuple[Array, Array]:
+    def _vanished(self, text: str, state: State, free: list[str], branch: Mapping[str, int]) -> State:
         """The nearest place, or else the nearest rates there, where an expression is 0."""
         q, u = state.q, state.u
         if self.loops:
             if abs(self._slope(text, state, q, u, 0)[0]) > _NOTHING and not free:
                 raise NoMotion(f"`{_told(text)}` cannot be arranged: the loops of this mechanism leave it no freedom")
-            found = Loop(self.core, [c["name"] for c in self.coordinates], free, branch).vanished(text, state) if free else state
-            return found.q, found.u
+            return Loop(self.core, [c["name"] for c in self.coordinates], free, branch).vanished(text, state) if free else state
         for _ in range(30):
             value, slope = self._slope(text, state, q, u, 0)
             if not slope.any() or abs(value) < 1e-14:
                 break
             q = q - slope * value / (slope @ slope)
         value, slope = self._slope(text, state, q, u, 1)
-        return q, u - slope * value / (slope @ slope) if slope.any() else u
+        return replace(state, q=q, u=u - slope * value / (slope @ slope) if slope.any() else u)
 
     def _slope(self, text: str, state: State, q: Array, u: Array, order: int) -> tuple[float, Array]:
         """The value of an expression and its gradient by coordinates (0) or rates (1)."""
 
         def at(dq: Array, du: Array) -> float:
-            return float(self.core.evaluate([text], state.p, state.t, q + dq, u + du)[0])
+            return float(self.core.evaluate([text], replace(state, q=q + dq, u=u + du))[0])
 
         still, steps = np.zeros_like(q), _STEP * np.eye(len(q))
         if order:

@@ -107,7 +107,7 @@ def validate(
     from freebody.cli import show
 
     mechanism = opened(model)
-    show.mechanism(json.loads(mechanism.compile().describe()), mechanism.solve().explanation, as_json)
+    show.mechanism(mechanism.compile().about, mechanism.solve().explanation, as_json)
     if output:
         mechanism.drawing().figure.savefig(output)
         if not as_json:
@@ -290,15 +290,15 @@ def chosen(identity: str | None) -> list[System]:
 
 def derived(system: System) -> None:
     """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
-    from freebody import _core
+    from freebody.core import MotionError
     from freebody.equations.derivation.derive import FORMS
 
     for model in system.models:
         try:
             for form in FORMS:
                 typer.echo(opened(model).equations(form).text())
-        except _core.MotionError as error:
-            typer.echo(f"{model.name}: {error.args[2]}\n")
+        except MotionError as error:
+            typer.echo(f"{model.name}: {error.what}\n")
 
 
 def pictured(systems: list[System], page: Path) -> None:

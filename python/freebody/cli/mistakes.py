@@ -35,7 +35,7 @@ class Guarded(TyperGroup):
 
 def explained(error: Exception) -> str | None:
     """What is wrong and what to try; None for an error that is ours."""
-    from freebody import _core
+    from freebody.core import ExpressionError, ModelError, MotionError
     from freebody.model.errors import Complaint, ModelFileError, Problem
 
     if isinstance(error, OSError) and error.filename:
@@ -44,12 +44,12 @@ def explained(error: Exception) -> str | None:
         return "\n".join(map(_placed, error.problems))
     if where := getattr(error, "where", None):
         return str(Problem(where, *error.args[-2:]))
-    if isinstance(error, (Mistake, Complaint, _core.ModelError, _core.ExpressionError, _core.MotionError)):
+    if isinstance(error, (Mistake, Complaint, ModelError, ExpressionError, MotionError)):
         # The last two are always what is wrong and what to try; a place in front of them is a path in the model.
         *_, what, hint = error.args
-        if isinstance(error, _core.MotionError):
+        if isinstance(error, MotionError):
             hint = hint.replace("; ", "\n  ")
-        place = f"{error.args[0]}: " if isinstance(error, _core.ModelError) else ""
+        place = f"{error.args[0]}: " if isinstance(error, ModelError) else ""
         return f"{place}{what}\n  {hint}" if hint else f"{place}{what}"
     # A bare KeyError or IndexError says nothing to a user: it is a slip of ours.
     spoken = isinstance(error, (ValueError, LookupError, ImportError)) and not isinstance(error, (KeyError, IndexError))

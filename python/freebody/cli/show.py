@@ -15,14 +15,14 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from freebody.free_body import Indeterminate
+from freebody.core import Indeterminate
 from freebody.views.peaks import Peak, peak_reactions
 
 if TYPE_CHECKING:
     from freebody.compare import Comparison
+    from freebody.core import Change
     from freebody.instant import Instant, Reaction
     from freebody.run import Run
-    from freebody.switched import Change
 
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3

@@ -11,6 +11,7 @@ import numpy as np
 
 from freebody.balances.states import nearby, others
 from freebody.balances.system import NotUnknown
+from freebody.core import State
 from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.balancing import blocks
 from freebody.equations.derivation.meaning import joined
@@ -23,7 +24,7 @@ from freebody.equations.ratios import Ratios, driven, ratios
 from freebody.equations.ratios import blocks as of_ratios
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.still import held_still
-from freebody.instant import Instant, State
+from freebody.instant import Instant
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.measured import shown
@@ -309,12 +310,12 @@ def _closed(subject: Subject, chosen: Given) -> list[State]:
 
 def _like(subject: Subject, there: Subject) -> Subject | None:
     """Another state of a subject, if the same loads act there, and what is closed is so."""
-    from freebody import _core
+    from freebody.core import MotionError
 
     try:
         gaps = [evaluate(row.value, there.values, there.tables) for row in there.rows if row.value is not None]
         same = _acting(there) == _acting(subject) and np.abs(gaps).max(initial=0.0) < AGREES
-    except _core.MotionError:  # what touches here would be pressed in
+    except MotionError:  # what touches here would be pressed in
         return None
     return there if same else None
 
@@ -328,7 +329,7 @@ def _scale(there: Subject, x: Sym) -> float:
     """The largest of its kind, or among the terms that balance where all of a kind vanish."""
     free, state = there.free, there.state
     values = free.accelerations.values() if x.dots else [load.value for load in free.loads if load.unknown]
-    sizes = Instant(there.source.core, state, about=there.source.about).sizes
+    sizes = Instant(there.source, state).sizes
     return max(sizes[1 if x.dots else 0], *(abs(v) for v in values if np.isfinite(v)))
 
 

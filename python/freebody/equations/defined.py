@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection
 
+from freebody.core import CompiledModel
 from freebody.equations.language import NoForm, read_text
-from freebody.source import Source
 from freebody.symbolic.tree import PI, Sym, Tree, symbols
 from freebody.symbolic.tree import replace as replaced
 
 
-def definitions(source: Source, free: Collection[str]) -> dict[str, Tree]:
+def definitions(source: CompiledModel, free: Collection[str]) -> dict[str, Tree]:
     """Every parameter that is defined by others, by those that are not or are ``free``; one without a form in letters, as a least
     of two, stays a letter."""
     found: dict[str, Tree] = {}
-    for parameter in json.loads(source.spec)["parameters"]:
+    for parameter in source.spec["parameters"]:
         name, value = parameter["name"], parameter["value"]
         if name in free or not isinstance(value, str):
             continue

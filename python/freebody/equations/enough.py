@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from freebody.balances.smallest import smallest_set
+from freebody.core import FreeBodies
 from freebody.equations.departures import independent
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated as of_coordinates
@@ -17,7 +18,6 @@ from freebody.equations.given import Given
 from freebody.equations.linear import Linear
 from freebody.equations.solve import TooLarge
 from freebody.equations.still import holds
-from freebody.free_body import FreeBodies
 from freebody.results import Array
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul

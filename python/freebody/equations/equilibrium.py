@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody import _core
 from freebody.balances.states import Closing
-from freebody.free_body import FreeBodies
-from freebody.instant import Instant, State
+from freebody.core import MotionError, State
+from freebody.instant import Instant
 
 if TYPE_CHECKING:
+    from freebody.core import CompiledModel
     from freebody.results import Array
-    from freebody.source import Source
 
 _STEPS = 60
 _LONGEST = 0.2
@@ -25,17 +24,17 @@ _SMALL = 1e-9
 """Part of the largest slope below which nothing holds a departure."""
 
 
-def rest_near(source: Source, state: State, touching: State | None = None) -> State | None:
+def rest_near(source: CompiledModel, state: State, touching: State | None = None) -> State | None:
     """The place of rest that Newton's method comes to on closed loops, from a state, and with closed what touches in it, or in
     another; None if to none."""
     return _Search(source, state, touching or state).found()
 
 
 class _Search:
-    def __init__(self, source: Source, state: State, touching: State) -> None:
-        self.core, self.about, self.state = source.core, source.about, state
+    def __init__(self, source: CompiledModel, state: State, touching: State) -> None:
+        self.core, self.about, self.state = source, source.about, state
         self.names = [c["name"] for c in source.about["coordinates"]]
-        free = FreeBodies.read(self.core.free_bodies(touching.p, touching.t, touching.q, touching.u))
+        free = self.core.free_bodies(touching)
         closing = Closing(source, touching, free)
         self.closing = closing if closing.closed and not any(m["engaged"] for m in source.about["motions"]) else None
 
@@ -47,9 +46,9 @@ class _Search:
                 longest = float(np.abs(step).max(initial=0.0))
                 q = self._closed(q + step * min(1.0, _LONGEST / (longest or 1.0)))
                 if longest < _FOUND:
-                    found = State(self.state.p, self.state.t, q, np.zeros_like(q))
-                    return None if Instant(self.core, found, about=self.about).unrest() else found
-        except (_core.MotionError, np.linalg.LinAlgError):
+                    found = self.state.at(q)
+                    return None if Instant(self.core, found).unrest() else found
+        except (MotionError, np.linalg.LinAlgError):
             pass
         return None
 
@@ -59,10 +58,10 @@ class _Search:
                 raise np.linalg.LinAlgError("what touches does not close there")
             return found
         s, guess = self.state, dict(zip(self.names, q.tolist(), strict=True))
-        return self.core.assemble(s.p, s.t, guess=guess)[0]
+        return self.core.assemble(s.p, s.t, guess=guess)[0].q
 
     def _accelerations(self, q: Array) -> Array:
-        return np.array(self.core.instant(self.state.p, self.state.t, q, np.zeros_like(q)).accelerations)
+        return self.core.instant(self.state.at(q)).accelerations
 
     def _step(self, q: Array) -> Array:
         """Of Newton, along the departures that keep loops closed."""
@@ -72,8 +71,7 @@ class _Search:
         return ways.T @ np.linalg.lstsq(slopes, -self._accelerations(q), rcond=_SMALL)[0]
 
     def _ways(self, q: Array) -> Array:
-        s = self.state
-        free = FreeBodies.read(self.core.free_bodies(s.p, s.t, q, np.zeros_like(q)))
+        free = self.core.free_bodies(self.state.at(q))
         rows = [[row.coefficients.get(name, 0.0) for name in self.names] for row in free.rows]
         return _null_space(np.array(rows).reshape(len(rows), len(self.names)))
 

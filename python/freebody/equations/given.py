@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.balances.system import alike
+from freebody.core import State
 from freebody.equations.defined import definitions
 from freebody.equations.derivation.told import Subject
-from freebody.instant import State
 from freebody.results import Array
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import is_heavy
@@ -72,7 +72,7 @@ class Given:
         return replaced(self, trees={**self.trees, **held.trees}, still=held.still, follow=held.follow)
 
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
-        """The start of the model with these values. Raises ``ModelFileError``, ``_core.MotionError``."""
+        """The start of the model with these values. Raises ``ModelFileError``, ``MotionError``."""
         first, _ = mechanism.start(initial)
         changes = self._numbers(_parameters(mechanism.source().about, first.p))
         if at_rest:
@@ -84,7 +84,7 @@ class Given:
     def near(self, subject: Subject, rng: np.random.Generator) -> State | None:
         """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
         None where it cannot be assembled."""
-        from freebody import _core
+        from freebody.core import MotionError
 
         source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
         p = self.parameters_near(subject, state, rng)
@@ -94,34 +94,32 @@ class Given:
         parts = rng.uniform(-1, 1, len(names))
         rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
-            q, u, _ = source.core.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
-            if rates and source.about["freedom"]["count"] == len(names):
-                u = np.array(rates)
-            return State(p, state.t, q, u)
-        except _core.MotionError:
+            found, _ = source.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
+            return replaced(found, u=np.array(rates)) if rates and source.about["freedom"]["count"] == len(names) else found
+        except MotionError:
             return None
 
     def parameters_near(self, subject: Subject, state: State, rng: np.random.Generator) -> Array:
         """Parameters beside those of a state, with which it may not close; what is set stays so."""
         values = _parameters(subject.source.about, state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p)))
         set_to = self._consistent(values)
-        return subject.source.core.bind({name: set_to.get(name, value) for name, value in values.items()})
+        return subject.source.bind({name: set_to.get(name, value) for name, value in values.items()})
 
     def generic(self, subject: Subject) -> State:
         """The state where no parameter is 0 by chance, so that what drops out of a balance does so whatever they are."""
-        from freebody import _core
+        from freebody.core import MotionError
 
         source, state = subject.source, subject.state
         values = _parameters(source.about, state.p)
         moved = {name: value or _NEAR for name, value in values.items()}
         moved |= self._consistent(moved)
         names = [c["name"] for c in source.about["coordinates"]]
-        p = source.core.bind({name: moved[name] for name in values})
+        p = source.bind({name: moved[name] for name in values})
         try:
-            q, _, _ = source.core.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
-        except _core.MotionError:
+            place, _ = source.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
+        except MotionError:
             return state
-        found = State(p, state.t, q, state.u)
+        found = replaced(place, u=state.u)
         return found if alike(replaced(subject, state=found).free, subject.free) else state
 
     def said(self) -> list[str]:

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from freebody.core import FreeBodies
 from freebody.equations.departures import is_natural, place_of
 from freebody.equations.derivation.told import Row, Subject
 from freebody.equations.following import followed, solved, vanishing
 from freebody.equations.given import Given
-from freebody.free_body import FreeBodies
 from freebody.symbolic.tree import Sym, Tree, is_zero, symbols
 
 _HELD = 1e-7

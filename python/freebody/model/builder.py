@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from freebody import _core
+from freebody.core import CompiledModel
 from freebody.results import ReportItem
 
 from . import file, reading, schema
@@ -91,7 +91,7 @@ class Builder:
         self.others: dict[str, Builder] = {}
         self._opened: dict[FilePath, Builder] = {}
         self._lowered: tuple[str, Lowered] | None = None
-        self._compiled: tuple[str, _core.Mechanism] | None = None
+        self._compiled: tuple[str, CompiledModel] | None = None
         self.ground = Ground(self, "ground", ("O",))
         self._calls.note(())
         if name:
@@ -336,8 +336,8 @@ class Builder:
             self._lowered = (key, lower(self.model, self._calls, self._file, self.others))
         return self._lowered[1]
 
-    def compile(self) -> _core.Mechanism:
-        """The compiled mechanism; made again only when the model has changed. Raises ``ModelFileError``."""
+    def compile(self) -> CompiledModel:
+        """The compiled model; made again only when the model has changed. Raises ``ModelFileError``."""
         lowered = self.lowered()
         assert self._lowered is not None
         if self._compiled is None or self._compiled[0] != self._lowered[0]:

@@ -7,7 +7,8 @@ from typing import Annotated, Any, Literal, Union
 from pydantic import Field, create_model
 from pydantic_core import PydanticCustomError
 
-from . import cards
+from freebody.core import cards
+
 from .values import Circle, Line, Name, Number, Numbers, Points, Section, Text, number_in, one_of, refuse
 
 

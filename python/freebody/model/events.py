@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from . import cards, syntax
+from freebody.core import cards
+
+from . import syntax
 from .arithmetic import text
 from .errors import Complaint, Path
 from .names import suggestion

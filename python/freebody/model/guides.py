@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from . import cards, elements, scope
+from freebody.core import cards
+
+from . import elements, scope
 from .arithmetic import Number, distance, text
 from .errors import Path
 from .names import spell

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
 
-from freebody import _core
+from freebody.core import CompiledModel, ModelError, cards
 
-from . import cards, elements, meanings, scope, units
+from . import elements, meanings, scope, units
 from .answers import AnswerWriter, Asked, Run
 from .bodies import BodyWriter
 from .errors import Complaint, ModelFileError, Path, Problem, Where
@@ -58,13 +57,12 @@ class Lowered:
         found, path = self.items[known]
         return found.where((*path, *_steps(core_path[len(known) :])))
 
-    def compile(self) -> _core.Mechanism:
-        """The mechanism of the core. Raises ``ModelFileError`` with the place of what it complains about."""
+    def compile(self) -> CompiledModel:
+        """The model compiled. Raises ``ModelFileError`` with the place of what it complains about."""
         try:
-            return _core.Mechanism(json.dumps(self.spec))
-        except _core.ModelError as error:
-            path, what, hint = error.args
-            raise ModelFileError([Problem(self.where(path), what, hint)]) from None
+            return CompiledModel.of(self.spec)
+        except ModelError as error:
+            raise ModelFileError([Problem(self.where(error.path), error.what, error.hint)]) from None
 
 
 def _steps(text: str) -> Path:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from . import cards, elements, guides, syntax
+from freebody.core import cards
+
+from . import elements, guides, syntax
 from .errors import Complaint, Path
 from .names import TOKEN, fault, suggestion, unquote
 from .schema import Body

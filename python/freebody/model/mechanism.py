@@ -6,9 +6,10 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from freebody.core import cards
 from freebody.moving import Moving
 
-from . import cards, elements, schema
+from . import elements, schema
 from .builder import Builder
 from .handles import Body, Element
 from .scope import coordinate_names

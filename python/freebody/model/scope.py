@@ -8,7 +8,9 @@ from typing import Any, Protocol
 
 from pydantic import ValidationError
 
-from . import cards, elements, reading
+from freebody.core import cards
+
+from . import elements, reading
 from .errors import Complaint, Consequence, ModelFileError, Path, Problem, Where, path_text
 from .expand import Expansion, repeats
 from .parameters import Parameters

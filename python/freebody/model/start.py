@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypedDict
@@ -37,7 +36,7 @@ class Start:
 
 
 class Assembly(TypedDict):
-    """Arguments of ``_core.Mechanism.assemble``."""
+    """Arguments of ``CompiledModel.assemble``."""
 
     p: NDArray[Any]
     fixed: dict[str, float]
@@ -134,7 +133,7 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
 
 def parameter_values(core: Any, p: NDArray[Any]) -> dict[str, float]:
     """The parameters of a compiled mechanism by name."""
-    names = [parameter["name"] for parameter in json.loads(core.describe())["parameters"]]
+    names = [parameter["name"] for parameter in core.about["parameters"]]
     return {name: float(value) for name, value in zip(names, p, strict=True)}
 
 

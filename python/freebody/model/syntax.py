@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +9,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from freebody import _core
+from freebody import core
+from freebody.core import ExpressionError
 
 from . import units
 from .errors import Complaint
@@ -38,14 +38,13 @@ def parse(text: str) -> Expression:
     """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``). Raises ``Complaint``."""
     rewritten = units.rewrite(text)
     try:
-        tree = json.loads(_core.parse(rewritten.text))
+        tree = core.parse(rewritten.text)
     except UnicodeEncodeError:
         raise Complaint("the expression holds a character that is none", "type it anew") from None
-    except _core.ExpressionError as error:
-        start, end, what, hint = error.args
-        place = rewritten.text[start:end].strip()
+    except ExpressionError as error:
+        place, what = rewritten.text[error.start : error.end].strip(), error.what
         raise Complaint(
-            f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), hint
+            f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), error.hint
         ) from None
     return Expression(rewritten.text, tree, tuple(rewritten.numbers))
 

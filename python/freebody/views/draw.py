@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.free_body import GROUND
-from freebody.instant import State
+from freebody.core import GROUND, State
 from freebody.results import Array, plain
 from freebody.views import shapes
 from freebody.views.labels import Label, place_labels
@@ -24,7 +23,7 @@ from freebody.views.touching import string_label
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from freebody.source import Source
+    from freebody.core import CompiledModel
 
 LAYERS = ("bodies", "joints", "points", "coordinates", "forces", "springs")
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
@@ -58,7 +57,7 @@ class _Drawing:
         self.labels.append(Label(text.replace("$", r"\$"), np.asarray(anchor, float), tone, **look))
 
 
-def drawing(source: Source, state: State, ax: Axes | None = None, layers: Sequence[str] = LAYERS) -> Axes:
+def drawing(source: CompiledModel, state: State, ax: Axes | None = None, layers: Sequence[str] = LAYERS) -> Axes:
     """Draw the mechanism at a state. ``layers`` chooses what is labelled."""
     with quiet():
         ax = axes(ax, (8.0, 6.0))

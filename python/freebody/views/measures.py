@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from freebody.free_body import GROUND
+from freebody.core import GROUND
 from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.sketch import Sketch, named_points

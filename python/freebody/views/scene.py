@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.free_body import GROUND
-from freebody.instant import State
+from freebody.core import GROUND, State
 from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.flashes import LASTING, Flash, flashes
@@ -22,8 +21,8 @@ from freebody.views.symbols import draw_forces, draw_joints
 from freebody.views.touching import draw_contacts, draw_strings
 
 if TYPE_CHECKING:
+    from freebody.core import CompiledModel
     from freebody.run import Run
-    from freebody.source import Source
 
 _OWN_POINTS = ("origin", "G", "centre", "start")
 
@@ -127,7 +126,7 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     return replace(scene, flashes=flashes(run))
 
 
-def of_state(source: Source, state: State, traces: Sequence[str] | None = None) -> Scene:
+def of_state(source: CompiledModel, state: State, traces: Sequence[str] | None = None) -> Scene:
     """The scene at one state."""
     return drawn(sketch_of_state(source, state), traces)
 

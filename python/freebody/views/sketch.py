@@ -6,23 +6,19 @@ it is laid anew at every time.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody import _core
-from freebody.free_body import GROUND
-from freebody.instant import State
+from freebody.core import GROUND, Limit, MotionError, State, there
 from freebody.results import Array, quote
-from freebody.switched import Limit, limits_of, there
 from freebody.views import shapes
 
 if TYPE_CHECKING:
+    from freebody.core import CompiledModel
     from freebody.run import Run
-    from freebody.source import Source
 
 
 @dataclass(frozen=True)
@@ -86,10 +82,10 @@ class Sketch:
     """What symbols are drawn with: the model's numbers and points, and the figures to draw on. ``run``: where the times are
     from, None for a state by itself."""
 
-    def __init__(self, source: Source, state: State, t: Array, q: Array, poses: Array, run: Run | None = None) -> None:
-        self.spec: dict[str, Any] = json.loads(source.spec)
+    def __init__(self, source: CompiledModel, state: State, t: Array, q: Array, poses: Array, run: Run | None = None) -> None:
+        self.spec = source.spec
         self.about = source.about
-        self._core, self._state, self._run = source.core, state, run
+        self._model, self._state, self._run = source, state, run
         self.t, self.q = t, q
         fixed = np.zeros((len(t), 1, 3))
         self.poses = np.concatenate([fixed, poses], axis=1)
@@ -99,9 +95,7 @@ class Sketch:
         self.cords: list[Cord] = []
         self.at: dict[str, tuple[str, Array]] = {}
         self.owners: dict[str, str] = {}
-        for name, place in json.loads(source.core.points(state.p)).items():
-            if not (isinstance(place, list) and len(place) == 3):
-                continue
+        for name, place in source.points(state.p).items():
             self.owners[name] = place[0]
             if ".outline[" not in name:  # a corner that only contacts know
                 self.at[name] = (place[0], np.array(place[1:], float))
@@ -119,8 +113,7 @@ class Sketch:
 
     def values(self, texts: Sequence[str]) -> Array:
         """Expressions at the drawn state."""
-        s = self._state
-        return np.array(self._core.evaluate(list(texts), s.p, s.t, s.q, s.u), float)
+        return self._model.evaluate(texts, self._state)
 
     def gap(self, limit: str) -> Array:
         """How far (nt,) a contact is from touching or a string from being taut, m."""
@@ -133,12 +126,10 @@ class Sketch:
 
     def limits(self) -> list[Limit]:
         """What contacts, strings and stops do at the drawn state; nothing where that has no answer."""
-        s = self._state
         try:
-            told = self._core.instant(s.p, s.t, s.q, s.u).limits if self.about["limits"] else "[]"
-        except _core.MotionError:
+            return list(self._model.instant(self._state).limits.values()) if self.about["limits"] else []
+        except MotionError:
             return []
-        return list(limits_of(json.loads(told), self.about).values())
 
     def travel(self, coordinate: str) -> tuple[float, float]:
         """Smallest and largest value of a coordinate; twice its value now where it is not of the state."""
@@ -199,17 +190,17 @@ class Sketch:
         return shapes.turn(points, angle, (x, y))
 
 
-def sketch_of_state(source: Source, state: State) -> Sketch:
+def sketch_of_state(source: CompiledModel, state: State) -> Sketch:
     """What is needed to draw on one state."""
     bodies = [quote(body["name"]) for body in source.about["bodies"]]
     texts = [text.format(body) for body in bodies for text in ("x({}.origin)", "y({}.origin)", "angle({})")]
-    poses = source.core.evaluate(texts, state.p, state.t, state.q, state.u).reshape(1, -1, 3)
+    poses = source.evaluate(texts, state).reshape(1, -1, 3)
     return Sketch(source, state, np.array([state.t]), state.q[None], poses)
 
 
-def _outlines(model: str) -> dict[str, Any]:
+def _outlines(model: Mapping[str, Any]) -> dict[str, Any]:
     """What the model says of outlines: ``none``, or points by name or as numbers in m."""
-    said = {name: body.get("outline") for name, body in json.loads(model).get("bodies", {}).items() if isinstance(body, dict)}
+    said = {name: body.get("outline") for name, body in model.get("bodies", {}).items() if isinstance(body, dict)}
     return {name: outline for name, outline in said.items() if outline is not None}
 
 

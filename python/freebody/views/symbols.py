@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from freebody.free_body import GROUND
-from freebody.model.cards import joints
+from freebody.core import GROUND
+from freebody.core.cards import joints
 from freebody.results import Array
 from freebody.views import shapes
 from freebody.views.sketch import Sketch, Stroke

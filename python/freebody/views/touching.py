@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.free_body import GROUND
+from freebody.core import GROUND
 from freebody.results import Array, quote
 from freebody.views import shapes
 from freebody.views.sketch import Cord, Sketch

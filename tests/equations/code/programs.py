@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import json
 import subprocess
 from collections.abc import Iterator
 from functools import cache
@@ -14,8 +13,8 @@ from typing import Any
 import numpy as np
 
 import freebody as fb
-from freebody import _core
-from freebody.free_body import FreeBodies
+from freebody.core import FreeBodies, MotionError
+from freebody.core import State as Place
 
 ROOT = Path(__file__).parents[3]
 FLAGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC")
@@ -89,11 +88,11 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
     """Random admissible states with random parameters: loops closed, motions obeyed."""
     mechanism, rng = model(path), np.random.default_rng(seed)
     core, source, start = mechanism.compile(), mechanism.source(), mechanism.start()[0]
-    given = {item["name"]: item["value"] for item in json.loads(source.spec)["parameters"]}
+    given = {item["name"]: item["value"] for item in source.spec["parameters"]}
     names = [c["name"] for c in source.about["coordinates"]]
     nominal = dict(zip((each["name"] for each in source.about["parameters"]), start.p, strict=True))
     unnamed = in_python(path).DEFAULTS[len(start.p) :]
-    loose = _loose(source, FreeBodies.read(core.free_bodies(start.p, start.t, start.q, start.u)))
+    loose = _loose(source, core.free_bodies(start))
     found = tries = 0
     while found < count:
         tries += 1
@@ -111,17 +110,19 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
             p = core.bind(changed)
             if loose is not None:
                 rates = {name: rate for name, rate in zip(names, u, strict=True) if name in loose}
-                q, u, _ = core.assemble(p, t, guess=dict(zip(names, q, strict=True)), rates=rates)
-            free = FreeBodies.read(core.free_bodies(p, t, q, u))
-            yield State(q=q, u=u, t=t, p=p, all=np.concatenate([p, unnamed]), now=core.instant(p, t, q, u), free=free)
+                place, _ = core.assemble(p, t, guess=dict(zip(names, q, strict=True)), rates=rates)
+                q, u = place.q, place.u
+            place = Place(p, t, q, u)
+            free = core.free_bodies(place)
+            yield State(q=q, u=u, t=t, p=p, all=np.concatenate([p, unnamed]), now=core.instant(place), free=free)
             found += 1
-        except _core.MotionError:
+        except MotionError:
             continue
 
 
 def _loose(source: Any, free: FreeBodies) -> list[str] | None:
     """Coordinates whose rates can be chosen freely, where loops or motions hold others; None where all can."""
-    motions = json.loads(source.spec)["motions"]
+    motions = source.spec["motions"]
     if not free.rows:
         return None
     names, held = [c["name"] for c in source.about["coordinates"]], [m["of"] for m in motions if m["level"] != "acceleration"]

@@ -118,13 +118,13 @@ def test_an_integrator_reproduces_the_run(path):
 
     python, mechanism = in_python(path), model(path)
     core, start = mechanism.compile(), mechanism.start()[0]
-    run_there = core.simulate(start.p, start.t, start.q, start.u, start.t + 1.0, rtol=1e-11)
+    run_there = core.simulate(start, start.t + 1.0, rtol=1e-11)
     ours = solve_ivp(
         python.derivative, (start.t, start.t + 1.0), np.concatenate([start.q, start.u]), "DOP853", rtol=1e-11, atol=1e-11
     )
-    t, q, u, *_ = run_there.final()
-    assert t == pytest.approx(ours.t[-1]) and ours.success
-    assert np.abs(ours.y[:, -1] - np.concatenate([q, u])).max() < 1e-7
+    end = run_there.end
+    assert end.t == pytest.approx(ours.t[-1]) and ours.success
+    assert np.abs(ours.y[:, -1] - np.concatenate([end.q, end.u])).max() < 1e-7
 
 
 @pytest.mark.parametrize("path", MODELS)
@@ -142,7 +142,7 @@ def test_numbers_that_the_model_leaves_without_a_name_are_parameters():
     assert heavier != text
     other = fb.Mechanism.loads(f"{heavier}\ngravity: 3.7")
     state, _ = other.start()
-    there = other.compile().instant(state.p, state.t, state.q, state.u).accelerations
+    there = other.compile().instant(state).accelerations
     p = np.array(list((python.PARAMETERS | {"g": 3.7, "m_coupler": 1.3}).values()))
     assert agree(python.accelerations(state.q, state.u, p, state.t), there)
 

@@ -46,7 +46,7 @@ def other_parameters(subject: Subject) -> Subject | None:
     """The same mechanism with no parameter as it was, what is closed or touches still so; None where it cannot be."""
     source, start = subject.source, subject.state
     given = zip(source.about["parameters"], start.p, np.random.default_rng(4).uniform(0.05, 0.15, len(start.p)), strict=True)
-    p = source.core.bind({each["name"]: float(x) * (1 + part) + part * (x == 0) for each, x, part in given})
+    p = source.bind({each["name"]: float(x) * (1 + part) + part * (x == 0) for each, x, part in given})
     closing = Closing(source, replace(start, p=p), subject.free)
     q = closing.place(start.q)
     if q is None:

@@ -6,9 +6,9 @@ from evaluated import numbers, rate
 from store import ANSWERED, MODELS, elsewhere, every, mechanism, start, subject
 
 import freebody as fb
+from freebody.core import State
 from freebody.equations.derivation.momenta import momenta
 from freebody.equations.derivation.told import Subject
-from freebody.instant import State
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym
 

@@ -10,9 +10,9 @@ import freebody as fb
 from freebody.balances.reasons import agree
 from freebody.balances.smallest import smallest_set
 from freebody.balances.states import nearby
+from freebody.core import GROUND
 from freebody.equations.derivation.opening import degrees, directions
 from freebody.equations.derivation.told import Subject
-from freebody.free_body import GROUND
 from freebody.naming import load_words
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, minus, symbols

@@ -3,17 +3,19 @@ simulated swings, and against closed forms."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from models import system
 from numpy.testing import assert_allclose
 
 import freebody as fb
+from freebody.core import State
 from freebody.equations.departures import Held, held, linearised, numbers, place_of
 from freebody.equations.derivation.told import Subject
 from freebody.equations.equilibrium import rest_near
 from freebody.equations.topics import NotHere, topic
-from freebody.instant import State
 from freebody.symbolic.evaluate import evaluate
 
 DAMPED = """
@@ -127,8 +129,9 @@ def test_stiffness_is_the_slope_of_accelerations_along_the_loop(name: str) -> No
     core = mechanism.compile()
 
     def beside(step: float) -> float:
-        q = core.assemble(s.p, s.t, fixed={free: places[free] + step}, guess={n: x for n, x in places.items() if n != free})[0]
-        return core.instant(s.p, s.t, q, 0 * q).accelerations[names.index(free)]
+        near = {n: x for n, x in places.items() if n != free}
+        place, _ = core.assemble(s.p, s.t, fixed={free: places[free] + step}, guess=near)
+        return core.instant(place).accelerations[names.index(free)]
 
     slope = (beside(h) - beside(-h)) / (2 * h)
     assert_allclose(-np.linalg.solve(m, k), [[slope]], rtol=1e-7)
@@ -142,7 +145,7 @@ def test_damping_is_the_slope_by_rates_along_the_loop() -> None:
     ways = {free: 1.0} | {name: float(evaluate(way[0], {})) for name, way in found.follow.items()}
     rates = np.array([ways[name] for name in names])
     core = mechanism.compile()
-    ahead, behind = (core.instant(s.p, s.t, s.q, sign * h * rates).accelerations[names.index(free)] for sign in (1, -1))
+    ahead, behind = (core.instant(replace(s, u=sign * h * rates)).accelerations[names.index(free)] for sign in (1, -1))
     m, c = numbers(subject, found.equations.mass), numbers(subject, found.equations.damping)
     assert c[0, 0] > 0.3
     assert_allclose(-np.linalg.solve(m, c), [[(ahead - behind) / (2 * h)]], rtol=1e-7)

@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 import freebody as fb
 from freebody.cli import app
 from freebody.cli.equations import Form
+from freebody.core import State
 from freebody.equations import Sym, evaluate, symbols
 from freebody.equations.departures import linearised, numbers
 from freebody.equations.derivation.coordinates import stated
@@ -22,7 +23,6 @@ from freebody.equations.topics import TOPICS, NotHere, topic
 from freebody.equations.topics.common import moving_names, place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
-from freebody.instant import State
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 
@@ -81,7 +81,7 @@ def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict[str,
             step = np.zeros_like(still.q)
             step[i] = h
             q, u = (step, 0 * step) if which == "q" else (0 * step, step)
-            ahead, behind = (np.array(core.instant(still.p, 0.0, rest + s * q, s * u).accelerations) for s in (1, -1))
+            ahead, behind = (core.instant(State(still.p, 0.0, rest + s * q, s * u)).accelerations for s in (1, -1))
             columns.append((ahead - behind) / (2 * h))
         return np.array(columns).T
 

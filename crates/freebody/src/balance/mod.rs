@@ -7,6 +7,7 @@
 //!
 //! All agree to round-off where the reactions are determinate; they share the loads and the rows, and nothing else.
 
+mod answer;
 mod blows;
 mod constraints;
 mod energy;

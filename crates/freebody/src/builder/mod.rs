@@ -5,7 +5,7 @@ mod names;
 mod places;
 
 pub use fields::Fields;
-pub use names::{distance, unknown, Names, Reach, Scope};
+pub use names::{chosen, distance, unknown, Names, Reach, Scope};
 
 use crate::error::CompileError;
 use crate::expr::Message;

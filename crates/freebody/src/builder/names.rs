@@ -405,6 +405,18 @@ pub fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a Strin
     Message::new(format!("no {what} is called `{name}`"), hint)
 }
 
+/// What a word of a closed list means.
+pub fn chosen<T>(what: &str, word: &str, all: impl IntoIterator<Item = (&'static str, T)>) -> Result<T, CompileError> {
+    let mut known = vec![];
+    for (name, meaning) in all {
+        if name == word {
+            return Ok(meaning);
+        }
+        known.push(name.to_string());
+    }
+    Err(CompileError::from(word, unknown(what, word, known.iter())))
+}
+
 impl Names {
     /// The site of a name, or what to write instead.
     pub fn site(&self, name: &str) -> Result<usize, Message> {

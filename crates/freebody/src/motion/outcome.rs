@@ -67,6 +67,14 @@ impl Outcome {
         }
     }
 
+    /// The item of the model that it is about, e.g. `joints.pivot`, or nothing.
+    pub fn path(&self) -> &str {
+        match self {
+            Self::Trouble(trouble) => trouble.path.as_deref().unwrap_or(""),
+            _ => "",
+        }
+    }
+
     /// Whether the run did what was asked: it reached the end time or a stopping event.
     pub fn is_ok(&self) -> bool {
         matches!(self, Self::Completed | Self::StoppedByEvent { .. })

@@ -11,6 +11,7 @@ mod happenings;
 mod impacts;
 mod machine;
 mod parts;
+mod record;
 mod switching;
 mod trajectory;
 
@@ -21,6 +22,8 @@ pub use machine::Machine;
 pub use trajectory::{Ledger, Trajectory};
 
 use crate::balance::{Balance, Route, Trouble};
+use crate::builder::chosen;
+use crate::error::CompileError;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
 use crate::motion::{method, run, Method, Options};
@@ -41,6 +44,23 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Settings by their words: integrator, route (or `auto`), law of impacts, and answer to a jam of friction.
+    ///
+    /// # Errors
+    /// An unknown word.
+    pub fn named(words: [&str; 4], options: Options) -> Result<Settings, CompileError> {
+        let [method, route, impacts, painleve] = words;
+        let routes = [("auto", None)].into_iter().chain(Route::ALL.iter().map(|r| (r.0, Some(r.1))));
+        let rules = Rule::ALL.iter().copied();
+        Ok(Settings {
+            method: method.to_string(),
+            options,
+            route: chosen("route", route, routes)?,
+            impacts: chosen("law of impacts", impacts, rules)?,
+            jams_strike: chosen("answer to a jam of friction", painleve, [("stop", false), ("impact", true)])?,
+        })
+    }
+
     /// The integrator chosen.
     ///
     /// # Errors
@@ -82,6 +102,10 @@ pub fn simulate(
     settings: &Settings,
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Trajectory, Trouble> {
+    m.check_state(start.p, start.t, start.q, start.u)?;
+    if !until.is_finite() {
+        return Err(Trouble::new("not_finite", format!("the run must end at a finite time, not at {until} s")));
+    }
     let integrator = settings.integrator()?;
     let mut balance = Balance::new(m, start.p);
     balance.prefer(settings.route);

@@ -19,7 +19,7 @@ const LAYERS: &[&[&str]] = &[
     &["compile"],
     &["balance"],
     &["assembly", "describe", "free_bodies", "simulation"],
-    &["letters"],
+    &["initial", "letters"],
 ];
 
 #[test]

@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from freebody.balances.reasons import Place, agree, why_absent
+from freebody.core import Body, FreeBodies, Load
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.linear import Linear
-from freebody.free_body import Body, FreeBodies, Load
 from freebody.naming import load_words
 from freebody.symbolic.collect import collected, factored
 from freebody.symbolic.evaluate import evaluate

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from freebody.core.cards import Coordinate, joints
 from freebody.equations.derivation.balancing import Stated, named_place, numbers, pin
 from freebody.equations.derivation.told import Balance, Subject
-from freebody.model.cards import Coordinate, joints
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, is_zero
 

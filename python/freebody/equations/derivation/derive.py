@@ -118,7 +118,7 @@ class Equations:
 def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> Equations:
     """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
 
-    Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``_core.MotionError``."""
+    Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
     if want is not None:
         content = wanted(subject, want)
         return Equations(

@@ -10,11 +10,11 @@ import numpy as np
 from freebody.balances.lasting import Lasting, independent, lasting
 from freebody.balances.reasons import Place, agree, why_absent
 from freebody.balances.states import wandering
+from freebody.core import Load
 from freebody.equations.derivation.balancing import size
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Equation, Paragraph, Written
-from freebody.free_body import Load
 from freebody.naming import load_words
 from freebody.symbolic.collect import factored, quotient
 from freebody.symbolic.evaluate import evaluate

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -43,7 +42,7 @@ def _reservations(subject: Subject) -> list[str]:
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
     cases = [force["name"] for force in subject.source.about["forces"] if force["cases"] and force["name"] in acting]
     said = [f"The law of {joined(cases)} has cases: it stands here as it is at this state."] if cases else []
-    if opening := [event["name"] for event in json.loads(subject.source.spec).get("events", []) if event.get("opening")]:
+    if opening := [event["name"] for event in subject.source.spec.get("events", []) if event.get("opening")]:
         said.append(f"At the start of a motion {joined(opening)} happens; the equations are those before.")
     return said
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from freebody.core import Load
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
-from freebody.free_body import Load
 from freebody.symbolic.tree import symbols
 
 

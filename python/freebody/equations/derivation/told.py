@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -11,11 +10,9 @@ from typing import Any
 import numpy as np
 
 from freebody.balances.states import nearby
+from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
 from freebody.equations.linear import Linear
-from freebody.free_body import GROUND, FreeBodies
-from freebody.instant import State
 from freebody.naming import Symbols
-from freebody.source import Source
 from freebody.symbolic.collect import divided
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
@@ -172,7 +169,7 @@ class Row:
 class Subject:
     """What is derived: a mechanism at a state, of which letters may be set to numbers."""
 
-    source: Source
+    source: CompiledModel
     state: State
     at_rest: bool = False
     numbers: Mapping[str, float] | None = None
@@ -184,8 +181,8 @@ class Subject:
         return replace(self, numbers={name: places[name] for name in names})
 
     def ask(self, questions: Sequence[Question]) -> list[Any]:
-        """The answers of the core, as data. Raises ``_core.MotionError``."""
-        return self._told(questions)["answers"]
+        """The answers of the core, as data. Raises ``MotionError``."""
+        return self._told(questions).answers
 
     def balances(self, questions: Sequence[Question]) -> list[Balance]:
         """Answers about balances."""
@@ -199,8 +196,7 @@ class Subject:
     @cached_property
     def free(self) -> FreeBodies:
         """All loads at the state, in numbers; they are counted as in contributions."""
-        s = self.state
-        return FreeBodies.read(self.source.core.free_bodies(s.p, s.t, s.q, s.u))
+        return self.source.free_bodies(self.state)
 
     @cached_property
     def neighbours(self) -> list[FreeBodies]:
@@ -210,7 +206,7 @@ class Subject:
         given = [(p["name"], float(x)) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)]
         parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
         changed = [
-            self.source.core.bind(
+            self.source.bind(
                 {name: x if name in fixed else part * (x or _NEAR) for (name, x), part in zip(given, row, strict=True)}
             )
             for row in parts
@@ -235,12 +231,12 @@ class Subject:
     @cached_property
     def table(self) -> dict[str, dict[str, Any]]:
         """The letters as the core lists them: kind, unit and value by name."""
-        return self._told([])["letters"]
+        return self._told([]).letters
 
     @cached_property
     def laws(self) -> list[tuple[Sym, Tree]]:
         """Loads that follow from others by a law that is not linear, with what they are."""
-        return [(Sym(law["load"]), read(law["tree"])) for law in self._told([])["laws"]]
+        return [(Sym(law["load"]), read(law["tree"])) for law in self._told([]).laws]
 
     @cached_property
     def symbols(self) -> Symbols:
@@ -267,23 +263,23 @@ class Subject:
     @cached_property
     def tables(self) -> dict[str, Callable[..., float]]:
         """The functions of the model that are given by points."""
-        s, core = self.state, self.source.core
-        names = [table["name"] for table in json.loads(self.source.spec).get("tables", [])]
+        s, core = self.state, self.source
+        names = [table["name"] for table in self.source.spec.get("tables", [])]
 
         def table(name: str) -> Callable[..., float]:
-            return lambda x: float(core.evaluate([f"{name}({float(x)!r})"], s.p, s.t, s.q, s.u)[0])
+            return lambda x: float(core.evaluate([f"{name}({float(x)!r})"], s)[0])
 
         return {name: table(name) for name in names}
 
     @cached_property
     def points(self) -> Mapping[str, tuple[str, float, float]]:
         """Named points: body, x, y in its frame."""
-        return json.loads(self.source.core.points(self.state.p))
+        return self.source.points(self.state.p)
 
     @cached_property
     def lines(self) -> Mapping[str, str]:
         """The lines along which joints move, in the words of the model: joint → ``the slope``, ``the track of rod``."""
-        joints = json.loads(self.source.model).get("joints") or {}
+        joints = self.source.model.get("joints") or {}
         along = {name: joint.get("along") for name, joint in joints.items()}
         return {name: _line_words(*text.rpartition(".")[::2]) for name, text in along.items() if isinstance(text, str)}
 
@@ -292,10 +288,8 @@ class Subject:
         joint = next((name for name in self.lines if direction == name or direction.endswith(f" of {name}")), None)
         return direction.removesuffix(joint) + self.lines[joint] if joint else direction
 
-    def _told(self, questions: Sequence[Question]) -> dict[str, Any]:
-        setting = {"at_rest": self.at_rest, "numbers": dict(self.numbers or {})}
-        s = self.state
-        return json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, json.dumps(setting), json.dumps(questions)))
+    def _told(self, questions: Sequence[Question]) -> SymbolicAnswers:
+        return self.source.letters(self.state, questions, self.at_rest, self.numbers)
 
 
 def _line_words(body: str, line: str) -> str:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody import _core
 from freebody.balances.system import DEPENDENT
+from freebody.core import MotionError
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.told import Subject
 from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
@@ -48,7 +48,7 @@ class VirtualPower:
 
 
 def virtual_power(subject: Subject) -> list[VirtualPower]:
-    """One equation for each degree of freedom, prescribed ones among them. Raises ``_core.MotionError`` where they grow too large."""
+    """One equation for each degree of freedom, prescribed ones among them. Raises ``MotionError`` where they grow too large."""
     names = [c["name"] for c in subject.coordinates]
     rows = [i for i, row in enumerate(subject.rows) if row.kind != "motion"]
     told = subject.neighbours[-1].rows
@@ -65,8 +65,8 @@ def section(subject: Subject, wanted: int) -> list[Block]:
     head = Heading("Virtual power", 3)
     try:
         found = virtual_power(subject)
-    except _core.MotionError as error:
-        if error.args[0] != "too_large":
+    except MotionError as error:
+        if error.kind != "too_large":
             raise
         return [head, Paragraph(f"{said}. In letters the equations are too long to be written.")]
     driving = {load.symbol for load in subject.free.loads if load.kind == "motion"}

@@ -1,14 +1,12 @@
-"""Source code that computes the accelerations and all reactions of a mechanism, in Python or C, by itself."""
+"""CompiledModel code that computes the accelerations and all reactions of a mechanism, in Python or C, by itself."""
 
 from __future__ import annotations
 
+from freebody.core import CompiledModel, State
 from freebody.equations.code import generate
 from freebody.equations.program import c, python
 from freebody.equations.program.refusals import CannotGenerate, check
 from freebody.equations.program.systems import systems
-from freebody.free_body import FreeBodies
-from freebody.instant import State
-from freebody.source import Source
 
 LANGUAGES = ("python", "c")
 _SOLVERS = {"python": python.solvers, "c": c.solvers}
@@ -16,15 +14,15 @@ _SOLVERS = {"python": python.solvers, "c": c.solvers}
 __all__ = ["LANGUAGES", "CannotGenerate", "program"]
 
 
-def program(source: Source, state: State, language: str = "python") -> str:
-    """Source code of the equations of a mechanism, ``python`` (needs NumPy) or ``c`` (C99).
+def program(source: CompiledModel, state: State, language: str = "python") -> str:
+    """CompiledModel code of the equations of a mechanism, ``python`` (needs NumPy) or ``c`` (C99).
 
     ``state`` says what is in place, and on which branch; the functions hold for all coordinates q, rates u, parameters p and times t.
     Raises ``CannotGenerate`` for what switches (contacts, strings, friction, laws with cases) or comes from a table, and where
-    reactions are not determined; ``_core.MotionError`` for a state without an answer."""
+    reactions are not determined; ``MotionError`` for a state without an answer."""
     if language not in LANGUAGES:
         raise ValueError(f"language {language!r} is unknown; there are {', '.join(LANGUAGES)}")
-    check(source, FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u)))
+    check(source, source.free_bodies(state))
     found = systems(source, state)
     if not found.is_square:
         raise CannotGenerate(

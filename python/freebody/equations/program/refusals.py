@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from freebody import _core
-from freebody.free_body import FreeBodies
-from freebody.model import cards
-from freebody.source import Source
+from freebody.core import CompiledModel, ExpressionError, FreeBodies, cards, parse
 
 _SWITCHES = frozenset(["abs", "sign", "step", "min", "max", "clamp", "if"])
 _COMPARED = frozenset(["<", "<=", ">", ">=", "==", "!=", "and", "or", "not"])
@@ -21,9 +17,9 @@ class CannotGenerate(ValueError):
     """A mechanism of which no functions can be generated; says why, and what to try."""
 
 
-def check(source: Source, free: FreeBodies) -> None:
+def check(source: CompiledModel, free: FreeBodies) -> None:
     """Raises ``CannotGenerate`` for what switches or has no letters, and where reactions are not determined."""
-    spec = json.loads(source.spec)
+    spec = source.spec
     if not source.about["coordinates"]:
         raise CannotGenerate("the mechanism has no coordinates, so there is nothing to generate; solve() gives its reactions")
     for section, what in _LIMITS.items():
@@ -81,8 +77,8 @@ def _texts(item: Any) -> Iterator[str]:
 def _words(text: str) -> Iterator[str]:
     """Names of functions, and operators, in an expression; nothing where the text is none (the name of a point)."""
     try:
-        waiting = [json.loads(_core.parse(text))]
-    except _core.ExpressionError:
+        waiting = [parse(text)]
+    except ExpressionError:
         return
     while waiting:
         node = waiting.pop()

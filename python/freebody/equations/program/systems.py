@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from freebody.core import CompiledModel, FreeBodies, Load, State
 from freebody.equations.linear import Linear, linear_in
-from freebody.free_body import FreeBodies, Load
-from freebody.instant import State
 from freebody.naming import Symbols
-from freebody.source import Source
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.tree import ZERO, Sym, Tree, negative, read
 
@@ -73,16 +70,15 @@ class Systems:
         return found
 
 
-def systems(source: Source, state: State) -> Systems:
-    """The equations of a mechanism near a state. Raises ``_core.MotionError``."""
-    free = FreeBodies.read(source.core.free_bodies(state.p, state.t, state.q, state.u))
+def systems(source: CompiledModel, state: State) -> Systems:
+    """The equations of a mechanism near a state. Raises ``MotionError``."""
+    free = source.free_bodies(state)
     cut = [{"ask": "equation", "bodies": [body.name], **how} for body in free.bodies.values() for how in _ways(body.particle)]
-    asked = json.dumps([{"ask": "rows"}, {"ask": "lagrange"}, *cut])
-    told = json.loads(source.core.letters(state.p, state.t, state.q, state.u, "{}", asked))
-    rows, lagrange, *balances = told["answers"]
-    letters = _letters(source, free, told["letters"])
+    told = source.letters(state, [{"ask": "rows"}, {"ask": "lagrange"}, *cut])
+    rows, lagrange, *balances = told.answers
+    letters = _letters(source, free, told.letters)
     unknowns = {*(Sym(name, 2) for name in letters.of_kind("coordinate")), *map(Sym, letters.of_kind("unknown"))}
-    values = {name: told["letters"][name]["value"] for name in letters.of_kind("parameter", "constant")}
+    values = {name: told.letters[name]["value"] for name in letters.of_kind("parameter", "constant")}
     return Systems(
         source.name,
         letters,
@@ -101,11 +97,11 @@ def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
     return tuple(tuple(equation.coefficients.get(letter, ZERO) for letter in unknowns) for equation in equations)
 
 
-def _letters(source: Source, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
+def _letters(source: CompiledModel, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
     """All letters in the order of the model: coordinates, parameters, numbers without a name, unknown loads, time."""
     about = source.about
     found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in about["coordinates"]]
-    given = {item["name"]: item["value"] for item in json.loads(source.spec)["parameters"]}
+    given = {item["name"]: item["value"] for item in source.spec["parameters"]}
     found += [Letter(name, "parameter", table[name]["unit"], _formula(value, given)) for name, value in given.items()]
     unnamed = (name for name, entry in table.items() if entry["kind"] == "number")
     found += [Letter(name, "constant", table[name]["unit"], table[name]["doc"]) for name in unnamed]

@@ -19,7 +19,7 @@ from freebody.equations.topics.out_of_plane import out_of_plane
 from freebody.equations.topics.particle import particle
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 __all__ = ["TOPICS", "NotHere", "Topic", "topic"]

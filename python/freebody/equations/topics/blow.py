@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.balances.minimal import minimal_form
 from freebody.blow import Impulsive, NoBlow
+from freebody.core import GROUND, FreeBodies, Load, SymbolicAnswers
 from freebody.equations.answers import AGREES
 from freebody.equations.derivation.balancing import Stated
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.told import Balance, Row, Subject
 from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere, moving_names
-from freebody.free_body import GROUND, FreeBodies, Load
 from freebody.naming import ImpulseNaming, load_words
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
@@ -30,9 +29,8 @@ from freebody.symbolic.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, mul
 from freebody.symbolic.tree import replace as put
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import Change, State
     from freebody.model.builder import Builder
-    from freebody.switched import Change
 
 _NOTHING = 1e-9
 """Lengths in m, rates in m/s and arms in m below which they are 0: what an event leaves of them."""
@@ -70,7 +68,7 @@ class Struck(Subject):
         """What held just before the blow."""
         return list(map(Row.read, self.blow.rows_before()))
 
-    def _told(self, questions: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    def _told(self, questions: Sequence[Mapping[str, Any]]) -> SymbolicAnswers:
         return self.blow.letters(questions)
 
 
@@ -93,7 +91,7 @@ class Blow:
     @cached_property
     def coefficients(self) -> dict[str, Sym]:
         """The letter of how much comes back, by name: that of the model, if it has one."""
-        spec = json.loads(self.subject.source.spec)
+        spec = self.subject.source.spec
         given = {limit["name"]: limit["restitution"] for kind in ("contacts", "strings", "stops") for limit in spec[kind]}
         named = {name: x for name, x in given.items() if isinstance(x, str) and x.isidentifier()}
         return {

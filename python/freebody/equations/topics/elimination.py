@@ -19,7 +19,7 @@ from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 

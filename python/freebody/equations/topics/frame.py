@@ -17,7 +17,7 @@ from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, is_zero, negative, read, replace, symbols
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 _WORDS = ("v", "v_transport", "v_relative", "a", "a_transport", "a_relative", "a_coriolis")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.balances.reasons import agree
+from freebody.core import Load
 from freebody.equations.derivation.balancing import Stated, dropped
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.document import (
@@ -28,13 +29,12 @@ from freebody.equations.topics.blow import Blow, after, blow, hammered
 from freebody.equations.topics.common import document, moving_names
 from freebody.equations.topics.jumps import Solution, jumps
 from freebody.equations.topics.rows import Rows
-from freebody.free_body import Load
 from freebody.naming import load_words
 from freebody.symbolic.collect import collected
 from freebody.symbolic.tree import ZERO, Num, Sym, is_zero, symbols
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 _ROUND_OFF = 1e-14

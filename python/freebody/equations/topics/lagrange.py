@@ -27,7 +27,7 @@ from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 Coefficients: TypeAlias = Mapping[Sym, Tree]

@@ -26,7 +26,7 @@ from freebody.symbolic.measured import shown
 from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 
@@ -66,7 +66,7 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
 def _rest(mechanism: Builder, state: State, touching: State) -> State:
     """The state, or the place of rest that is found near it, where what is ``touching`` in another does so."""
     source = mechanism.source()
-    unrest = Instant(source.core, state, about=source.about).unrest()
+    unrest = Instant(source, state).unrest()
     found = rest_near(source, state, touching) if unrest else state
     if found is None:
         told = "; ".join(f"{name} {how}" for name, how in unrest.items())

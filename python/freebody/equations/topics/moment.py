@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from freebody.core import GROUND
 from freebody.equations.derivation.told import Balance, Subject
 from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
 from freebody.equations.topics.common import (
@@ -19,12 +20,11 @@ from freebody.equations.topics.common import (
     spread,
     subject_of,
 )
-from freebody.free_body import GROUND
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import Tree, add, is_zero
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 Pair = tuple[Tree, Tree]

@@ -11,7 +11,7 @@ from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 _ACROSS = "g_z"

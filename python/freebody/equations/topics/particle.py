@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from freebody.core import GROUND
 from freebody.equations.derivation.told import Arrow, Balance, Subject
 from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
-from freebody.free_body import GROUND
 from freebody.naming import load_words
 from freebody.symbolic.collect import factored
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 
 if TYPE_CHECKING:
-    from freebody.instant import State
+    from freebody.core import State
     from freebody.model.builder import Builder
 
 _R, _PHI = "r", "phi"

@@ -21,7 +21,6 @@ its speed along the string relative to the hand, whatever the hand spends on tha
 and so does a sweep that the bob follows.
 """
 
-import json
 from functools import cache
 from math import cos, exp, hypot, pi, sin, sqrt
 
@@ -275,7 +274,7 @@ def slackens(case):
         yield Answer(
             f"tension at 1.25, 2.5, 3.75, 5 s, {of}", run.evaluate("leash.tension", times), "N", tension, EQUATIONS, 1e-7
         )
-        slack = [c for c in json.loads(run.motion.changes) if c["kind"] == "slack"]
+        slack = [c for c in run.changes if c.kind == "slack"]
         rod = motion(swept(L, alpha), [start, W], np.linspace(0.01, 5, 500))
         least = min(leash.tension(t, y) for t, y in zip(np.linspace(0.01, 5, 500), rod, strict=True))
         yield Answer(
@@ -288,7 +287,7 @@ def slackens(case):
     for alpha in (20.0, 40.0, 60.0):
         check = Leash(alpha).switches(4)
         run, of = case.run("sweep.yaml", {"alpha": alpha}, until=check[-1][0] + 0.01), f"α = {alpha:g}"
-        found = [c["t"] for c in json.loads(run.motion.changes) if c["kind"] in ("slack", "taut") and c["t"] > 0][: len(check)]
+        found = [c.t for c in run.changes if c.kind in ("slack", "taut") and c.t > 0][: len(check)]
         yield Answer(
             f"slack, taut, … at t, {of}", found, "s", [t for t, _ in check], f"{EQUATIONS}, straight flights between", 1e-8
         )

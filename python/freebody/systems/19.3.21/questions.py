@@ -11,7 +11,6 @@ Where the hanging block is not guided and swings, at r from the edge and φ from
     (m₁ + m₂) r̈ = m₂(rφ̇² + g cos φ),   rφ̈ = −g sin φ − 2ṙφ̇,   T = m₁ r̈ > 0 as long as |φ| < 90°.
 """
 
-import json
 from math import cos, pi, sin, sqrt
 
 from freebody.catalogue import Answer, ask, reference
@@ -27,7 +26,7 @@ LONG, PAST = 2.0, 0.5
 
 def happened(run):
     """What switched: kind and time of each change after the start."""
-    return [(change["kind"], change["of"], change["t"]) for change in json.loads(run.motion.changes) if change["t"] > 0]
+    return [(change.kind, change.of, change.t) for change in run.changes if change.t > 0]
 
 
 def on(degrees):

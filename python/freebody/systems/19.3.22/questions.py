@@ -12,7 +12,6 @@ second swing is that of B and the bob alone, with the same relative speed v1: lo
 alike.
 """
 
-import json
 from math import acos, cos, pi, sin, sqrt
 
 import numpy as np
@@ -65,8 +64,8 @@ def impact(case):
         both, P = mA * v0 / (mA + mB), mA * mB * v0 / (mA + mB)
         for file in ("model.yaml", "latch.yaml"):
             run = case.run(file, parameters(masses))
-            (hit,) = (c for c in json.loads(run.motion.changes) if c["kind"] == "impact")
-            rates = dict(zip(run.coordinates, hit["after"]["u"], strict=True))
+            (hit,) = (c for c in run.changes if c.kind == "impact")
+            rates = hit.after.u
             label = f"{of}, {file}"
             yield Answer(f"velocities of A, B, {label}", [rates["xA"], rates["xB"]], "m/s", [-both, -both], BALANCE, 1e-12)
             yield Answer(
@@ -78,9 +77,9 @@ def impact(case):
                 1e-12,
                 both,
             )
-            yield Answer(f"energy lost, {label}", hit["lost"], "J", P * v0 / 2, BALANCE, 1e-12)
+            yield Answer(f"energy lost, {label}", hit.lost, "J", P * v0 / 2, BALANCE, 1e-12)
             if file == "model.yaml":
-                ((name, impulse),) = hit["impulses"]["limits"]
+                ((name, impulse),) = hit.impulses.contacts.items()
                 yield Answer(f"impulse of B on A, {label}", impulse[0], "N·s", P, BALANCE, 1e-12)
                 yield Answer(
                     f"impulse of the cord, {label}",
@@ -92,9 +91,8 @@ def impact(case):
                     1.0,
                 )
             else:
-                yield Answer(
-                    f"impulse of the latch on B, {label}", abs(hit["impulses"]["joints"][2][0]), "N·s", P, BALANCE, 1e-12
-                )
+                impulse = abs(hit.impulses.joints["meet weld"][0])
+                yield Answer(f"impulse of the latch on B, {label}", impulse, "N·s", P, BALANCE, 1e-12)
 
 
 @ask("Greatest height of C; the top of the first swing")
@@ -148,7 +146,7 @@ def second(case):
             yield Answer(f"height of the second swing, {label}", height(run, again), "m", alone.height, BALANCE, 1e-9)
             yield Answer(f"its time from plumb to the top, {label}", again.t - plumb.t, "s", alone.quarter(), "quadrature", 1e-8)
             if file == "model.yaml":
-                part = next(c["t"] for c in json.loads(run.motion.changes) if c["kind"] == "lift-off")
+                part = next(c.t for c in run.changes if c.kind == "lift-off")
                 yield Answer(
                     f"A and B part, since the impact, {label}", part - 0.2 / v0, "s", 2 * swing.quarter(), "quadrature", 1e-8
                 )
@@ -164,7 +162,7 @@ def lengths(case):
             yield Answer(f"height, ℓ = {ratio:g} h, {of}", height(run, named(run, "top"), ratio * h), "m", h, BALANCE, 1e-9)
         for ratio, slack in ((1.01, 0.0), (0.99, 1.0)):
             run = case.run(parameters=parameters(masses, ratio * h), until=0.2 / v0 + 1.5 * sqrt(h))
-            found = [c for c in json.loads(run.motion.changes) if c["kind"] == "slack"]
+            found = [c for c in run.changes if c.kind == "slack"]
             yield Answer(
                 f"cord goes slack (1) or not (0), ℓ = {ratio:g} h, {of}",
                 float(bool(found)),

@@ -11,8 +11,6 @@ A foot that can only push and does not slip ends where N = 0: friction still act
 floor; held, the floor would pull. No motion is possible; a foot with friction slides before.
 """
 
-import json
-
 import numpy as np
 
 from freebody.catalogue import Answer, ask
@@ -163,5 +161,5 @@ def slides(case):
     legs = Legs()
     when, _ = event(legs.rates, START, lambda t, y: 3 * legs.foot(y)[1] - abs(legs.foot(y)[0]), before=1.0)
     run = case.run("slippery.yaml", until=0.96)
-    slip = next(c["t"] for c in json.loads(run.motion.changes) if c["kind"] == "slip")
+    slip = next(c.t for c in run.changes if c.kind == "slip")
     yield Answer("from t", slip, "s", when, SCIPY, 1e-9)

@@ -8,7 +8,6 @@ The floor: N = m(g − d(φ̈ sin φ + φ̇² cos φ)), friction m((R + d cos φ
 With L measured from the arc's centre, d = L/2 for every R: never stable.
 """
 
-import json
 from math import acos, cos, pi, sin, sqrt
 
 import numpy as np
@@ -115,7 +114,7 @@ def run(case):
         force = np.array([rocker.floor(*y) for y in check])
         yield Answer(f"normal force, {of}", run.evaluate("foot.N", TIMES), "N", force[:, 0], SCIPY, 1e-8)
         yield Answer(f"friction, {of}", run.evaluate("foot.T", TIMES), "N", force[:, 1], SCIPY, 1e-8, M * G)
-        left = [c["kind"] for c in json.loads(run.motion.changes)].count("lift-off")
+        left = [c.kind for c in run.changes].count("lift-off")
         least = min(rocker.floor(*y)[0] for y in motion(rocker.rates, values[2:], np.linspace(0.01, 5, 400)))
         yield Answer(f"lifts off (1) or not (0), {of}", float(left), "", float(least < 0), f"{SCIPY}: least N {least:.1f} N")
 

@@ -12,7 +12,6 @@ Standing on both, the loop is closed; a foot slides from |T| = μN on and lifts 
 floor.
 """
 
-import json
 from functools import partial
 from math import acos, atan, hypot
 
@@ -145,7 +144,7 @@ def state(run, t):
 
 
 def first(run, kind, name, after=0.0):
-    return next(c for c in json.loads(run.motion.changes) if c["kind"] == kind and name in c["of"] and c["t"] > after)
+    return next(c for c in run.changes if c.kind == kind and name in c.of and c.t > after)
 
 
 @ask("At rest, on the back foot: accelerations and force of the foot")
@@ -179,7 +178,7 @@ def single(case):
                 yield Answer(f"angles of the bodies at {t:.3f} s, {label}", angles(run, t), "rad", check[i, 2:9], SCIPY, 1e-9)
             for i, text in enumerate(("foot.Fx", "foot.Fy")):
                 yield Answer(f"{text} at {'these times'}, {label}", run.evaluate(text, times), "N", force[:, i], SCIPY, 1e-8)
-            yield Answer(f"strike at t, {label}", first(run, "impact", "other")["t"], "s", when, SCIPY, 1e-9)
+            yield Answer(f"strike at t, {label}", first(run, "impact", "other").t, "s", when, SCIPY, 1e-9)
 
 
 @ask("The strike, back foot hinged, front foot rough: the loop is closed")
@@ -191,24 +190,24 @@ def closed(case):
         after, impulses, lost = person.strike(z, both)
         run = case.run("model.yaml", motors, until=0.3)
         hit = first(run, "impact", "other")
-        yield Answer(f"rates of the bodies after it, {of}", angles(run, hit["t"], "omega"), "rad/s", after[2:], POWER, 1e-8)
-        ((_, (along, up)),) = hit["impulses"]["limits"]
+        yield Answer(f"rates of the bodies after it, {of}", angles(run, hit.t, "omega"), "rad/s", after[2:], POWER, 1e-8)
+        [(along, up)] = hit.impulses.contacts.values()
         yield Answer(f"impulse on the front foot, {of}", [along, up], "N·s", impulses[2:], POWER, 1e-8)
         yield Answer(
             f"impulse on the back foot, {of}",
-            hit["impulses"]["joints"][0][:2],
+            hit.impulses.joints["foot"][:2],
             "N·s",
             impulses[:2],
             f"{POWER}; downward it would have left",
             1e-8,
         )
-        yield Answer(f"energy lost, {of}", hit["lost"], "J", lost, POWER, 1e-8)
+        yield Answer(f"energy lost, {of}", hit.lost, "J", lost, POWER, 1e-8)
         z[9:] = after
         force = person.solve(z, both)[1]
-        value = [run.evaluate(text, hit["t"]) for text in ("foot.Fx", "foot.Fy", "other.T", "other.N")]
+        value = [run.evaluate(text, hit.t) for text in ("foot.Fx", "foot.Fy", "other.T", "other.N")]
         yield Answer(f"forces on both feet just after, {of}", value, "N", force, POWER, 1e-7)
         later = motion(person.rates(both), z, [0.02])[0]
-        yield Answer(f"angles of the bodies 0.02 s after, {of}", angles(run, hit["t"] + 0.02), "rad", later[2:9], SCIPY, 1e-8)
+        yield Answer(f"angles of the bodies 0.02 s after, {of}", angles(run, hit.t + 0.02), "rad", later[2:9], SCIPY, 1e-8)
 
 
 @ask("The strike on a floor with friction 0.6: the front foot slides on or stops, the old one leaves")
@@ -219,25 +218,25 @@ def leaves(case):
         after, impulses, lost = person.strike_front(z)
         run = case.run("floor.yaml", motors, until=0.3)
         hit = first(run, "impact", "other")
-        ((_, (along, up)),) = hit["impulses"]["limits"]
-        yield Answer(f"rates of the bodies after it, {of}", angles(run, hit["t"], "omega"), "rad/s", after[2:], POWER, 1e-8)
+        [(along, up)] = hit.impulses.contacts.values()
+        yield Answer(f"rates of the bodies after it, {of}", angles(run, hit.t, "omega"), "rad/s", after[2:], POWER, 1e-8)
         yield Answer(f"impulse on the front foot, {of}", [along, up], "N·s", impulses, POWER, 1e-8)
-        yield Answer(f"energy lost, {of}", hit["lost"], "J", lost, POWER, 1e-8)
+        yield Answer(f"energy lost, {of}", hit.lost, "J", lost, POWER, 1e-8)
         old = after[:2]
         yield Answer(
             f"velocity of the old foot then: upward, {of}",
-            [run.evaluate(f"{v}(back_shank.F)", hit["t"]) for v in ("vx", "vy")],
+            [run.evaluate(f"{v}(back_shank.F)", hit.t) for v in ("vx", "vy")],
             "m/s",
             old,
             POWER,
             1e-8,
         )
-        back = first(run, "impact", "foot", hit["t"])["t"] - hit["t"]
+        back = first(run, "impact", "foot", hit.t).t - hit.t
         z[9:] = after
         feet = [(FRONT, None if abs(impulses[0]) < MU * impulses[1] else -np.sign(impulses[0]))]
         height = partial(lambda person, z, feet, t: motion(person.rates(feet), z, [t])[0][1], person, z, feet)
         yield Answer(f"and comes down after, {of}", back, "s", brentq(height, 0.5 * back, 2 * back, xtol=1e-16), SCIPY, 1e-7)
-        gone = [c["kind"] for c in json.loads(run.motion.changes) if c["t"] == hit["t"] and c["of"] == ["foot"]]
+        gone = [c.kind for c in run.changes if c.t == hit.t and c.of == ("foot",)]
         yield Answer(f"the old foot leaves (1), {of}", float(gone == ["lift-off"]), "", float(old[1] > 0), POWER)
 
 
@@ -269,7 +268,7 @@ def slips(case):
             span, z = held_until(person, z, feet, list(held).index(name), what)
             begin, t = t, t + span
             label = f"{of}: {what} of the {'back' if name == 'foot' else 'front'} foot"
-            yield Answer(f"{label} at t", first(run, what, name, begin)["t"], "s", t, SCIPY, 1e-8)
+            yield Answer(f"{label} at t", first(run, what, name, begin).t, "s", t, SCIPY, 1e-8)
             yield Answer(f"{label}: angles of the bodies then", angles(run, t), "rad", z[2:9], SCIPY, 1e-8)
             if what == "slip":
                 force = person.solve(z, feet)[1][2 * list(held).index(name) :]

@@ -8,11 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from freebody.free_body import FreeBodies
-from freebody.instant import State
+from freebody.core import CompiledModel, FreeBodies, MotionError, State
 from freebody.naming import Naming
 from freebody.results import Array
-from freebody.source import Source
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
@@ -78,7 +76,7 @@ class Diagram(Picture):
 
 
 def diagram(
-    source: Source,
+    source: CompiledModel,
     state: State,
     free: FreeBodies,
     groups: Sequence[Sequence[str]] | None = None,
@@ -99,7 +97,7 @@ def diagram(
 class Desk:
     """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
 
-    source: Source
+    source: CompiledModel
     state: State
     free: FreeBodies
     near: FreeBodies
@@ -149,14 +147,12 @@ class Desk:
         return forces, list(acting.effective(self.free, self.near, group, self.labels)) if self.effective else [], []
 
 
-def _further(source: Source, state: State, free: FreeBodies) -> FreeBodies:
+def _further(source: CompiledModel, state: State, free: FreeBodies) -> FreeBodies:
     """The free bodies a little further on in all coordinates and rates, and with something of every parameter (a mass, gravity)
     that is 0; those of now where that has no answer."""
-    from freebody._core import MotionError
-
-    p, q, u = (np.where(state.p == 0, _STEP, state.p), state.q + _uneven(state.q), state.u + _uneven(state.u))
+    p = np.where(state.p == 0, _STEP, state.p)
     try:
-        return FreeBodies.read(source.core.free_bodies(p, state.t, q, u))
+        return source.free_bodies(State(p, state.t, state.q + _uneven(state.q), state.u + _uneven(state.u)))
     except MotionError:
         return free
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.free_body import Body, FreeBodies, Load, Part
+from freebody.core import Body, FreeBodies, Load, Part
 from freebody.results import Array
 from freebody.views.diagram.names import Labels
 from freebody.views.measures import digits, place_of

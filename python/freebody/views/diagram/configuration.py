@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from freebody.instant import State
-from freebody.source import Source
+from freebody.core import CompiledModel, State
 from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import Row
@@ -26,7 +24,7 @@ _FURTHER = np.array([12.0, 9.0, 15.0])  # sizes of symbols
 class Configuration(Picture):
     """The drawing of a mechanism at a state."""
 
-    source: Source
+    source: CompiledModel
     state: State
 
     @property
@@ -68,10 +66,10 @@ class Places(Configuration):
         return f"{self.source.name}, drawn with x and y of each mass centre from the origin O, and the angle of each body."
 
 
-def _opened(source: Source, state: State) -> State:
+def _opened(source: CompiledModel, state: State) -> State:
     """A state where one sees what is measured: coordinates that are 0 a little off it, all by different amounts. The same state
     where coordinates depend on each other or something may touch."""
-    coupled = any(joint["type"] == "coupling" for joint in json.loads(source.spec)["joints"])
+    coupled = any(joint["type"] == "coupling" for joint in source.spec["joints"])
     if coupled or source.about["limits"] or any(joint["cut"] for joint in source.about["joints"]):
         return state
     size = sketch_of_state(source, state).size

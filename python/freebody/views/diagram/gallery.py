@@ -49,14 +49,14 @@ def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
 
 
 def _pictures(mechanism: Mechanism, prefix: str) -> str:
-    from freebody._core import MotionError
+    from freebody.core import MotionError
 
     try:
         drawn = [mechanism.diagram()]
         if len(drawn[0].cuts) > 1:
             drawn.append(mechanism.diagram("all"))
     except MotionError as error:
-        return f"<p>{escape(error.args[2])}</p>"
+        return f"<p>{escape(error.what)}</p>"
     return "\n".join(each.inline(f"{prefix}{i}") for i, each in enumerate(drawn))
 
 
@@ -72,7 +72,7 @@ def _blows(mechanism: Mechanism, prefix: str) -> Iterator[str]:
 
 def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Blow]]:
     """The first blow of every kind, and its number; parts that repeat are of one kind. Of a model that does not run there is none."""
-    from freebody._core import MotionError
+    from freebody.core import MotionError
     from freebody.model.errors import ModelFileError
 
     try:

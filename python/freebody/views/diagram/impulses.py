@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import ClassVar
 
 from freebody.blow import Impulsive
-from freebody.free_body import Body, FreeBodies
+from freebody.core import Body, FreeBodies
 from freebody.naming import ImpulseNaming
 from freebody.views.diagram import Cut, Desk, Diagram
 from freebody.views.diagram.names import Labels

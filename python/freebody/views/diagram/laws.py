@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from freebody.free_body import FreeBodies, Load
-from freebody.instant import State
-from freebody.source import Source
+from freebody.core import CompiledModel, FreeBodies, Load, State
 from freebody.symbolic.printers import breaking
 from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
@@ -33,7 +30,7 @@ _Parts: TypeAlias = tuple[Tree, Tree, Tree]
 class Laws:
     """The laws of the forces of a model at a state."""
 
-    source: Source
+    source: CompiledModel
     state: State
     free: FreeBodies
 
@@ -74,7 +71,7 @@ class Laws:
     @cached_property
     def _parts(self) -> Mapping[tuple[str, str], _Parts]:
         """By symbol of the load and body. Empty where letters would fill pages."""
-        from freebody._core import MotionError
+        from freebody.core import MotionError
 
         forces = [load for load in self.free.loads if load.kind == "force"]
         bodies = [name for name in self.free.bodies if any(part.body == name for load in forces for part in load.on)]
@@ -84,9 +81,8 @@ class Laws:
             for name in bodies
             for way in (*ways, {"about": {"point": f"{name}.G"}})
         ]
-        s = self.state
         try:
-            told = json.loads(self.source.core.letters(s.p, s.t, s.q, s.u, "{}", json.dumps(asked)))["answers"]
+            told = self.source.letters(self.state, asked).answers
         except MotionError:
             return {}
         given = [{each["load"]: read(each["tree"]) for each in answer["loads"]} for answer in told]
@@ -99,7 +95,7 @@ class Laws:
 
     def _of_length(self, load: Load) -> list[str]:
         """That of a spring or damper between two points, in the distance of these; of what else pulls aslant nothing is told."""
-        spec = next(each for each in json.loads(self.source.spec)["forces"] if each["name"] == load.name)
+        spec = next(each for each in self.source.spec["forces"] if each["name"] == load.name)
         fields = spec["with"]
         stiffness, rest, damping = (_quantity(fields.get(word, 0)) for word in ("stiffness", "rest_length", "damping"))
         if "between" not in fields or stiffness is None or rest is None or damping is None:

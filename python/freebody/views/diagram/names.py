@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from freebody.free_body import Load
+from freebody.core import Load
 from freebody.naming import Naming
 from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.printers.text import columns, text

@@ -9,11 +9,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from freebody.free_body import GROUND, FreeBodies
-from freebody.instant import State
-from freebody.model.cards import joints
+from freebody.core import GROUND, CompiledModel, FreeBodies, State
+from freebody.core.cards import joints
 from freebody.results import Array
-from freebody.source import Source
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
@@ -138,7 +136,9 @@ def _contains(outline: Array, places: Array) -> bool:
     return bool(Path(outline).contains_points(places).any())
 
 
-def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0) -> Scenery:
+def scenery(
+    source: CompiledModel, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0
+) -> Scenery:
     """The bodies of a group as large as the paper allows, or ``size`` of that."""
     width, height = _ROOM if len(group) == 1 else _WIDER if len(group) <= CROWD else _WIDEST
     room = size * width, size * height
@@ -154,7 +154,7 @@ def scenery(source: Source, state: State, free: FreeBodies, group: Sequence[str]
     return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
-def whole(source: Source, state: State, measured: Measured = measures) -> Scenery:
+def whole(source: CompiledModel, state: State, measured: Measured = measures) -> Scenery:
     """The mechanism on its ground with joints, springs and strings, and all its coordinates, or others, as large as the paper
     allows."""
     names = [body["name"] for body in source.about["bodies"]]
@@ -178,7 +178,7 @@ def whole(source: Source, state: State, measured: Measured = measures) -> Scener
 
 
 def _fitted(
-    source: Source, state: State, room: tuple[float, float], seen: Callable[[Scene, Sketch], list[Array]]
+    source: CompiledModel, state: State, room: tuple[float, float], seen: Callable[[Scene, Sketch], list[Array]]
 ) -> tuple[Sketch, Scene, float]:
     """What is drawn, and the scale in pt for each m at which what is ``seen`` of it fills the room."""
     sketch = sketch_of_state(source, state)

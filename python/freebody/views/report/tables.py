@@ -155,7 +155,7 @@ def _ledger(run: Run) -> str:
 def _settings(run: Run) -> str:
     s, stats = run.settings, run.stats
     rows = [
-        ("degrees of freedom", str(Instant(run.source.core, run.start, about=run.about).freedom)),
+        ("degrees of freedom", str(Instant(run.source, run.start).freedom)),
         ("from, to", f"{_figure(run.edges[0])} s to {_figure(run.edges[-1])} s"),
         ("method", s.method),
         ("relative tolerance", _figure(s.rtol)),

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
 
-from freebody.model.cards import LoadCard
-from freebody.results import Array
+from .cards import LoadCard
+from .errors import Indeterminate
+from .state import Array
 
 GROUND = "ground"
 _DRIVEN = ("motion", "coupling", "force")
 Pair = tuple[float, float]
-
-
-class Indeterminate(LookupError):
-    """A reaction that the balance equations do not determine was asked for as if they did."""
 
 
 @dataclass(frozen=True)
@@ -144,14 +140,12 @@ class FreeBodies:
     """Of the coordinates of the state, m/s² or rad/s²."""
 
     @classmethod
-    def read(cls, text: str) -> FreeBodies:
-        """From the JSON of ``_core.Mechanism.free_bodies``."""
-        told = json.loads(text)
-        bodies = (_body(item) for item in told["bodies"])
-        rows = (Row(item.get("name", ""), item["coefficients"], item["right"]) for item in told.get("rows", ()))
-        return cls(
-            {body.name: body for body in bodies}, tuple(map(_load, told["loads"])), tuple(rows), told.get("accelerations", {})
-        )
+    def read(cls, data: Mapping[str, Any]) -> FreeBodies:
+        """As the core gives them."""
+        bodies = map(_body, data["bodies"])
+        rows = (Row(item.get("name", ""), item["coefficients"], item["right"]) for item in data.get("rows", ()))
+        loads, accelerations = tuple(map(_load, data["loads"])), data.get("accelerations", {})
+        return cls({body.name: body for body in bodies}, loads, tuple(rows), accelerations)
 
     def on(self, *group: str) -> tuple[Load, ...]:
         """The loads on the diagram of a body, or of a group of bodies cut free together: those inside the group are left out."""

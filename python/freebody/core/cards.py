@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -116,7 +115,7 @@ def forces() -> dict[str, Card]:
 
 
 def _section(name: str) -> dict[str, Card]:
-    return {card["type"]: _card(card) for card in json.loads(_core.cards())[name]}
+    return {card["type"]: _card(card) for card in _core.cards()[name]}
 
 
 def _card(data: dict[str, Any]) -> Card:

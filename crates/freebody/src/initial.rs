@@ -1,0 +1,114 @@
+//! An initial state as it is asked for, by names; and what is worth saying about what was found.
+
+use crate::assembly::{Assembled, Wish};
+use crate::builder::unknown;
+use crate::compile::Compiled;
+use crate::error::CompileError;
+use crate::expr::spell;
+use crate::gauges::Law;
+use crate::mechanism::Mechanism;
+use serde_json::{json, Value};
+use std::collections::BTreeMap;
+
+/// A coordinate is as guessed if it differs by less, m or rad.
+const AS_GUESSED: f64 = 1e-9;
+
+type Named = BTreeMap<String, f64>;
+
+/// What an initial state is asked to be: coordinates and gauges, points and signs of expressions by name.
+#[derive(Clone, Debug, Default)]
+pub struct Initial {
+    /// Values that must hold.
+    pub fixed: Named,
+    /// Values that should be near.
+    pub guess: Named,
+    /// Rates that must hold.
+    pub rates: Named,
+    /// Places of points that must hold, m.
+    pub points: BTreeMap<String, [f64; 2]>,
+    /// Expressions that must be positive or negative.
+    pub branch: BTreeMap<String, i64>,
+}
+
+impl Compiled {
+    /// All parameters, those that are named overruled.
+    ///
+    /// # Errors
+    /// A name of no parameter; numbers that cannot be.
+    pub fn parameters(&self, values: &BTreeMap<String, f64>) -> Result<Vec<f64>, CompileError> {
+        let place = |name: &String| {
+            self.mechanism.parameters.iter().position(|p| p.name == *name).ok_or_else(|| {
+                CompileError::from(name, unknown("parameter", name, self.mechanism.parameters.iter().map(|p| &p.name)))
+            })
+        };
+        let given: Result<Vec<_>, _> = values.iter().map(|(name, x)| Ok((place(name)?, *x))).collect();
+        let p = self.mechanism.parameters_with(&given?);
+        self.mechanism.check(&p)?;
+        Ok(p)
+    }
+
+    /// What an initial state is asked to be, with its names looked up.
+    ///
+    /// # Errors
+    /// Names that mean nothing; values that are not finite.
+    pub fn wish(&mut self, asked: &Initial) -> Result<Wish, CompileError> {
+        let held = self.gauges(&asked.fixed)?;
+        let near = self.gauges(&asked.guess)?;
+        let held_rates = self.gauges(&asked.rates)?;
+        let signs =
+            asked.branch.iter().map(|(text, sign)| Ok((text.clone(), self.observable(text)?, sign.signum() as i8)));
+        let branch = signs.collect::<Result<_, CompileError>>()?;
+        let places = asked.points.iter().flat_map(|(name, [x, y])| {
+            let name = spell(name);
+            [(format!("x({name})"), *x), (format!("y({name})"), *y)]
+        });
+        let placed = self.read(places.map(|(text, x)| (text.clone(), text, x)).collect())?;
+        let m = &self.mechanism;
+        let names: Vec<&String> = (0..m.freedom()).map(|i| &m.coordinate(i).name).collect();
+        let value = |name: &&String| *asked.fixed.get(*name).or_else(|| asked.guess.get(*name)).unwrap_or(&0.0);
+        Ok(Wish {
+            start: names.iter().map(value).collect(),
+            start_rates: names.iter().map(|name| *asked.rates.get(*name).unwrap_or(&0.0)).collect(),
+            held: held.into_iter().chain(placed).collect(),
+            near: near.into_iter().filter(|(name, ..)| !names.contains(&name)).map(|(_, law, x)| (law, x)).collect(),
+            held_rates,
+            branch,
+            free: names.iter().map(|name| !asked.fixed.contains_key(*name)).collect(),
+        })
+    }
+
+    fn gauges(&mut self, named: &Named) -> Result<Vec<(String, Law, f64)>, CompileError> {
+        self.read(named.iter().map(|(name, x)| (name.clone(), spell(name).into_owned(), *x)).collect())
+    }
+
+    /// Name, expression and value with the expression read.
+    fn read(&mut self, asked: Vec<(String, String, f64)>) -> Result<Vec<(String, Law, f64)>, CompileError> {
+        let read = |(name, text, x): (String, String, f64)| match x.is_finite() {
+            true => Ok((name, self.observable(&text)?, x)),
+            false => {
+                Err(CompileError::new(format!("initial.{name}"), format!("{x} is no number"), "give a finite number"))
+            }
+        };
+        asked.into_iter().map(read).collect()
+    }
+}
+
+impl Assembled {
+    /// `branch`: the assembly taken and the others, where there are several; `adjusted`: coordinates that are not as guessed.
+    pub fn notes(&self, m: &Mechanism, asked: &Initial) -> Value {
+        let name = |i: usize| &m.coordinate(i).name;
+        let told = |q: &[f64]| {
+            let each = q.iter().enumerate().map(|(i, x)| format!("{} = {x:.6}", name(i)));
+            each.collect::<Vec<_>>().join(", ")
+        };
+        let mut branch: Vec<String> = self.others.iter().map(|o| format!("another assembly: {}", told(o))).collect();
+        if !branch.is_empty() {
+            branch.insert(0, format!("taken: {}", told(&self.q)));
+        }
+        let adjusted = self.q.iter().enumerate().filter_map(|(i, x)| {
+            let guess = asked.guess.get(name(i)).filter(|guess| (*guess - x).abs() > AS_GUESSED)?;
+            Some(format!("{}: guess {guess:.6}, assembled {x:.9}", name(i)))
+        });
+        json!({"branch": branch, "adjusted": adjusted.collect::<Vec<_>>(), "gap": self.gap})
+    }
+}

@@ -1,0 +1,48 @@
+"""All that speaks with the compiled core: a model compiled, states of it, and what it answers, as typed objects.
+
+Text and plain data of ``freebody._core`` end here; everybody else imports from this package.
+"""
+
+from __future__ import annotations
+
+from freebody._core import parse
+
+from .compiled import CompiledModel, Settings, Spec
+from .errors import ExpressionError, Indeterminate, ModelError, MotionError
+from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
+from .limits import Limit
+from .motion import Change, Event, Impulses, Motion, Outcome, Snapshot, Trajectory, there
+from .solution import Rank, Solution, SymbolicAnswers
+from .state import Array, State
+
+__all__ = [
+    "GROUND",
+    "Array",
+    "Body",
+    "Change",
+    "CompiledModel",
+    "Event",
+    "ExpressionError",
+    "FreeBodies",
+    "Impulses",
+    "Indeterminate",
+    "Limit",
+    "Load",
+    "ModelError",
+    "Motion",
+    "MotionError",
+    "Outcome",
+    "Pair",
+    "Part",
+    "Rank",
+    "Row",
+    "Settings",
+    "Snapshot",
+    "Solution",
+    "Spec",
+    "State",
+    "SymbolicAnswers",
+    "Trajectory",
+    "parse",
+    "there",
+]

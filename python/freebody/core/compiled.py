@@ -1,0 +1,119 @@
+"""A compiled model: what is asked of the core, and what it answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from freebody import _core
+
+from .free_bodies import FreeBodies
+from .limits import dimensions
+from .motion import Trajectory
+from .solution import Solution, SymbolicAnswers
+from .state import Array, State
+
+Spec = dict[str, Any]
+"""A model as the core reads it; crates/freebody/src/spec/ says what stands in it."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a run is made; times in s. ``every`` is the spacing of the output grid, ``impacts`` and ``painleve`` are the laws
+    of impacts and of friction that jams."""
+
+    until: float
+    method: str = "dop853"
+    rtol: float = 1e-9
+    step: float | None = None
+    max_step: float | None = None
+    route: str = "auto"
+    every: float | None = None
+    impacts: str = "stop"
+    painleve: str = "stop"
+
+
+@dataclass(frozen=True, eq=False)
+class CompiledModel:
+    """A mechanism without numbers, with the ``spec`` that it was compiled from; beside it the ``model`` as its file says it, what to
+    ``report``, and what is worth saying about its assembly (``notes``).
+
+    Where a state has no answer ``MotionError`` is raised, and ``ModelError`` for an expression or word that means nothing."""
+
+    mechanism: _core.Mechanism
+    spec: Spec
+    model: Mapping[str, Any] = field(default_factory=dict)
+    report: tuple[Any, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, spec: Spec) -> CompiledModel:
+        """From the core's terms. Raises ``ModelError``."""
+        return cls(_core.Mechanism(spec), spec)
+
+    @cached_property
+    def about(self) -> dict[str, Any]:
+        """What the core says of the mechanism: bodies, coordinates, joints and so on."""
+        return dimensions(self.mechanism.describe(), self.spec)
+
+    @property
+    def name(self) -> str:
+        """Title for reports."""
+        return self.spec.get("name") or "mechanism"
+
+    def bind(self, values: Mapping[str, float] | None = None) -> Array:
+        """All parameters (np,), those named in ``values`` overruled. Raises ``ModelError`` for numbers that cannot be."""
+        return self.mechanism.bind(dict(values or {}))
+
+    def assemble(
+        self,
+        p: Array,
+        t: float = 0.0,
+        fixed: Mapping[str, float] | None = None,
+        guess: Mapping[str, float] | None = None,
+        rates: Mapping[str, float] | None = None,
+        points: Mapping[str, Sequence[float]] | None = None,
+        branch: Mapping[str, int] | None = None,
+    ) -> tuple[State, list[str]]:
+        """A state with all loops closed, that keeps what is ``fixed``, ``rates`` and places of ``points`` (m), near ``guess``, with
+        expressions positive or negative as ``branch`` says; and what is worth saying about it."""
+        asked = (fixed or {}, guess or {}, rates or {}, points or {}, branch or {})
+        q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked))
+        return State(p, t, q, u), [*notes["adjusted"], *notes["branch"]]
+
+    def instant(self, state: State, route: str = "minimal") -> Solution:
+        """Accelerations and all reactions by ``minimal``, ``newton_euler`` or ``constraints``."""
+        return Solution.read(self.mechanism.instant(state.arrays, route), self.about)
+
+    def free_bodies(self, state: State) -> FreeBodies:
+        """All that acts on each body."""
+        return FreeBodies.read(self.mechanism.free_bodies(state.arrays))
+
+    def letters(
+        self,
+        state: State,
+        questions: Sequence[Mapping[str, Any]],
+        at_rest: bool = False,
+        numbers: Mapping[str, float] | None = None,
+    ) -> SymbolicAnswers:
+        """What is asked of a state symbolically; crates/freebody/src/letters/question.rs lists the questions. Letters among
+        ``numbers`` are these numbers."""
+        setting = {"at_rest": at_rest, "numbers": dict(numbers or {})}
+        return SymbolicAnswers.read(self.mechanism.letters(state.arrays, setting, list(questions)))
+
+    def evaluate(self, texts: Sequence[str], state: State) -> Array:
+        """Values (k,) of expressions; works count as 0."""
+        return self.mechanism.evaluate(list(texts), state.arrays)
+
+    def points(self, p: Array) -> dict[str, tuple[str, float, float]]:
+        """Named points: body, x and y in its frame (m)."""
+        return {name: (body, x, y) for name, (body, x, y) in self.mechanism.points(p).items()}
+
+    def simulate(self, state: State, until: float, after: Trajectory | None = None, **settings: Any) -> Trajectory:
+        """The motion from a state to a time. ``settings`` are those of ``Settings``, ``max_steps``, and ``progress``: a function
+        of t, called now and then, that interrupts by returning False. ``after``: a motion at whose end this one starts; what it
+        has released, engaged and wound up stays so."""
+        run = self.mechanism.simulate(state.arrays, until, after=after and after.run, **settings)
+        return Trajectory(run, self.about)

@@ -1,0 +1,196 @@
+"""A motion: what happened on its way, what switched, how it ended; and what can be read of it at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from freebody import _core
+
+from .free_bodies import FreeBodies
+from .solution import Solution, SymbolicAnswers
+from .state import Array, State
+
+Question = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened: time in s, ``crossing``, ``touch`` or ``start``, ±1 rising or falling, the state just before."""
+
+    name: str
+    t: float
+    kind: str
+    direction: int
+    q: Mapping[str, float]
+    u: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended: one of a closed list of names, whether that is what was asked for, when, and why.
+
+    ``path`` is the item of the model that the sentence is about, like ``bodies.crank``, or empty."""
+
+    name: str
+    ok: bool
+    t: float
+    sentence: str
+    path: str = ""
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Coordinates (m, rad) and rates by name."""
+
+    q: Mapping[str, float]
+    u: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Impulses:
+    """The impulses of a blow: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
+    second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
+    ``restitution`` is that of what was struck; ``spared`` was reached too, but would have had to pull."""
+
+    contacts: Mapping[str, tuple[float, float]]
+    joints: Mapping[str, tuple[float, float, float]]
+    stops: Mapping[str, float] = field(default_factory=dict)
+    restitution: Mapping[str, float] = field(default_factory=dict)
+    spared: tuple[str, ...] = ()
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """How large the impulse of each contact, string and stop is."""
+        return {name: float(np.hypot(*force)) for name, force in self.contacts.items()} | dict(self.stops)
+
+
+@dataclass(frozen=True)
+class Change:
+    """Something that switched: time in s; ``kind`` is impact, taut, slack, contact, lift-off, slip, stick, reversal, rest,
+    released, engaged or reset; the names concerned; the energy lost in J. Where rates jumped, the state before and after;
+    where there was a blow, its impulses."""
+
+    t: float
+    kind: str
+    of: tuple[str, ...]
+    lost: float
+    note: str = ""
+    impulses: Impulses | None = None
+    before: Snapshot | None = None
+    after: Snapshot | None = None
+
+
+def there(changes: Sequence[Change], name: str, engaged: bool, times: Array) -> Array:
+    """Whether a part is in place (nt,) at each time; ``engaged``: before all changes."""
+    present = np.full(len(times), engaged)
+    for change in changes:
+        if change.kind in ("released", "engaged") and name in change.of:
+            present[times >= change.t] = change.kind == "engaged"
+    return present
+
+
+class Motion:
+    """What is known of a motion: the core's ``Trajectory``, or what a file holds of one. ``record`` is that as plain data."""
+
+    def __init__(self, record: Mapping[str, Any], about: Mapping[str, Any]) -> None:
+        self.record, self.about = record, about
+
+    @cached_property
+    def outcome(self) -> Outcome:
+        """How it ended."""
+        return Outcome(**self.record["outcome"])
+
+    @cached_property
+    def events(self) -> list[Event]:
+        """What happened, in order of time."""
+        return [Event(**event | self._named(event)) for event in self.record["events"]]
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """What switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
+        return [self._change(**change) for change in self.record["changes"]]
+
+    @property
+    def stats(self) -> dict[str, Any]:
+        """What it took: accepted and rejected steps, evaluations, the worst gap of a loop."""
+        return dict(self.record["stats"])
+
+    def _named(self, state: Mapping[str, Sequence[float]]) -> dict[str, dict[str, float]]:
+        names = [c["name"] for c in self.about["coordinates"]]
+        return {part: dict(zip(names, state[part], strict=True)) for part in "qu"}
+
+    def _change(self, of: list[str], note: str | None, impulses: Any, before: Any, after: Any, **plain: Any) -> Change:
+        sides = (state and Snapshot(**self._named(state)) for state in (before, after))
+        return Change(**plain, of=tuple(of), note=note or "", impulses=impulses and self._impulses(**impulses),
+                      **dict(zip(("before", "after"), sides, strict=True)))  # fmt: skip
+
+    def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str]) -> Impulses:
+        stops = {limit["name"] for limit in self.about["limits"] if limit["type"] == "stop"}
+        names = [joint["name"] for joint in self.about["joints"]]
+        return Impulses(
+            contacts={name: tuple(p) for name, p in limits if name not in stops},
+            joints={name: tuple(p) for name, p in zip(names, joints, strict=True) if any(p)},
+            stops={each["name"]: each["normal"] for each in struck if each["name"] in stops},
+            restitution={each["name"]: each["restitution"] for each in struck},
+            spared=tuple(spared),
+        )
+
+
+class Trajectory(Motion):
+    """A finished run of the core with dense output: ``steps`` (ns,) are the times of the accepted steps, first and last included."""
+
+    def __init__(self, run: _core.Trajectory, about: Mapping[str, Any]) -> None:
+        super().__init__(run.record(), about)
+        self.run = run
+        self.steps: Array = run.steps
+
+    def sample(self, times: Array) -> tuple[Array, Array]:
+        """q, u (nt, n) at times within the run, on the closed loops."""
+        return self.run.sample(times)
+
+    def evaluate(self, texts: Sequence[str], times: Array) -> Array:
+        """Expressions (nt, k); reactions and accelerations are solved again at each time."""
+        return self.run.evaluate(list(texts), times)
+
+    def poses(self, times: Array) -> Array:
+        """Frame origin x, y and angle of every body (nt, nb, 3)."""
+        return self.run.poses(times)
+
+    def instants(self, times: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Reactions (nt, nj, 3) and whether they are determinate."""
+        return self.run.instants(times)
+
+    def ledger(self, times: Array) -> tuple[list[str], Array]:
+        """Column names and values (nt, k): kinetic, potential, work of each non-conservative force and motion, balance."""
+        return self.run.ledger(times)
+
+    def instant(self, t: float, route: str = "minimal") -> Solution:
+        """Everything about one time, with what is in place and holds then."""
+        return Solution.read(self.run.instant(t, route), self.about)
+
+    def free_bodies(self, t: float) -> FreeBodies:
+        """As that of ``CompiledModel``, with what is in place and holds then."""
+        return FreeBodies.read(self.run.free_bodies(t))
+
+    def letters(self, t: float, questions: Sequence[Question]) -> SymbolicAnswers:
+        """As that of ``CompiledModel``, with what is in place and holds then."""
+        return SymbolicAnswers.read(self.run.letters(t, {}, list(questions)))
+
+    def free_bodies_of_impact(self, change: int) -> FreeBodies:
+        """Those of an impact, given by its place among the changes: loads of what was struck are for a unit."""
+        return FreeBodies.read(self.run.free_bodies_of_blow(change))
+
+    def letters_of_impact(self, change: int, questions: Sequence[Question]) -> SymbolicAnswers:
+        """Symbolic answers about an impact, with the rates before it."""
+        return SymbolicAnswers.read(self.run.letters_of_blow(change, {}, list(questions)))
+
+    @property
+    def end(self) -> State:
+        """The state at the end."""
+        return State(*self.run.end())

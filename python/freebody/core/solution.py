@@ -1,0 +1,77 @@
+"""What the core answers about an instant, in numbers and symbolically."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .limits import Limit, limits_of
+from .state import Array
+
+
+@dataclass(frozen=True)
+class Rank:
+    """Degrees of freedom at a state (``freedom``) and by Grübler's ``count``; ``rows`` of all joints and couplings, of which
+    ``redundant`` say nothing new there and ``always_redundant`` nothing new nearby either; ``driven``: prescribed motions;
+    ``uncertain``: too close to call. ``explanation`` and ``self_stress`` (each way in which parts could be pre-stressed) in words."""
+
+    freedom: int
+    count: int
+    rows: int
+    redundant: int
+    always_redundant: int
+    driven: int
+    uncertain: bool
+    explanation: str
+    self_stress: list[str]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """An instant, solved, as arrays: for n coordinates, nb bodies and nj joints in the order of the model."""
+
+    accelerations: Array
+    """(n,) of the coordinates."""
+    body_accelerations: Array
+    """(nb, 3) ax, ay of the mass centre, α."""
+    body_residuals: Array
+    """(nb, 3) what is left of the momentum balance: N, N, N·m."""
+    reactions: Array
+    """(nj, 3) Fx, Fy on the second body at the joint's point, couple M; NaN where indeterminate."""
+    least_reactions: Array
+    """(nj, 3) the member of least norm, where reactions are indeterminate."""
+    determinate: NDArray[np.bool_]
+    """(nj, 3)"""
+    motions: Array
+    """Force or torque of each prescribed motion."""
+    residual: float
+    """Largest momentum-balance residual of a body, relative to the largest term."""
+    sizes: tuple[float, float]
+    """Largest force (N) and acceleration (m/s²) among the terms that balance."""
+    limits: dict[str, Limit]
+    """What every contact, string and stop does, by name."""
+    rank: Rank
+
+    @classmethod
+    def read(cls, data: dict[str, Any], about: Mapping[str, Any]) -> Solution:
+        """As the core gives it."""
+        return cls(**data | {"limits": limits_of(data["limits"], about), "rank": Rank(**data["rank"])})
+
+
+@dataclass(frozen=True)
+class SymbolicAnswers:
+    """What the core answers symbolically: one answer for each question, trees as nested lists; ``letters``: kind, value and unit of
+    every letter by name; ``laws``: of loads that follow from others by a law that is not linear."""
+
+    answers: list[Any]
+    letters: Mapping[str, dict[str, Any]]
+    laws: Sequence[Mapping[str, Any]]
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> SymbolicAnswers:
+        """As the core gives them."""
+        return cls(data["answers"], data["letters"], data["laws"])
