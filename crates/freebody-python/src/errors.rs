@@ -1,6 +1,6 @@
 //! Errors of the core as the exceptions of `freebody.core.errors`.
 
-use freebody::balance::Trouble;
+use freebody::dynamics::Trouble;
 use freebody::error::CompileError;
 use freebody::expr::ExprError;
 use pyo3::import_exception;

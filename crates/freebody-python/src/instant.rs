@@ -1,7 +1,7 @@
 //! One solved instant as arrays by name; `freebody.core.Solution` says what they are.
 
 use crate::data::{array, plain};
-use freebody::balance::{Freedom, Instant};
+use freebody::dynamics::{Freedom, Instant};
 use freebody::mechanism::Mechanism;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -29,7 +29,7 @@ pub fn solution<'py>(
     told.set_item("motions", array(py, motions, [m.drives.iter().filter(|d| !d.coupling).count()])?)?;
     told.set_item("residual", solved.residual)?;
     told.set_item("sizes", (solved.sizes.load, solved.sizes.acceleration))?;
-    told.set_item("limits", plain(py, &solved.limits())?)?;
+    told.set_item("limits", plain(py, &solved.contacts())?)?;
     told.set_item("rank", plain(py, &solved.rank(freedom))?)?;
     Ok(told)
 }

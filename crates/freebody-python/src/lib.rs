@@ -6,8 +6,8 @@ mod instant;
 mod mechanism;
 mod trajectory;
 
-use freebody::balance::Balance;
 use freebody::compile::Compiled;
+use freebody::dynamics::Workspace;
 use freebody::scalar::real::sin_cos;
 use pyo3::prelude::*;
 use std::hint::black_box;
@@ -23,21 +23,21 @@ fn parse<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
 /// The cards of all joints, forces and shapes.
 #[pyfunction]
 fn cards(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    data::plain(py, &freebody::describe::cards())
+    data::plain(py, &freebody::metadata::cards())
 }
 
 /// Seconds for one acceleration solve with all reactions of a chain of `n` hinged uniform bars; for benchmarks.
 #[pyfunction]
 fn time_chain(n: usize, repeats: usize) -> PyResult<f64> {
     let compiled = Compiled::new(&freebody::benchmark::chain_model(n)).map_err(errors::model)?;
-    let mut balance = Balance::new(&compiled.mechanism, &[]);
+    let mut workspace = Workspace::new(&compiled.mechanism, &[]);
     let q: Vec<f64> = (0..n).map(|i| 0.1 * sin_cos(i as f64).0).collect();
     let u: Vec<f64> = (0..n).map(|i| 0.2 * sin_cos(i as f64).1).collect();
     let mut u_dot = vec![0.0; n];
     let mut solve = || {
-        balance.place(0.0, black_box(&q), &u);
-        let solved = balance.solve();
-        balance.accelerations(&mut u_dot);
+        workspace.place(0.0, black_box(&q), &u);
+        let solved = workspace.solve();
+        workspace.accelerations(&mut u_dot);
         black_box(&u_dot);
         solved
     };

@@ -5,14 +5,14 @@ use crate::errors;
 use crate::instant::solution;
 use crate::trajectory::Trajectory;
 use freebody::assembly::assemble;
-use freebody::balance::{Balance, Observer, Route, Trouble};
 use freebody::builder::chosen;
 use freebody::compile::Compiled;
-use freebody::gauges::Law;
+use freebody::dynamics::{Observer, Route, Trouble, Workspace};
+use freebody::gauges::ModelExpr;
+use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
-use freebody::letters::{answer, Question, Setting};
 use freebody::motion::Options;
-use freebody::simulation::{simulate, Settings, Start};
+use freebody::symbolic::{answer, Query, Setting};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -39,7 +39,7 @@ impl Shared {
     fn names(&self) -> RwLockWriteGuard<'_, Compiled> {
         self.0.write().expect("no thread panics while it holds the mechanism")
     }
-    pub fn observables(&self, texts: &[String]) -> PyResult<Vec<Law>> {
+    pub fn observables(&self, texts: &[String]) -> PyResult<Vec<ModelExpr>> {
         let mut compiled = self.names();
         texts.iter().map(|text| compiled.observable(text).map_err(errors::model)).collect()
     }
@@ -54,8 +54,8 @@ type Named = BTreeMap<String, f64>;
 /// Parameters, time, coordinates and rates.
 type State<'py> = (Array<'py>, f64, Array<'py>, Array<'py>);
 
-fn placed<'m>(m: &'m freebody::mechanism::Mechanism, (p, t, q, u): &State<'_>) -> PyResult<Balance<'m>> {
-    Balance::of_state(m, p.as_slice()?, *t, q.as_slice()?, u.as_slice()?).map_err(errors::motion)
+fn placed<'m>(m: &'m freebody::mechanism::Mechanism, (p, t, q, u): &State<'_>) -> PyResult<Workspace<'m>> {
+    Workspace::of_state(m, p.as_slice()?, *t, q.as_slice()?, u.as_slice()?).map_err(errors::motion)
 }
 
 #[pymethods]
@@ -70,7 +70,7 @@ impl Mechanism {
     }
 
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        plain(py, &freebody::describe::describe(&self.0.mechanism()))
+        plain(py, &freebody::metadata::metadata(&self.0.mechanism()))
     }
 
     fn bind<'py>(&self, py: Python<'py>, values: Named) -> PyResult<Bound<'py, PyArray1<f64>>> {
@@ -94,7 +94,7 @@ impl Mechanism {
         let wish = self.0.names().wish(&asked).map_err(errors::model)?;
         let m = self.0.mechanism();
         m.check_state(p.as_slice()?, t, &wish.start, &wish.start_rates).map_err(errors::motion)?;
-        let found = assemble(&mut Balance::new(&m, p.as_slice()?), t, &wish).map_err(errors::motion)?;
+        let found = assemble(&mut Workspace::new(&m, p.as_slice()?), t, &wish).map_err(errors::motion)?;
         let notes = plain(py, &found.notes(&m, &asked))?;
         Ok((PyArray1::from_vec(py, found.q), PyArray1::from_vec(py, found.u), notes))
     }
@@ -102,15 +102,15 @@ impl Mechanism {
     fn instant<'py>(&self, py: Python<'py>, state: State<'py>, route: &str) -> PyResult<Bound<'py, PyDict>> {
         let m = self.0.mechanism();
         let route = self::route(route)?;
-        let mut balance = placed(&m, &state)?;
-        let solved = balance.instant(route).map_err(errors::motion)?;
-        solution(py, &m, &solved, &balance.freedom())
+        let mut workspace = placed(&m, &state)?;
+        let solved = workspace.instant(route).map_err(errors::motion)?;
+        solution(py, &m, &solved, &workspace.freedom())
     }
 
     fn free_bodies<'py>(&self, py: Python<'py>, state: State<'py>) -> PyResult<Bound<'py, PyAny>> {
         let m = self.0.mechanism();
-        let mut balance = placed(&m, &state)?;
-        plain(py, &freebody::free_bodies::free_bodies(&mut balance).map_err(errors::motion)?)
+        let mut workspace = placed(&m, &state)?;
+        plain(py, &freebody::free_bodies::free_bodies(&mut workspace).map_err(errors::motion)?)
     }
 
     fn letters<'py>(
@@ -121,9 +121,9 @@ impl Mechanism {
         questions: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let m = self.0.mechanism();
-        let mut balance = placed(&m, &state)?;
+        let mut workspace = placed(&m, &state)?;
         let (setting, questions) = self::questions(setting, questions)?;
-        plain(py, &answer(&mut balance, &setting, &questions).map_err(errors::motion)?)
+        plain(py, &answer(&mut workspace, &setting, &questions).map_err(errors::motion)?)
     }
 
     fn evaluate<'py>(
@@ -134,9 +134,9 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let laws = self.0.observables(&texts)?;
         let m = self.0.mechanism();
-        let mut balance = placed(&m, &state)?;
-        let laws: Vec<&Law> = laws.iter().collect();
-        let mut observer = Observer::new(&mut balance, laws.iter().copied());
+        let mut workspace = placed(&m, &state)?;
+        let laws: Vec<&ModelExpr> = laws.iter().collect();
+        let mut observer = Observer::new(&mut workspace, laws.iter().copied());
         observer.place(state.1, state.2.as_slice()?, state.3.as_slice()?).map_err(errors::motion)?;
         Ok(PyArray1::from_vec(py, observer.read(&laws, &[])))
     }
@@ -144,7 +144,7 @@ impl Mechanism {
     fn points<'py>(&self, py: Python<'py>, p: Array<'py>) -> PyResult<Bound<'py, PyAny>> {
         let m = self.0.mechanism();
         m.check_parameters(p.as_slice()?).map_err(errors::motion)?;
-        plain(py, &freebody::describe::places(&m, &m.bind(p.as_slice()?)))
+        plain(py, &freebody::metadata::places(&m, &m.bind(p.as_slice()?)))
     }
 
     fn mass_matrix<'py>(
@@ -155,7 +155,7 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let (m, p, q) = (self.0.mechanism(), p.as_slice()?, q.as_slice()?);
         m.check_state(p, 0.0, q, &vec![0.0; m.freedom()]).map_err(errors::motion)?;
-        array(py, freebody::simulation::mass_matrix(&m, p, q), [m.freedom(), m.freedom()])
+        array(py, freebody::hybrid::mass_matrix(&m, p, q), [m.freedom(), m.freedom()])
     }
 
     #[pyo3(signature = (state, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop", after=None))]
@@ -182,7 +182,7 @@ impl Mechanism {
         let (p, t, q, u) = state;
         let (p, q, u) = (p.as_slice()?.to_vec(), q.as_slice()?.to_vec(), u.as_slice()?.to_vec());
         let of = self.0.clone();
-        let mut trouble = None;
+        let mut error = None;
         let run = py.detach(|| {
             let m = of.mechanism();
             let start = Start { p: &p, t, q: &q, u: &u, mode: mode.as_ref() };
@@ -193,12 +193,12 @@ impl Mechanism {
                 }
                 last = std::time::Instant::now();
                 Python::attach(|py| heard(py, progress.as_ref(), now)).unwrap_or_else(|e| {
-                    trouble = Some(e);
+                    error = Some(e);
                     false
                 })
             })
         });
-        match trouble {
+        match error {
             Some(error) => Err(error),
             None => Ok(Trajectory { of: self.0.clone(), run: run.map_err(errors::motion)? }),
         }
@@ -215,7 +215,7 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
 }
 
 /// A setting and questions in letters.
-pub fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Question>)> {
+pub fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Query>)> {
     let wrong = |e: serde_json::Error| errors::motion(Trouble::new("wrong_question", e.to_string()));
     Ok((data(setting)?.map_err(wrong)?, data(questions)?.map_err(wrong)?))
 }

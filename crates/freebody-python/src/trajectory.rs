@@ -4,8 +4,8 @@ use crate::data::{array, plain};
 use crate::errors;
 use crate::instant::solution;
 use crate::mechanism::Shared;
-use freebody::letters::answer;
-use freebody::simulation;
+use freebody::hybrid;
+use freebody::symbolic::answer;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[pyclass(frozen)]
 pub struct Trajectory {
     pub of: Arc<Shared>,
-    pub run: simulation::Trajectory,
+    pub run: hybrid::Trajectory,
 }
 
 #[pymethods]
@@ -49,15 +49,17 @@ impl Trajectory {
         questions: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (setting, questions) = crate::mechanism::questions(setting, questions)?;
-        let told = self.run.at(&self.of.mechanism(), t, |balance| answer(balance, &setting, &questions));
+        let told = self.run.at(&self.of.mechanism(), t, |workspace| answer(workspace, &setting, &questions));
         plain(py, &told.map_err(errors::motion)?)
     }
-    /// Bodies and loads during a blow, given by its place among the changes: those of what was struck are told for a unit.
+    /// Bodies and loads during a blow, given by its place among the changes: those of what was struck are told for a
+    /// unit.
     fn free_bodies_of_blow<'py>(&self, py: Python<'py>, change: usize) -> PyResult<Bound<'py, PyAny>> {
-        let told = self.run.at_blow(&self.of.mechanism(), change, |balance| {
-            // What strikes at several places moves there as no constraint allows; where impulses act does not depend on it.
-            balance.stand_still();
-            freebody::free_bodies::free_bodies(balance)
+        let told = self.run.at_impact(&self.of.mechanism(), change, |workspace| {
+            // What strikes at several places moves there as no constraint allows; where impulses act does not depend on
+            // it.
+            workspace.set_zero_rates();
+            freebody::free_bodies::free_bodies(workspace)
         });
         plain(py, &told.map_err(errors::motion)?)
     }
@@ -70,7 +72,8 @@ impl Trajectory {
         questions: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (setting, questions) = crate::mechanism::questions(setting, questions)?;
-        let told = self.run.at_blow(&self.of.mechanism(), change, |balance| answer(balance, &setting, &questions));
+        let told =
+            self.run.at_impact(&self.of.mechanism(), change, |workspace| answer(workspace, &setting, &questions));
         plain(py, &told.map_err(errors::motion)?)
     }
     #[allow(clippy::type_complexity)]

@@ -1,25 +1,25 @@
 //! Assembly: coordinates and rates that close all loops and keep what was asked for.
 
-use crate::balance::{Balance, Row, Source, Trouble, CLOSED, OPEN};
-use crate::gauges::Law;
-use crate::kinematics::{jet, Moving};
+use crate::dynamics::{Row, Source, Trouble, Workspace, CLOSED, OPEN};
+use crate::gauges::ModelExpr;
+use crate::kinematics::{jet, MotionView};
 use crate::scalar::real;
 
 /// What an initial state is asked to be.
 #[derive(Clone, Debug, Default)]
-pub struct Wish {
+pub struct AssemblyRequest {
     /// Starting values of the tree's coordinates, in the order of `q`.
     pub start: Vec<f64>,
     /// Starting values of their rates.
     pub start_rates: Vec<f64>,
     /// Gauges that must have a value.
-    pub held: Vec<(String, Law, f64)>,
+    pub held: Vec<(String, ModelExpr, f64)>,
     /// Gauges that should be near a value, to choose an assembly.
-    pub near: Vec<(Law, f64)>,
+    pub near: Vec<(ModelExpr, f64)>,
     /// Gauges whose rate must have a value.
-    pub held_rates: Vec<(String, Law, f64)>,
+    pub held_rates: Vec<(String, ModelExpr, f64)>,
     /// Expressions that must be positive (+1) or negative (−1).
-    pub branch: Vec<(String, Law, i8)>,
+    pub branch: Vec<(String, ModelExpr, i8)>,
     /// Of each coordinate, whether another assembly may be looked for by changing its start.
     pub free: Vec<bool>,
 }
@@ -49,107 +49,112 @@ const ATTEMPTS: usize = 64;
 ///
 /// # Errors
 /// `cannot_assemble` with the gap at each joint, `branch_not_found`, `inconsistent_velocities`.
-pub fn assemble(balance: &mut Balance, t: f64, wish: &Wish) -> Result<Assembled, Trouble> {
-    let first = attempt(balance, t, wish, &wish.start);
+pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Result<Assembled, Trouble> {
+    let first = attempt(workspace, t, request, &request.start);
     let q = match first {
-        Ok(q) if on_branch(balance, t, &q, wish) => q,
-        first => search(balance, t, wish, first)?,
+        Ok(q) if on_branch(workspace, t, &q, request) => q,
+        first => search(workspace, t, request, first)?,
     };
-    let others = other_assemblies(balance, t, wish, &q);
-    let u = velocities(balance, t, wish, &q)?;
-    balance.place(t, &q, &u);
-    let gap = balance.worst_gap();
+    let others = other_assemblies(workspace, t, request, &q);
+    let u = velocities(workspace, t, request, &q)?;
+    workspace.place(t, &q, &u);
+    let gap = workspace.worst_gap();
     Ok(Assembled { q, u, gap, others })
 }
 
 /// Rows to close: loops, drives and what is held.
-fn rows(balance: &mut Balance, held: &[(String, Law, f64)]) -> Vec<(Row, f64)> {
-    balance.take_rows();
+fn rows(workspace: &mut Workspace, held: &[(String, ModelExpr, f64)]) -> Vec<(Row, f64)> {
+    workspace.update_rows();
     let mut rows: Vec<(Row, f64)> =
-        balance.rows().iter().filter_map(|row| balance.gap(row).map(|gap| (row.clone(), gap))).collect();
+        workspace.rows().iter().filter_map(|row| workspace.gap(row).map(|gap| (row.clone(), gap))).collect();
     for (_, gauge, value) in held {
-        let row = balance.target_row(gauge, *value, 0.0);
+        let row = workspace.target_row(gauge, *value, 0.0);
         let gap = row.value.unwrap_or(0.0);
         rows.push((row, gap));
     }
     rows
 }
 
-fn worst(balance: &Balance, rows: &[(Row, f64)]) -> f64 {
-    rows.iter().map(|(row, gap)| gap.abs() / balance.row_unit(row)).fold(0.0, f64::max)
+fn worst(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
+    rows.iter().map(|(row, gap)| gap.abs() / workspace.row_unit(row)).fold(0.0, f64::max)
 }
 
 /// One attempt from one start: first drawn to what should be near, then closed exactly.
-fn attempt(balance: &mut Balance, t: f64, wish: &Wish, start: &[f64]) -> Result<Vec<f64>, Trouble> {
+fn attempt(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, start: &[f64]) -> Result<Vec<f64>, Trouble> {
     let mut q = start.to_vec();
-    if !wish.near.is_empty() {
-        let near: Vec<_> = wish.near.iter().map(|(law, x)| (String::new(), law.clone(), *x)).collect();
-        let all: Vec<_> = wish.held.iter().chain(&near).cloned().collect();
-        descend(balance, t, &all, &mut q);
+    if !request.near.is_empty() {
+        let near: Vec<_> = request.near.iter().map(|(law, x)| (String::new(), law.clone(), *x)).collect();
+        let all: Vec<_> = request.held.iter().chain(&near).cloned().collect();
+        descend(workspace, t, &all, &mut q);
     }
-    let gap = descend(balance, t, &wish.held, &mut q);
+    let gap = descend(workspace, t, &request.held, &mut q);
     if gap <= OPEN {
         return Ok(q);
     }
-    Err(cannot_assemble(balance, t, wish, &q))
+    Err(cannot_assemble(workspace, t, request, &q))
 }
 
 /// Damped least squares on all rows; returns the largest gap left.
-fn descend(balance: &mut Balance, t: f64, held: &[(String, Law, f64)], q: &mut Vec<f64>) -> f64 {
+fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)], q: &mut Vec<f64>) -> f64 {
     let still = vec![0.0; q.len()];
-    balance.place(t, q, &still);
-    let mut present = rows(balance, held);
+    workspace.place(t, q, &still);
+    let mut present = rows(workspace, held);
     // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
     let mut damping = 0.0;
     for _ in 0..ITERATIONS {
-        let (gap, size) = (worst(balance, &present), norm(balance, &present));
+        let (gap, size) = (worst(workspace, &present), norm(workspace, &present));
         if gap <= CLOSED || !gap.is_finite() {
             break;
         }
-        let step = balance.damped_motion(&present, damping);
+        let step = workspace.damped_motion(&present, damping);
         let mut user = vec![0.0; q.len()];
-        balance.to_user(&step, &mut user);
-        let longest = (0..q.len()).map(|i| (user[i] / unit(balance, i)).abs()).fold(1.0, f64::max);
+        workspace.to_user(&step, &mut user);
+        let longest = (0..q.len()).map(|i| (user[i] / unit(workspace, i)).abs()).fold(1.0, f64::max);
         let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
-        balance.place(t, &trial, &still);
-        let next = rows(balance, held);
-        if norm(balance, &next) < size {
+        workspace.place(t, &trial, &still);
+        let next = rows(workspace, held);
+        if norm(workspace, &next) < size {
             (*q, present) = (trial, next);
             damping = if damping < 1e-6 { 0.0 } else { 0.2 * damping };
         } else {
-            balance.place(t, q, &still);
+            workspace.place(t, q, &still);
             if gap <= OPEN || damping > 1e9 {
                 break;
             }
             damping = (5.0 * damping).max(1e-4);
         }
     }
-    worst(balance, &present)
+    worst(workspace, &present)
 }
 
-fn norm(balance: &Balance, rows: &[(Row, f64)]) -> f64 {
-    let square = |(row, gap): &(Row, f64)| (gap / balance.row_unit(row)) * (gap / balance.row_unit(row));
+fn norm(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
+    let square = |(row, gap): &(Row, f64)| (gap / workspace.row_unit(row)) * (gap / workspace.row_unit(row));
     rows.iter().map(square).sum::<f64>().sqrt()
 }
 
-fn on_branch(balance: &mut Balance, t: f64, q: &[f64], wish: &Wish) -> bool {
-    balance.place(t, q, &vec![0.0; q.len()]);
-    let going = Moving { at: balance.at(), bodies: None, accelerations: None };
-    wish.branch.iter().all(|(_, law, sign)| jet(&going, law).d0 * f64::from(*sign) > 0.0)
+fn on_branch(workspace: &mut Workspace, t: f64, q: &[f64], request: &AssemblyRequest) -> bool {
+    workspace.place(t, q, &vec![0.0; q.len()]);
+    let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
+    request.branch.iter().all(|(_, law, sign)| jet(&going, law).d0 * f64::from(*sign) > 0.0)
 }
 
 /// Other starts, until one closes on the branch wished for.
-fn search(balance: &mut Balance, t: f64, wish: &Wish, first: Result<Vec<f64>, Trouble>) -> Result<Vec<f64>, Trouble> {
+fn search(
+    workspace: &mut Workspace,
+    t: f64,
+    request: &AssemblyRequest,
+    first: Result<Vec<f64>, Trouble>,
+) -> Result<Vec<f64>, Trouble> {
     for k in 1..=ATTEMPTS {
-        let start = scattered(balance, wish, k);
-        if let Ok(q) = attempt(balance, t, wish, &start) {
-            if on_branch(balance, t, &q, wish) {
+        let start = scattered(workspace, request, k);
+        if let Ok(q) = attempt(workspace, t, request, &start) {
+            if on_branch(workspace, t, &q, request) {
                 return Ok(q);
             }
         }
     }
     first?;
-    let names: Vec<&str> = wish.branch.iter().map(|(text, ..)| text.as_str()).collect();
+    let names: Vec<&str> = request.branch.iter().map(|(text, ..)| text.as_str()).collect();
     Err(Trouble::new(
         "branch_not_found",
         format!(
@@ -160,37 +165,38 @@ fn search(balance: &mut Balance, t: f64, wish: &Wish, first: Result<Vec<f64>, Tr
 }
 
 /// Start `k` of a sequence that covers angles and lengths evenly (a lattice of square roots of primes).
-fn scattered(balance: &Balance, wish: &Wish, k: usize) -> Vec<f64> {
+fn scattered(workspace: &Workspace, request: &AssemblyRequest, k: usize) -> Vec<f64> {
     const PRIMES: [f64; 12] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0];
     let place = |i: usize| {
         let x = k as f64 * PRIMES[i % 12].sqrt() * (1.0 + (i / 12) as f64);
         2.0 * (x - x.floor()) - 1.0
     };
-    (0..wish.start.len())
+    (0..request.start.len())
         .map(|i| {
-            let reach = if balance.m.coordinate(i).dimension == "rad" { std::f64::consts::PI } else { balance.length };
-            wish.start[i] + if wish.free[i] { reach * place(i) } else { 0.0 }
+            let reach =
+                if workspace.m.coordinate(i).dimension == "rad" { std::f64::consts::PI } else { workspace.length };
+            request.start[i] + if request.free[i] { reach * place(i) } else { 0.0 }
         })
         .collect()
 }
 
 /// The other assemblies of a small, fully determined mechanism with loops.
-fn other_assemblies(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Vec<Vec<f64>> {
-    let free = wish.free.iter().filter(|f| **f).count();
-    if balance.m.closures.is_empty() || free == 0 || free > 6 || q.len() > 12 {
+fn other_assemblies(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> Vec<Vec<f64>> {
+    let free = request.free.iter().filter(|f| **f).count();
+    if workspace.m.closures.is_empty() || free == 0 || free > 6 || q.len() > 12 {
         return vec![];
     }
-    balance.place(t, q, &vec![0.0; q.len()]);
-    let determined = rows(balance, &wish.held);
-    if balance.rank_of(&determined) < q.len() {
+    workspace.place(t, q, &vec![0.0; q.len()]);
+    let determined = rows(workspace, &request.held);
+    if workspace.rank_of(&determined) < q.len() {
         return vec![];
     }
-    let open = Wish { near: vec![], branch: vec![], ..wish.clone() };
+    let open = AssemblyRequest { near: vec![], branch: vec![], ..request.clone() };
     let mut found = vec![q.to_vec()];
     for k in 1..=ATTEMPTS / 4 {
-        let start = scattered(balance, wish, k);
-        if let Ok(other) = attempt(balance, t, &open, &start) {
-            if !found.iter().any(|known| same(balance, known, &other)) {
+        let start = scattered(workspace, request, k);
+        if let Ok(other) = attempt(workspace, t, &open, &start) {
+            if !found.iter().any(|known| same(workspace, known, &other)) {
                 found.push(other);
             }
         }
@@ -199,40 +205,42 @@ fn other_assemblies(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Ve
 }
 
 /// Whether two sets of coordinates are the same place, angles up to whole turns.
-fn same(balance: &Balance, a: &[f64], b: &[f64]) -> bool {
+fn same(workspace: &Workspace, a: &[f64], b: &[f64]) -> bool {
     (0..a.len()).all(|i| {
         let d = a[i] - b[i];
         let turn = std::f64::consts::TAU;
-        let d = if balance.m.coordinate(i).dimension == "rad" { d - turn * (d / turn).round() } else { d };
-        d.abs() < 1e-6 * unit(balance, i)
+        let d = if workspace.m.coordinate(i).dimension == "rad" { d - turn * (d / turn).round() } else { d };
+        d.abs() < 1e-6 * unit(workspace, i)
     })
 }
 
 /// A large change of a coordinate: a radian, or the characteristic length.
-fn unit(balance: &Balance, i: usize) -> f64 {
-    match balance.m.coordinate(i).dimension {
-        "m" => balance.length,
+fn unit(workspace: &Workspace, i: usize) -> f64 {
+    match workspace.m.coordinate(i).dimension {
+        "m" => workspace.length,
         _ => 1.0,
     }
 }
 
 /// Rates that keep the loops closed and what is held, nearest to the starting rates.
-fn velocities(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Result<Vec<f64>, Trouble> {
-    let mut u = wish.start_rates.clone();
+fn velocities(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> Result<Vec<f64>, Trouble> {
+    let mut u = request.start_rates.clone();
     for _ in 0..3 {
-        balance.align_with(t, q, &mut u, &wish.held_rates)?;
+        workspace.project_velocities_with(t, q, &mut u, &request.held_rates)?;
     }
-    balance.place(t, q, &u);
-    balance.take_rows();
+    workspace.place(t, q, &u);
+    workspace.update_rows();
     let speed = u.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-    let told = |source: Source| (source.name(balance.m).to_string(), Some(source.path(balance.m)));
-    let drive = balance.rows().iter().filter_map(|r| r.rate.map(|x| (told(r.source), x)));
-    let going = Moving { at: balance.at(), bodies: None, accelerations: None };
-    let held =
-        wish.held_rates.iter().map(|(name, law, rate)| ((format!("rate of {name}"), None), jet(&going, law).d1 - rate));
+    let described = |source: Source| (source.name(workspace.m).to_string(), Some(source.path(workspace.m)));
+    let drive = workspace.rows().iter().filter_map(|r| r.rate.map(|x| (described(r.source), x)));
+    let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
+    let held = request
+        .held_rates
+        .iter()
+        .map(|(name, law, rate)| ((format!("rate of {name}"), None), jet(&going, law).d1 - rate));
     let worst = drive.chain(held).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match worst {
-        Some(((name, path), left)) if left.abs() > 1e-8 * speed * balance.length.max(1.0) => Err(Trouble::new(
+        Some(((name, path), left)) if left.abs() > 1e-8 * speed * workspace.length.max(1.0) => Err(Trouble::new(
             "inconsistent_velocities",
             format!("the motions, loops and given rates contradict each other: at best {name} is off by {left:.3} (m/s or rad/s); remove one of them, or make them agree"),
         )
@@ -241,27 +249,27 @@ fn velocities(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Result<V
     }
 }
 
-fn cannot_assemble(balance: &mut Balance, t: f64, wish: &Wish, q: &[f64]) -> Trouble {
-    balance.place(t, q, &vec![0.0; q.len()]);
+fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> Trouble {
+    workspace.place(t, q, &vec![0.0; q.len()]);
     // Name and, for what is no wish, place in the model; how far open.
     let mut gaps: Vec<(String, Option<String>, f64)> = vec![];
-    for (i, (row, gap)) in rows(balance, &wish.held).iter().enumerate() {
-        let closing = balance.rows().iter().filter(|r| balance.gap(r).is_some()).count();
+    for (i, (row, gap)) in rows(workspace, &request.held).iter().enumerate() {
+        let closing = workspace.rows().iter().filter(|r| workspace.gap(r).is_some()).count();
         let (name, path) = match i.checked_sub(closing) {
-            None => (row.source.name(balance.m).to_string(), Some(row.source.path(balance.m))),
-            Some(k) => (wish.held[k].0.clone(), None),
+            None => (row.source.name(workspace.m).to_string(), Some(row.source.path(workspace.m))),
+            Some(k) => (request.held[k].0.clone(), None),
         };
         match gaps.iter_mut().find(|known| known.0 == name) {
             Some((_, _, g)) => *g = real::hypot(*g, *gap),
             None => gaps.push((name, path, gap.abs())),
         }
     }
-    gaps.retain(|(_, _, gap)| *gap > 1e-9 * balance.length);
-    let told: Vec<String> = gaps.iter().map(|(name, _, gap)| format!("{gap:.4} at `{name}`")).collect();
+    gaps.retain(|(_, _, gap)| *gap > 1e-9 * workspace.length);
+    let described: Vec<String> = gaps.iter().map(|(name, _, gap)| format!("{gap:.4} at `{name}`")).collect();
     let widest = gaps.into_iter().filter(|g| g.1.is_some()).max_by(|a, b| a.2.total_cmp(&b.2));
     Trouble::new(
         "cannot_assemble",
-        format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", told.join(", ")),
+        format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", described.join(", ")),
     )
     .about(widest.and_then(|(_, path, _)| path))
 }

@@ -34,11 +34,11 @@ pub fn spanning_tree(orphans: &[usize], edges: &[Edge], mut adopt: impl FnMut(us
         e.ends.iter().for_each(|&end| at[end].push(i));
     }
     let mut frontier = std::collections::BinaryHeap::new();
-    let mut reached = vec![false; nodes];
+    let mut contacts = vec![false; nodes];
     let mut tree = Vec::with_capacity(orphans.len());
     let mut orphans = orphans.iter();
-    let arrive = |node: usize, reached: &mut Vec<bool>, frontier: &mut std::collections::BinaryHeap<_>, age: usize| {
-        reached[node] = true;
+    let arrive = |node: usize, contacts: &mut Vec<bool>, frontier: &mut std::collections::BinaryHeap<_>, age: usize| {
+        contacts[node] = true;
         for &i in &at[node] {
             for (side, rank) in edges[i].rank.iter().enumerate() {
                 if let (true, Some(rank)) = (edges[i].ends[side] == node, rank) {
@@ -47,19 +47,19 @@ pub fn spanning_tree(orphans: &[usize], edges: &[Edge], mut adopt: impl FnMut(us
             }
         }
     };
-    arrive(0, &mut reached, &mut frontier, 0);
+    arrive(0, &mut contacts, &mut frontier, 0);
     loop {
         while let Some(std::cmp::Reverse((_, _, i, side))) = frontier.pop() {
             let (parent, child) = (edges[i].ends[side], edges[i].ends[1 - side]);
-            if !reached[child] {
+            if !contacts[child] {
                 tree.push(Branch { parent, child, edge: i, reversed: side == 1 });
-                arrive(child, &mut reached, &mut frontier, tree.len());
+                arrive(child, &mut contacts, &mut frontier, tree.len());
             }
         }
-        let Some(&child) = orphans.find(|&&node| !reached[node]) else { return tree };
+        let Some(&child) = orphans.find(|&&node| !contacts[node]) else { return tree };
         let edge = adopt(child);
         tree.push(Branch { parent: 0, child, edge, reversed: false });
-        arrive(child, &mut reached, &mut frontier, tree.len());
+        arrive(child, &mut contacts, &mut frontier, tree.len());
     }
 }
 

@@ -1,11 +1,11 @@
 //! An initial state as it is asked for, by names; and what is worth saying about what was found.
 
-use crate::assembly::{Assembled, Wish};
+use crate::assembly::{Assembled, AssemblyRequest};
 use crate::builder::unknown;
 use crate::compile::Compiled;
 use crate::error::CompileError;
 use crate::expr::spell;
-use crate::gauges::Law;
+use crate::gauges::ModelExpr;
 use crate::mechanism::Mechanism;
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
@@ -51,7 +51,7 @@ impl Compiled {
     ///
     /// # Errors
     /// Names that mean nothing; values that are not finite.
-    pub fn wish(&mut self, asked: &Initial) -> Result<Wish, CompileError> {
+    pub fn wish(&mut self, asked: &Initial) -> Result<AssemblyRequest, CompileError> {
         let held = self.gauges(&asked.fixed)?;
         let near = self.gauges(&asked.guess)?;
         let held_rates = self.gauges(&asked.rates)?;
@@ -66,7 +66,7 @@ impl Compiled {
         let m = &self.mechanism;
         let names: Vec<&String> = (0..m.freedom()).map(|i| &m.coordinate(i).name).collect();
         let value = |name: &&String| *asked.fixed.get(*name).or_else(|| asked.guess.get(*name)).unwrap_or(&0.0);
-        Ok(Wish {
+        Ok(AssemblyRequest {
             start: names.iter().map(value).collect(),
             start_rates: names.iter().map(|name| *asked.rates.get(*name).unwrap_or(&0.0)).collect(),
             held: held.into_iter().chain(placed).collect(),
@@ -77,12 +77,12 @@ impl Compiled {
         })
     }
 
-    fn gauges(&mut self, named: &Named) -> Result<Vec<(String, Law, f64)>, CompileError> {
+    fn gauges(&mut self, named: &Named) -> Result<Vec<(String, ModelExpr, f64)>, CompileError> {
         self.read(named.iter().map(|(name, x)| (name.clone(), spell(name).into_owned(), *x)).collect())
     }
 
     /// Name, expression and value with the expression read.
-    fn read(&mut self, asked: Vec<(String, String, f64)>) -> Result<Vec<(String, Law, f64)>, CompileError> {
+    fn read(&mut self, asked: Vec<(String, String, f64)>) -> Result<Vec<(String, ModelExpr, f64)>, CompileError> {
         let read = |(name, text, x): (String, String, f64)| match x.is_finite() {
             true => Ok((name, self.observable(&text)?, x)),
             false => {

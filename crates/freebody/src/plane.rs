@@ -213,7 +213,7 @@ impl<S: Scalar> Wrench<S> {
     pub fn force(f: Vec2<S>, arm: Vec2<S>) -> Self {
         Wrench { f, m: arm.cross(f) }
     }
-    /// The same load told about another reference point, from which this one lies at `arm`.
+    /// The same load expressed about another reference point, from which this one lies at `arm`.
     #[inline(always)]
     pub fn seen_from(self, arm: Vec2<S>) -> Self {
         Wrench { f: self.f, m: self.m + arm.cross(self.f) }
@@ -270,21 +270,21 @@ impl<S: Scalar> AddAssign for Wrench<S> {
 
 /// A short list of at most three scalars.
 #[derive(Clone, Copy, Debug)]
-pub struct Few<S> {
+pub struct Rows3<S> {
     items: [S; 3],
     len: usize,
 }
 
-impl<S: Scalar> Few<S> {
+impl<S: Scalar> Rows3<S> {
     /// From up to three scalars.
     pub fn of(values: &[S]) -> Self {
         let mut items = [S::zero(); 3];
         items[..values.len()].copy_from_slice(values);
-        Few { items, len: values.len() }
+        Rows3 { items, len: values.len() }
     }
 }
 
-impl<S> std::ops::Deref for Few<S> {
+impl<S> std::ops::Deref for Rows3<S> {
     type Target = [S];
     fn deref(&self) -> &[S] {
         &self.items[..self.len]

@@ -87,14 +87,14 @@ impl Arena {
         self.atom_ids.insert(atom, id);
         id
     }
-    /// The atom; a letter that is new has no value.
+    /// The atom; a variable that is new has no value.
     pub(super) fn atom_id(&mut self, atom: Atom) -> AtomId {
         let copy = atom.clone();
         self.atom_with(atom, |arena| arena.witness(&copy))
     }
     fn witness(&self, atom: &Atom) -> f64 {
         match atom {
-            Atom::Letter(_) => f64::NAN,
+            Atom::Variable(_) => f64::NAN,
             Atom::Pi => std::f64::consts::PI,
             Atom::Prime(p) => *p as f64,
             Atom::Cos(of) => real::sin_cos(self.value(*of)).1,

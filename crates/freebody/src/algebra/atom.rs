@@ -4,19 +4,19 @@ use super::arena::SumId;
 use super::ratio::Ratio;
 use std::rc::Rc;
 
-/// A letter of the formulas: a quantity or one of its time derivatives.
+/// A variable of the formulas: a quantity or one of its time derivatives.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Letter {
+pub struct Variable {
     /// The name of the quantity.
     pub name: String,
     /// How many times it is differentiated with respect to time.
     pub dots: u8,
 }
 
-impl Letter {
-    /// The letter `name` with `dots` dots.
+impl Variable {
+    /// The variable `name` with `dots` dots.
     pub fn new(name: impl Into<String>, dots: u8) -> Self {
-        Letter { name: name.into(), dots }
+        Variable { name: name.into(), dots }
     }
 }
 
@@ -27,7 +27,7 @@ pub struct AtomId(pub(super) u32);
 /// What cannot be taken apart by adding and multiplying.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Atom {
-    Letter(Letter),
+    Variable(Variable),
     Pi,
     /// A prime number, with exponents in (0, 1).
     Prime(i64),

@@ -1,7 +1,7 @@
-//! Derivatives, substitution and the letters of a sum.
+//! Derivatives, substitution and the variables of a sum.
 
 use super::arena::{raised, Arena, SumId};
-use super::atom::{Atom, AtomId, Function, Letter};
+use super::atom::{Atom, AtomId, Function, Variable};
 use super::coefficient::Coefficient;
 use super::ratio::Ratio;
 use crate::scalar::real;
@@ -35,7 +35,7 @@ impl Arena {
             return slope;
         }
         let slope = match self.atom(id).clone() {
-            Atom::Letter(_) | Atom::Pi | Atom::Prime(_) => SumId::ZERO,
+            Atom::Variable(_) | Atom::Pi | Atom::Prime(_) => SumId::ZERO,
             Atom::Group(of) => self.derivative(of, by, known),
             atom @ (Atom::Cos(of) | Atom::Sin(of)) => {
                 let inner = self.derivative(of, by, known);
@@ -82,7 +82,7 @@ impl Arena {
         }
     }
 
-    /// The sum with letters replaced.
+    /// The sum with variables replaced.
     pub(crate) fn substitute(&mut self, of: SumId, new: &mut HashMap<AtomId, SumId>) -> SumId {
         let mut total = SumId::ZERO;
         for &(monomial, c) in self.terms(of).iter() {
@@ -101,7 +101,7 @@ impl Arena {
             return sum;
         }
         let sum = match self.atom(id).clone() {
-            Atom::Letter(_) | Atom::Pi | Atom::Prime(_) => self.product(&[(id, Ratio::ONE)]),
+            Atom::Variable(_) | Atom::Pi | Atom::Prime(_) => self.product(&[(id, Ratio::ONE)]),
             Atom::Group(of) => self.substitute(of, new),
             Atom::Cos(of) => {
                 let angle = self.substitute(of, new);
@@ -126,38 +126,43 @@ impl Arena {
         sum
     }
 
-    /// The letters in it, those inside functions included.
-    pub(crate) fn letters(&self, of: SumId) -> BTreeSet<AtomId> {
-        let (mut letters, mut seen) = (BTreeSet::new(), BTreeSet::new());
-        self.collect_letters(of, &mut letters, &mut seen);
-        letters
+    /// The variables in it, those inside functions included.
+    pub(crate) fn variables(&self, of: SumId) -> BTreeSet<AtomId> {
+        let (mut variables, mut seen) = (BTreeSet::new(), BTreeSet::new());
+        self.collect_variables(of, &mut variables, &mut seen);
+        variables
     }
-    fn collect_letters(&self, of: SumId, letters: &mut BTreeSet<AtomId>, seen: &mut BTreeSet<SumId>) {
+    fn collect_variables(&self, of: SumId, variables: &mut BTreeSet<AtomId>, seen: &mut BTreeSet<SumId>) {
         if !seen.insert(of) {
             return;
         }
         for &(monomial, _) in self.terms(of).iter() {
             for &(id, _) in self.factors(monomial).iter() {
                 match self.atom(id) {
-                    Atom::Letter(_) => {
-                        letters.insert(id);
+                    Atom::Variable(_) => {
+                        variables.insert(id);
                     }
                     Atom::Pi | Atom::Prime(_) => {}
-                    Atom::Group(of) | Atom::Cos(of) | Atom::Sin(of) => self.collect_letters(*of, letters, seen),
-                    Atom::Call(_, of) => of.iter().for_each(|&x| self.collect_letters(x, letters, seen)),
+                    Atom::Group(of) | Atom::Cos(of) | Atom::Sin(of) => self.collect_variables(*of, variables, seen),
+                    Atom::Call(_, of) => of.iter().for_each(|&x| self.collect_variables(x, variables, seen)),
                 }
             }
         }
     }
-    pub(crate) fn letter(&self, id: AtomId) -> Option<&Letter> {
+    pub(crate) fn variable(&self, id: AtomId) -> Option<&Variable> {
         match self.atom(id) {
-            Atom::Letter(letter) => Some(letter),
+            Atom::Variable(variable) => Some(variable),
             _ => None,
         }
     }
 
-    /// The value for given values of the letters.
-    pub(crate) fn evaluate(&self, of: SumId, values: &dyn Fn(&Letter) -> f64, known: &mut HashMap<AtomId, f64>) -> f64 {
+    /// The value for given values of the variables.
+    pub(crate) fn evaluate(
+        &self,
+        of: SumId,
+        values: &dyn Fn(&Variable) -> f64,
+        known: &mut HashMap<AtomId, f64>,
+    ) -> f64 {
         let mut total = 0.0;
         for &(monomial, c) in self.terms(of).iter() {
             let mut product = c.value();
@@ -168,12 +173,12 @@ impl Arena {
         }
         total
     }
-    fn evaluate_atom(&self, id: AtomId, values: &dyn Fn(&Letter) -> f64, known: &mut HashMap<AtomId, f64>) -> f64 {
+    fn evaluate_atom(&self, id: AtomId, values: &dyn Fn(&Variable) -> f64, known: &mut HashMap<AtomId, f64>) -> f64 {
         if let Some(&value) = known.get(&id) {
             return value;
         }
         let value = match self.atom(id) {
-            Atom::Letter(letter) => values(letter),
+            Atom::Variable(variable) => values(variable),
             Atom::Pi | Atom::Prime(_) => self.atom_value(id),
             Atom::Group(of) => self.evaluate(*of, values, known),
             Atom::Cos(of) => real::sin_cos(self.evaluate(*of, values, known)).1,

@@ -7,7 +7,7 @@
 //! - products of sines and cosines become sums (Fourier form), so cos² + sin² is 1;
 //! - what stands over a group or a cosine is reduced by it, so equal quotients meet.
 //!
-//! Branches (√x² = ±x, the quadrant of an angle) are those of the values that the letters have.
+//! Branches (√x² = ±x, the quadrant of an angle) are those of the values that the variables have.
 //! [`Tree`] is the same expression as a person writes it.
 
 mod arena;
@@ -28,7 +28,7 @@ mod trig;
 mod tests;
 
 pub use arena::Rule;
-pub use atom::Letter;
+pub use atom::Variable;
 pub use pretty::{Number, Tree};
 pub use symbol::Symbol;
 
@@ -67,13 +67,13 @@ impl arena::Arena {
             None => self.constant(Coefficient::Float(x)),
         }
     }
-    /// The letter, with its value where it is new, and the value it has.
-    pub(crate) fn letter_sum(&mut self, letter: Letter, value: f64) -> (SumId, f64) {
-        let id = self.atom_with(atom::Atom::Letter(letter), |_| value);
+    /// The variable, with its value where it is new, and the value it has.
+    pub(crate) fn variable_sum(&mut self, variable: Variable, value: f64) -> (SumId, f64) {
+        let id = self.atom_with(atom::Atom::Variable(variable), |_| value);
         (self.product(&[(id, Ratio::ONE)]), self.atom_value(id))
     }
-    pub(crate) fn letter_id(&mut self, letter: &Letter) -> atom::AtomId {
-        self.atom_id(atom::Atom::Letter(letter.clone()))
+    pub(crate) fn variable_id(&mut self, variable: &Variable) -> atom::AtomId {
+        self.atom_id(atom::Atom::Variable(variable.clone()))
     }
     pub(crate) fn exact_constant(&self, of: SumId) -> Option<Ratio> {
         self.as_constant(of).and_then(Coefficient::exact)

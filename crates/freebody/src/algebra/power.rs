@@ -261,25 +261,25 @@ impl Arena {
         }
         let lead = *terms.iter().max_by(|x, y| self.lexical(x.0, y.0))?;
         let alone = terms.iter().filter(|term| self.lexical(term.0, lead.0).is_eq()).count() == 1;
-        let plain = self.factors(lead.0).iter().all(|f| matches!(self.atom(f.0), Atom::Letter(_)));
+        let plain = self.factors(lead.0).iter().all(|f| matches!(self.atom(f.0), Atom::Variable(_)));
         if !alone || !plain || lead.0 == MonomialId::UNIT {
             return None;
         }
         let tail = self.sorted_sum(terms.iter().copied().filter(|term| term.0 != lead.0).collect());
         Some((lead.0, lead.1, tail))
     }
-    /// Letters and trigonometric functions with whole positive exponents.
+    /// Variables and trigonometric functions with whole positive exponents.
     fn is_polynomial(&self, monomial: MonomialId) -> bool {
-        let plain = |id| matches!(self.atom(id), Atom::Letter(_) | Atom::Pi | Atom::Cos(_) | Atom::Sin(_));
+        let plain = |id| matches!(self.atom(id), Atom::Variable(_) | Atom::Pi | Atom::Cos(_) | Atom::Sin(_));
         self.factors(monomial).iter().all(|f| f.1.is_whole() && f.1.signum() > 0 && plain(f.0))
     }
-    /// Lexical order of the letters in two products: the first letter that differs decides.
+    /// Lexical order of the variables in two products: the first variable that differs decides.
     fn lexical(&self, a: MonomialId, b: MonomialId) -> std::cmp::Ordering {
-        let letters = |m| {
+        let variables = |m| {
             let factors = self.factors(m).to_vec();
-            factors.into_iter().filter(|f| matches!(self.atom(f.0), Atom::Letter(_))).collect::<Vec<_>>()
+            factors.into_iter().filter(|f| matches!(self.atom(f.0), Atom::Variable(_))).collect::<Vec<_>>()
         };
-        let (a, b) = (letters(a), letters(b));
+        let (a, b) = (variables(a), variables(b));
         for (x, y) in a.iter().zip(&b) {
             if x != y {
                 return y.0.cmp(&x.0).then(x.1.cmp(&y.1));

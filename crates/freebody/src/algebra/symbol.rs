@@ -1,11 +1,11 @@
 //! The number read as a symbol.
 
-use super::{with, Letter, Ratio, Rule, SumId, Tree};
+use super::{with, Ratio, Rule, SumId, Tree, Variable};
 use crate::scalar::{real, Scalar};
 use std::collections::HashMap;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// An expression in letters, in canonical form, and the value it has for the values of the letters.
+/// An expression in variables, in canonical form, and the value it has for the values of the variables.
 ///
 /// It is a handle that holds within one [`session`](super::session). Decisions read the value.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +28,10 @@ impl Symbol {
     fn valued(id: SumId) -> Self {
         Symbol::new(id, with(|arena| arena.value(id)))
     }
-    /// The letter. Within a session a letter keeps the value it was first made with; letters are
+    /// The variable. Within a session a variable keeps the value it was first made with; variables are
     /// written in the order in which they were first made.
-    pub fn letter(letter: Letter, value: f64) -> Self {
-        let (id, value) = with(|arena| arena.letter_sum(letter, value));
+    pub fn variable(variable: Variable, value: f64) -> Self {
+        let (id, value) = with(|arena| arena.variable_sum(variable, value));
         Symbol::new(id, value)
     }
     /// The derivative `order` of a function of one variable that is known by its name only, at
@@ -54,40 +54,40 @@ impl Symbol {
     pub fn is_zero(self) -> bool {
         self.id == SumId::ZERO
     }
-    /// The number it is, when no letter is in it.
+    /// The number it is, when no variable is in it.
     pub fn constant(self) -> Option<f64> {
-        self.letters().is_empty().then_some(self.value)
+        self.variables().is_empty().then_some(self.value)
     }
-    /// The partial derivative; letters with different dots are independent.
-    pub fn derivative(self, letter: &Letter) -> Self {
+    /// The partial derivative; variables with different dots are independent.
+    pub fn derivative(self, variable: &Variable) -> Self {
         Symbol::valued(with(|arena| {
-            let letter = arena.letter_id(letter);
-            arena.derivative(self.id, letter, &mut HashMap::new())
+            let variable = arena.variable_id(variable);
+            arena.derivative(self.id, variable, &mut HashMap::new())
         }))
     }
-    /// The expression with letters replaced, all at once.
-    pub fn substitute(self, new: &[(Letter, Symbol)]) -> Self {
+    /// The expression with variables replaced, all at once.
+    pub fn substitute(self, new: &[(Variable, Symbol)]) -> Self {
         Symbol::valued(with(|arena| {
-            let mut new = new.iter().map(|(letter, symbol)| (arena.letter_id(letter), symbol.id)).collect();
+            let mut new = new.iter().map(|(variable, symbol)| (arena.variable_id(variable), symbol.id)).collect();
             arena.substitute(self.id, &mut new)
         }))
     }
-    /// The factor of a letter that occurs linearly; `None` when it does not.
-    pub fn coefficient_of(self, letter: &Letter) -> Option<Self> {
-        let slope = self.derivative(letter);
-        (!slope.letters().contains(letter)).then_some(slope)
+    /// The factor of a variable that occurs linearly; `None` when it does not.
+    pub fn coefficient_of(self, variable: &Variable) -> Option<Self> {
+        let slope = self.derivative(variable);
+        (!slope.variables().contains(variable)).then_some(slope)
     }
-    /// The factor of each letter, and the rest, of an expression that is linear in them all together.
-    pub fn linear_in(self, letters: &[Letter]) -> (Vec<Self>, Self) {
+    /// The factor of each variable, and the rest, of an expression that is linear in them all together.
+    pub fn linear_in(self, variables: &[Variable]) -> (Vec<Self>, Self) {
         let (factors, rest) = with(|arena| {
-            let ids: Vec<_> = letters.iter().map(|letter| arena.letter_id(letter)).collect();
+            let ids: Vec<_> = variables.iter().map(|variable| arena.variable_id(variable)).collect();
             arena.linear(self.id, &ids)
         });
         (factors.into_iter().map(Symbol::valued).collect(), Symbol::valued(rest))
     }
-    /// What is left when the letters are zero.
-    pub fn without(self, letters: &[Letter]) -> Self {
-        let zeros: Vec<(Letter, Symbol)> = letters.iter().map(|l| (l.clone(), Symbol::zero())).collect();
+    /// What is left when the variables are zero.
+    pub fn without(self, variables: &[Variable]) -> Self {
+        let zeros: Vec<(Variable, Symbol)> = variables.iter().map(|l| (l.clone(), Symbol::zero())).collect();
         self.substitute(&zeros)
     }
     /// The angles whose sines and cosines are factors of its terms.
@@ -99,12 +99,12 @@ impl Symbol {
     pub fn harmonic(self, angle: Symbol) -> [Self; 2] {
         with(|arena| arena.harmonic(self.id, angle.id)).map(Symbol::valued)
     }
-    /// The letters in it, in the order in which they were made.
-    pub fn letters(self) -> Vec<Letter> {
-        with(|arena| arena.letters(self.id).into_iter().filter_map(|id| arena.letter(id).cloned()).collect())
+    /// The variables in it, in the order in which they were made.
+    pub fn variables(self) -> Vec<Variable> {
+        with(|arena| arena.variables(self.id).into_iter().filter_map(|id| arena.variable(id).cloned()).collect())
     }
-    /// The value for other values of the letters, on the branches of this session.
-    pub fn evaluate(self, values: &dyn Fn(&Letter) -> f64) -> f64 {
+    /// The value for other values of the variables, on the branches of this session.
+    pub fn evaluate(self, values: &dyn Fn(&Variable) -> f64) -> f64 {
         with(|arena| arena.evaluate(self.id, values, &mut HashMap::new()))
     }
     /// The expression as a person writes it.
@@ -112,10 +112,10 @@ impl Symbol {
         with(|arena| arena.tree(self.id))
     }
     /// The same, as a sum of one term for each of `letters` that occurs linearly, and the rest.
-    pub fn tree_by(self, letters: &[Letter]) -> Tree {
+    pub fn tree_by(self, variables: &[Variable]) -> Tree {
         with(|arena| {
-            let letters: Vec<_> = letters.iter().map(|letter| arena.letter_id(letter)).collect();
-            arena.tree_by(self.id, &letters)
+            let variables: Vec<_> = variables.iter().map(|variable| arena.variable_id(variable)).collect();
+            arena.tree_by(self.id, &variables)
         })
     }
 }

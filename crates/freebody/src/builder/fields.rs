@@ -2,7 +2,7 @@
 
 use super::{unknown, Builder, Reach, Result};
 use crate::error::CompileError;
-use crate::gauges::Law;
+use crate::gauges::ModelExpr;
 use crate::joints::Card;
 use crate::spec::{Element, Number, Value};
 
@@ -53,30 +53,30 @@ impl<'a, 's> Fields<'a, 's> {
         }
     }
 
-    fn number_of(&mut self, field: &str, value: &Value) -> Result<Law> {
+    fn number_of(&mut self, field: &str, value: &Value) -> Result<ModelExpr> {
         let path = format!("{}.{field}", self.path);
         match value {
-            Value::Flag(flag) => Ok(Law::constant(if *flag { 1.0 } else { 0.0 })),
+            Value::Flag(flag) => Ok(ModelExpr::constant(if *flag { 1.0 } else { 0.0 })),
             Value::Number(number) => self.c.number(&path, number),
             _ => Err(CompileError::new(path, "a number is needed here", "")),
         }
     }
 
     /// A number of the model.
-    pub fn number(&mut self, field: &str) -> Result<Law> {
+    pub fn number(&mut self, field: &str) -> Result<ModelExpr> {
         let value = self.value(field)?;
         self.number_of(field, &value)
     }
 
     /// Two numbers.
-    pub fn numbers(&mut self, field: &str) -> Result<Vec<Law>> {
+    pub fn numbers(&mut self, field: &str) -> Result<Vec<ModelExpr>> {
         match self.value(field)? {
             Value::List(values) if values.len() == 2 => values.iter().map(|v| self.number_of(field, v)).collect(),
             _ => Err(self.error(field, "two numbers are needed here", "write `[a, b]`")),
         }
     }
 
-    fn expression(&mut self, field: &str, reach: Reach) -> Result<Law> {
+    fn expression(&mut self, field: &str, reach: Reach) -> Result<ModelExpr> {
         let path = format!("{}.{field}", self.path);
         match self.value(field)? {
             Value::Number(Number::Literal(x)) => self.c.number(&path, &Number::Literal(x)),
@@ -86,12 +86,12 @@ impl<'a, 's> Fields<'a, 's> {
     }
 
     /// An expression of time and state.
-    pub fn law(&mut self, field: &str) -> Result<Law> {
+    pub fn law(&mut self, field: &str) -> Result<ModelExpr> {
         self.expression(field, Reach::Motion)
     }
 
     /// An expression of the configuration.
-    pub fn gauge(&mut self, field: &str) -> Result<Law> {
+    pub fn gauge(&mut self, field: &str) -> Result<ModelExpr> {
         self.expression(field, Reach::Configuration)
     }
 
@@ -156,7 +156,7 @@ impl<'a, 's> Fields<'a, 's> {
     }
 
     /// A circle: its centre and radius.
-    pub fn circle(&mut self, field: &str) -> Result<(usize, Law)> {
+    pub fn circle(&mut self, field: &str) -> Result<(usize, ModelExpr)> {
         let path = format!("{}.{field}", self.path);
         match self.value(field)? {
             Value::Circle { centre, radius } => {

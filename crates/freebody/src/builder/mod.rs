@@ -9,8 +9,8 @@ pub use names::{chosen, distance, unknown, Names, Reach, Scope};
 
 use crate::error::CompileError;
 use crate::expr::Message;
-use crate::gauges::Law;
-use crate::mechanism::{Mechanism, Slot};
+use crate::gauges::ModelExpr;
+use crate::mechanism::{Mechanism, ValueId};
 use crate::spec::{Number, Spec};
 
 impl CompileError {
@@ -35,13 +35,13 @@ impl Builder<'_> {
         Scope { names: &self.names, reach, switches: &mut self.m.switches }
     }
 
-    pub(crate) fn law(&mut self, path: &str, text: &str, reach: Reach) -> Result<Law> {
-        self.scope(reach).law(text).map_err(|e| Names::complaint(path, text, e))
+    pub(crate) fn law(&mut self, path: &str, text: &str, reach: Reach) -> Result<ModelExpr> {
+        self.scope(reach).law(text).map_err(|e| Names::error(path, text, e))
     }
 
-    pub(crate) fn number(&mut self, path: &str, number: &Number) -> Result<Law> {
+    pub(crate) fn number(&mut self, path: &str, number: &Number) -> Result<ModelExpr> {
         match number {
-            Number::Literal(value) if value.is_finite() => Ok(Law::constant(*value)),
+            Number::Literal(value) if value.is_finite() => Ok(ModelExpr::constant(*value)),
             Number::Literal(value) => {
                 Err(CompileError::new(path, format!("{value} is no number"), "give a finite number"))
             }
@@ -50,14 +50,14 @@ impl Builder<'_> {
     }
 
     /// A new slot.
-    pub(crate) fn slot(&mut self, law: Law) -> Slot {
-        self.m.slots.push(law);
-        self.m.slots.len() - 1
+    pub(crate) fn value(&mut self, law: ModelExpr) -> ValueId {
+        self.m.values.push(law);
+        self.m.values.len() - 1
     }
 
-    pub(crate) fn number_slot(&mut self, path: &str, number: &Number) -> Result<Slot> {
+    pub(crate) fn number_value(&mut self, path: &str, number: &Number) -> Result<ValueId> {
         let law = self.number(path, number)?;
-        Ok(self.slot(law))
+        Ok(self.value(law))
     }
 }
 

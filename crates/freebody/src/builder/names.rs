@@ -2,7 +2,7 @@
 
 use crate::error::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
-use crate::gauges::{Axis, Bound, Law, Leaf, Reading};
+use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
 use crate::joints::{Joint as _, Kind};
 use crate::mechanism::Marker;
 use std::collections::HashMap;
@@ -19,13 +19,13 @@ pub struct Names {
     /// Sites, as `body.point`.
     pub sites: HashMap<String, usize>,
     /// Lines, as `body.line`: the site, the body and the direction in the body's frame.
-    pub lines: HashMap<String, (Marker, usize, Law)>,
+    pub lines: HashMap<String, (Marker, usize, ModelExpr)>,
     /// Curves, as `body.curve`.
     pub curves: HashMap<String, usize>,
     /// Coordinates.
     pub coordinates: HashMap<String, (usize, usize)>,
     /// Gauges.
-    pub gauges: HashMap<String, Law>,
+    pub gauges: HashMap<String, ModelExpr>,
     /// Joints.
     pub joints: HashMap<String, (usize, Kind)>,
     /// Couplings and motions.
@@ -62,9 +62,9 @@ pub struct Scope<'a> {
 }
 
 /// The distance of two sites.
-pub fn distance(p: usize, q: usize) -> Law {
-    let dx = Law::leaf(Leaf::X(q)) - Law::leaf(Leaf::X(p));
-    let dy = Law::leaf(Leaf::Y(q)) - Law::leaf(Leaf::Y(p));
+pub fn distance(p: usize, q: usize) -> ModelExpr {
+    let dx = ModelExpr::variable(ModelVariable::X(q)) - ModelExpr::variable(ModelVariable::X(p));
+    let dy = ModelExpr::variable(ModelVariable::Y(q)) - ModelExpr::variable(ModelVariable::Y(p));
     (dx.powi(2) + dy.powi(2)).sqrt()
 }
 
@@ -100,7 +100,7 @@ const MEASURES: &[(&str, Reach)] = &[
 
 impl Scope<'_> {
     /// Parses and resolves a number-valued expression.
-    pub fn law(&mut self, text: &str) -> Result<Law, ExprError> {
+    pub fn law(&mut self, text: &str) -> Result<ModelExpr, ExprError> {
         let ast = expr::parse(text)?;
         let law = Expr::resolve(&ast, self)?;
         self.check_rates(&law, &ast)?;
@@ -108,14 +108,14 @@ impl Scope<'_> {
     }
 
     /// Parses and resolves a condition.
-    pub fn condition(&mut self, text: &str) -> Result<crate::expr::Condition<Leaf>, ExprError> {
+    pub fn condition(&mut self, text: &str) -> Result<crate::expr::Condition<ModelVariable>, ExprError> {
         let ast = expr::parse(text)?;
         let condition = crate::expr::Condition::resolve(&ast, self)?;
         check_derivatives(condition.as_expr(), &ast)?;
         Ok(condition)
     }
 
-    fn check_rates(&self, law: &Law, ast: &Ast) -> Result<(), ExprError> {
+    fn check_rates(&self, law: &ModelExpr, ast: &Ast) -> Result<(), ExprError> {
         check_derivatives(law, ast)?;
         if self.reach < Reach::Motion && law.depends_on_rates() {
             return Err(Message::new(
@@ -144,11 +144,11 @@ impl Scope<'_> {
         self.names.site(name)
     }
 
-    fn reading(&self, name: &str) -> Option<Result<Law, Message>> {
+    fn reading(&self, name: &str) -> Option<Result<ModelExpr, Message>> {
         let (owner, part) = name.rsplit_once('.')?;
         let n = self.names;
         let reading = if let (Some(&(joint, _)), "friction") = (n.joints.get(owner), part) {
-            Reading::Rub(joint)
+            Reading::JointFriction(joint)
         } else if let Some(&(joint, kind)) = n.joints.get(owner) {
             let axis =
                 match (part, kind) {
@@ -182,7 +182,7 @@ impl Scope<'_> {
             }
         } else if let Some(&group) = n.groups.get(owner) {
             match bound(part) {
-                Some(bound) => Reading::Limit(group, bound),
+                Some(bound) => Reading::Contact(group, bound),
                 None => return Some(Err(parts(owner, "gap, F, N, T, Fx, Fy, x, y, slip (and tension for a string)"))),
             }
         } else {
@@ -194,7 +194,7 @@ impl Scope<'_> {
                 "reactions, powers and works may stand in events and reports",
             )));
         }
-        Some(Ok(Law::leaf(Leaf::Reading(reading))))
+        Some(Ok(ModelExpr::variable(ModelVariable::Reading(reading))))
     }
 
     fn place(&self, argument: &Ast) -> Result<usize, ExprError> {
@@ -213,7 +213,7 @@ impl Scope<'_> {
     }
 
     /// The place of a site along or across a line: its offset in the line's own axes.
-    fn offset(&self, site: usize, line: &Ast, across: bool) -> Result<Law, ExprError> {
+    fn offset(&self, site: usize, line: &Ast, across: bool) -> Result<ModelExpr, ExprError> {
         let AstKind::Name(name) = &line.kind else {
             return Err(
                 Message::new("a named line is needed here", "give the line a name under `lines`").at(&line.span)
@@ -222,43 +222,44 @@ impl Scope<'_> {
         let lines = &self.names.lines;
         let (marker, body, direction) =
             lines.get(name).ok_or_else(|| unknown("line", name, lines.keys()).at(&line.span))?;
-        let dx = Law::leaf(Leaf::X(site)) - Law::leaf(Leaf::X(marker.site));
-        let dy = Law::leaf(Leaf::Y(site)) - Law::leaf(Leaf::Y(marker.site));
-        let turn = Law::leaf(Leaf::Angle(*body)) + direction.clone();
+        let dx = ModelExpr::variable(ModelVariable::X(site)) - ModelExpr::variable(ModelVariable::X(marker.site));
+        let dy = ModelExpr::variable(ModelVariable::Y(site)) - ModelExpr::variable(ModelVariable::Y(marker.site));
+        let turn = ModelExpr::variable(ModelVariable::Angle(*body)) + direction.clone();
         let (cos, sin) = (turn.clone().cos(), turn.sin());
         Ok(if across { dy * cos - dx * sin } else { dx * cos + dy * sin })
     }
 
-    fn measure(&mut self, name: &str, a: &[Ast]) -> Result<Law, ExprError> {
-        let leaf = Law::leaf;
-        let rate = |e: Law| e.rate().expect("a place has a rate");
-        let accel = |e: Law| e.accel().expect("a place has an acceleration");
+    fn measure(&mut self, name: &str, a: &[Ast]) -> Result<ModelExpr, ExprError> {
+        let variable = ModelExpr::variable;
+        let rate = |e: ModelExpr| e.rate().expect("a place has a rate");
+        let accel = |e: ModelExpr| e.accel().expect("a place has an acceleration");
         Ok(match name {
-            "x" => leaf(Leaf::X(self.place(&a[0])?)),
-            "y" => leaf(Leaf::Y(self.place(&a[0])?)),
-            "angle" => leaf(Leaf::Angle(self.body(&a[0])?)),
+            "x" => variable(ModelVariable::X(self.place(&a[0])?)),
+            "y" => variable(ModelVariable::Y(self.place(&a[0])?)),
+            "angle" => variable(ModelVariable::Angle(self.body(&a[0])?)),
             "distance" => distance(self.place(&a[0])?, self.place(&a[1])?),
             "direction" => {
                 let (p, q) = (self.place(&a[0])?, self.place(&a[1])?);
-                (leaf(Leaf::Y(q)) - leaf(Leaf::Y(p))).atan2(leaf(Leaf::X(q)) - leaf(Leaf::X(p)))
+                (variable(ModelVariable::Y(q)) - variable(ModelVariable::Y(p)))
+                    .atan2(variable(ModelVariable::X(q)) - variable(ModelVariable::X(p)))
             }
             "along" | "across" => self.offset(self.place(&a[0])?, &a[1], name == "across")?,
-            "vx" => rate(leaf(Leaf::X(self.place(&a[0])?))),
-            "vy" => rate(leaf(Leaf::Y(self.place(&a[0])?))),
+            "vx" => rate(variable(ModelVariable::X(self.place(&a[0])?))),
+            "vy" => rate(variable(ModelVariable::Y(self.place(&a[0])?))),
             "speed" => {
                 let site = self.place(&a[0])?;
-                let (x, y) = (rate(leaf(Leaf::X(site))), rate(leaf(Leaf::Y(site))));
+                let (x, y) = (rate(variable(ModelVariable::X(site))), rate(variable(ModelVariable::Y(site))));
                 (x.powi(2) + y.powi(2)).sqrt()
             }
-            "omega" => rate(leaf(Leaf::Angle(self.body(&a[0])?))),
-            "ax" => accel(leaf(Leaf::X(self.place(&a[0])?))),
-            "ay" => accel(leaf(Leaf::Y(self.place(&a[0])?))),
-            _ => accel(leaf(Leaf::Angle(self.body(&a[0])?))),
+            "omega" => rate(variable(ModelVariable::Angle(self.body(&a[0])?))),
+            "ax" => accel(variable(ModelVariable::X(self.place(&a[0])?))),
+            "ay" => accel(variable(ModelVariable::Y(self.place(&a[0])?))),
+            _ => accel(variable(ModelVariable::Angle(self.body(&a[0])?))),
         })
     }
 
-    fn whole(&self, name: &str, a: &[Ast]) -> Result<Law, ExprError> {
-        let read = |r| Law::leaf(Leaf::Reading(r));
+    fn whole(&self, name: &str, a: &[Ast]) -> Result<ModelExpr, ExprError> {
+        let read = |r| ModelExpr::variable(ModelVariable::Reading(r));
         Ok(match name {
             "kinetic" => read(Reading::Kinetic(a.first().map(|b| self.body(b)).transpose()?)),
             "potential" => read(Reading::Potential),
@@ -273,25 +274,25 @@ impl Scope<'_> {
     }
 }
 
-impl expr::Scope<Leaf> for Scope<'_> {
-    fn name(&mut self, name: &str) -> Result<Law, Message> {
+impl expr::Scope<ModelVariable> for Scope<'_> {
+    fn name(&mut self, name: &str) -> Result<ModelExpr, Message> {
         let n = self.names;
         if let Some(&i) = n.parameters.get(name) {
-            return Ok(Law::leaf(Leaf::Parameter(i)));
+            return Ok(ModelExpr::variable(ModelVariable::Parameter(i)));
         }
         if name == "s" && self.reach == Reach::Curve {
-            return Ok(Law::leaf(Leaf::Local));
+            return Ok(ModelExpr::variable(ModelVariable::Local));
         }
         if self.reach >= Reach::Configuration {
             if let Some(&(joint, k)) = n.coordinates.get(name) {
-                return Ok(Law::leaf(Leaf::Coordinate(joint, k)));
+                return Ok(ModelExpr::variable(ModelVariable::Coordinate(joint, k)));
             }
             if let Some(gauge) = n.gauges.get(name) {
                 return Ok(gauge.clone());
             }
         }
         if name == "t" && self.reach >= Reach::Motion {
-            return Ok(Law::leaf(Leaf::Time));
+            return Ok(ModelExpr::variable(ModelVariable::Time));
         }
         if let Some(reading) = self.reading(name) {
             return reading;
@@ -305,7 +306,7 @@ impl expr::Scope<Leaf> for Scope<'_> {
         Err(unknown("name", name, self.known().map(str::to_string).collect::<Vec<_>>().iter()))
     }
 
-    fn call(&mut self, name: &str, arguments: &[Ast]) -> Option<Result<Law, ExprError>> {
+    fn call(&mut self, name: &str, arguments: &[Ast]) -> Option<Result<ModelExpr, ExprError>> {
         let wanted = |count: &[usize]| {
             (!count.contains(&arguments.len())).then(|| {
                 let span = arguments.first().map_or(0..0, |a| a.span.clone());
@@ -362,24 +363,24 @@ impl expr::Scope<Leaf> for Scope<'_> {
         words.map(str::to_string).chain(self.names.tables.keys().cloned()).collect()
     }
 
-    fn kink(&mut self) -> usize {
+    fn discontinuity(&mut self) -> usize {
         *self.switches += 1;
         *self.switches - 1
     }
 }
 
 /// What a word after the name of a contact, stop or string stands for.
-fn bound(part: &str) -> Option<Bound> {
+fn bound(part: &str) -> Option<ContactQuantity> {
     Some(match part {
-        "gap" | "slack" => Bound::Gap,
-        "N" | "tension" => Bound::Force,
-        "T" => Bound::Friction,
-        "F" => Bound::OnFirst(Axis::Size),
-        "Fx" => Bound::OnFirst(Axis::X),
-        "Fy" => Bound::OnFirst(Axis::Y),
-        "x" => Bound::Place(Axis::X),
-        "y" => Bound::Place(Axis::Y),
-        "slip" => Bound::Slip,
+        "gap" | "slack" => ContactQuantity::Gap,
+        "N" | "tension" => ContactQuantity::Force,
+        "T" => ContactQuantity::Friction,
+        "F" => ContactQuantity::OnFirst(Axis::Size),
+        "Fx" => ContactQuantity::OnFirst(Axis::X),
+        "Fy" => ContactQuantity::OnFirst(Axis::Y),
+        "x" => ContactQuantity::Place(Axis::X),
+        "y" => ContactQuantity::Place(Axis::Y),
+        "slip" => ContactQuantity::Slip,
         _ => return None,
     })
 }
@@ -423,7 +424,7 @@ impl Names {
         self.sites.get(name).copied().ok_or_else(|| unknown("point", name, self.sites.keys()))
     }
     /// An error about an expression at a path of the model.
-    pub fn complaint(path: &str, text: &str, error: ExprError) -> CompileError {
+    pub fn error(path: &str, text: &str, error: ExprError) -> CompileError {
         let what = if error.at.len() < text.len() && error.at.end <= text.len() {
             format!("in `{text}`, at `{}`: {}", &text[error.at.clone()], error.what)
         } else {
@@ -434,9 +435,9 @@ impl Names {
 }
 
 /// Refuses time derivatives of what is found by solving an instant: they would need the equations differentiated.
-fn check_derivatives(law: &Law, ast: &Ast) -> Result<(), ExprError> {
-    let found = |leaf: &Leaf| matches!(leaf, Leaf::Reading(_));
-    if law.derivatives().any(|(inner, _)| inner.leaves().any(found)) {
+fn check_derivatives(law: &ModelExpr, ast: &Ast) -> Result<(), ExprError> {
+    let found = |variable: &ModelVariable| matches!(variable, ModelVariable::Reading(_));
+    if law.derivatives().any(|(inner, _)| inner.variables().any(found)) {
         let hint = "`rate` and `accel` take expressions of the configuration; sample the quantity over a run instead";
         return Err(Message::new("a time derivative of a force, a momentum or an energy", hint).at(&ast.span));
     }

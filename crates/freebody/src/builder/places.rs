@@ -2,18 +2,18 @@
 
 use super::{Builder, Result};
 use crate::error::CompileError;
-use crate::gauges::Law;
-use crate::mechanism::{Marker, Site, Spot};
+use crate::gauges::ModelExpr;
+use crate::mechanism::{Marker, PointLocation, Site};
 use crate::spec::Place;
 
 impl Builder<'_> {
-    pub(crate) fn site(&mut self, body: usize, at: Spot) -> usize {
+    pub(crate) fn site(&mut self, body: usize, at: PointLocation) -> usize {
         self.m.sites.push(Site { body, at });
         self.m.sites.len() - 1
     }
 
     /// A site with a direction, and that direction.
-    pub(crate) fn place(&mut self, path: &str, place: &Place) -> Result<(Marker, Law)> {
+    pub(crate) fn place(&mut self, path: &str, place: &Place) -> Result<(Marker, ModelExpr)> {
         let site = self.names.site(&place.point).map_err(|m| CompileError::from(path, m))?;
         let direction = match (&place.angle, &place.towards) {
             (None, Some(other)) => {
@@ -21,23 +21,23 @@ impl Builder<'_> {
                 self.towards(path, site, other)?
             }
             (Some(angle), None) => self.number(path, angle)?,
-            (None, None) => Law::constant(0.0),
+            (None, None) => ModelExpr::constant(0.0),
             _ => {
                 return Err(CompileError::new(path, "a line has an angle or a second point, not both", "leave one out"))
             }
         };
-        let marker = Marker { site, angle: self.slot(direction.clone()) };
+        let marker = Marker { site, angle: self.value(direction.clone()) };
         Ok((marker, direction))
     }
 
     /// Direction, in their body's frame, from one site to another of the same body.
-    pub(crate) fn towards(&mut self, path: &str, from: usize, to: usize) -> Result<Law> {
+    pub(crate) fn towards(&mut self, path: &str, from: usize, to: usize) -> Result<ModelExpr> {
         let [dx, dy] = self.offset(path, from, to)?;
         Ok(dy.atan2(dx))
     }
 
     /// The vector, in their body's frame, from one site to another of the same body.
-    pub(crate) fn offset(&mut self, path: &str, from: usize, to: usize) -> Result<[Law; 2]> {
+    pub(crate) fn offset(&mut self, path: &str, from: usize, to: usize) -> Result<[ModelExpr; 2]> {
         let (a, b) = (self.m.sites[from], self.m.sites[to]);
         if a.body != b.body {
             let names = [&self.m.bodies[a.body].name, &self.m.bodies[b.body].name];
@@ -45,9 +45,9 @@ impl Builder<'_> {
             return Err(CompileError::new(path, what, "a line is given by two points of one body"));
         }
         match (a.at, b.at) {
-            (Spot::At(a), Spot::At(b)) => {
-                let slot = |s: usize| self.m.slots[s].clone();
-                Ok([slot(b[0]) - slot(a[0]), slot(b[1]) - slot(a[1])])
+            (PointLocation::At(a), PointLocation::At(b)) => {
+                let id = |s: usize| self.m.values[s].clone();
+                Ok([id(b[0]) - id(a[0]), id(b[1]) - id(a[1])])
             }
             _ => Err(CompileError::new(
                 path,

@@ -3,7 +3,10 @@
 use super::outline::Outline;
 use crate::builder::{twice, Builder, Reach, Result};
 use crate::error::CompileError;
-use crate::mechanism::{Arc, Disk, Friction, Gap, Group, Limit, Marker, Profile, Rub, Rubbing, Slot, Touch, Track};
+use crate::mechanism::{
+    Arc, ContactPair, Disk, Friction, FrictionSource, Gap, Group, JointFriction, Marker, Profile, Track,
+    UnilateralConstraint, ValueId,
+};
 use crate::plane::Vec2;
 use crate::spec::{Contact, Number, Surface};
 use std::f64::consts::TAU;
@@ -13,7 +16,7 @@ enum Shape {
     Point(usize),
     Circle {
         centre: usize,
-        radius: Slot,
+        radius: ValueId,
         hollow: bool,
     },
     Arc(Arc),
@@ -79,14 +82,14 @@ impl Shape {
 }
 
 /// Every disk against every profile.
-fn each(disks: &[Disk], surface: &Shape) -> Vec<Touch> {
+fn each(disks: &[Disk], surface: &Shape) -> Vec<ContactPair> {
     let profiles = surface.profiles();
-    let against = |&disk: &Disk| profiles.iter().map(move |profile| Touch { disk, against: profile.clone() });
+    let against = |&disk: &Disk| profiles.iter().map(move |profile| ContactPair { disk, against: profile.clone() });
     disks.iter().flat_map(against).collect()
 }
 
 /// The touches of two surfaces; or why they have none, and what to write.
-fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static str, &'static str)> {
+fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<ContactPair>, (&'static str, &'static str)> {
     use Shape::{Arc, Circle, Line, Point, Polygon, Polyline, Track};
     match (a, b) {
         (Point(_), Point(_)) => Err(("two points never touch", "give one of them a circle with a radius")),
@@ -126,8 +129,8 @@ fn touches(a: &Shape, b: &Shape) -> std::result::Result<Vec<Touch>, (&'static st
 }
 
 impl Builder<'_> {
-    /// The contacts. The shapes of polygons and polylines are judged at the parameters' own values; other parameters must
-    /// keep their corners convex or concave as they are.
+    /// The contacts. The shapes of polygons and polylines are judged at the parameters' own values; other parameters
+    /// must keep their corners convex or concave as they are.
     pub(crate) fn contacts(&mut self) -> Result<()> {
         let arms = match self.spec.contacts.is_empty() {
             true => vec![],
@@ -150,9 +153,9 @@ impl Builder<'_> {
             let soft = self.soft(&path, &contact.stiffness, &contact.damping)?;
             let friction = match (friction, soft) {
                 (Some(Friction::Coulomb { fixed, kinetic }), Some(_)) => {
-                    let first = self.m.limits.len();
-                    let rub = |limit| Rub { of: Rubbing::Limit(limit), fixed, kinetic };
-                    self.m.rubs.extend((first..first + touches.len()).map(rub));
+                    let first = self.m.unilateral.len();
+                    let friction = |constraint| JointFriction { of: FrictionSource::Limit(constraint), fixed, kinetic };
+                    self.m.joint_friction.extend((first..first + touches.len()).map(friction));
                     None
                 }
                 (Some(Friction::Rough), Some(_)) => {
@@ -161,9 +164,9 @@ impl Builder<'_> {
                 }
                 (friction, _) => friction,
             };
-            let limits = touches.into_iter().map(|touch| Limit {
+            let limits = touches.into_iter().map(|touch| UnilateralConstraint {
                 bodies: touch.bodies(&self.m).into_iter().filter(|&body| body > 0).collect(),
-                gap: Gap::Touch(touch),
+                gap: Gap::ContactPair(touch),
                 group: self.m.groups.len(),
                 restitution,
                 friction,
@@ -188,19 +191,20 @@ impl Builder<'_> {
             let restitution = self.restitution(&path, &stop.restitution)?;
             let soft = self.soft(&path, &stop.stiffness, &stop.damping)?;
             let group = self.m.groups.len();
-            let limit = Limit { gap: Gap::Gauge(gap), group, bodies, restitution, friction: None, soft };
-            self.group(&path, &stop.name, "stop", [0; 2], vec![limit], stop.engaged)?;
+            let constraint =
+                UnilateralConstraint { gap: Gap::Gauge(gap), group, bodies, restitution, friction: None, soft };
+            self.group(&path, &stop.name, "stop", [0; 2], vec![constraint], stop.engaged)?;
         }
         Ok(())
     }
 
-    /// The spring and the damper that stand for a limit.
+    /// The spring and the damper that stand for a unilateral constraint.
     pub(crate) fn soft(
         &mut self,
         path: &str,
         stiffness: &Option<Number>,
         damping: &Option<Number>,
-    ) -> Result<Option<[Slot; 2]>> {
+    ) -> Result<Option<[ValueId; 2]>> {
         let Some(stiffness) = stiffness else {
             if damping.is_some() {
                 let what = "`damping` goes with `stiffness`";
@@ -212,9 +216,9 @@ impl Builder<'_> {
             }
             return Ok(None);
         };
-        let stiffness = self.number_slot(&format!("{path}.stiffness"), stiffness)?;
+        let stiffness = self.number_value(&format!("{path}.stiffness"), stiffness)?;
         let none = Number::Literal(0.0);
-        let damping = self.number_slot(&format!("{path}.damping"), damping.as_ref().unwrap_or(&none))?;
+        let damping = self.number_value(&format!("{path}.damping"), damping.as_ref().unwrap_or(&none))?;
         Ok(Some([stiffness, damping]))
     }
 
@@ -225,7 +229,7 @@ impl Builder<'_> {
         name: &str,
         word: &'static str,
         ends: [usize; 2],
-        limits: Vec<Limit>,
+        limits: Vec<UnilateralConstraint>,
         engaged: bool,
     ) -> Result<()> {
         let n = &mut self.names;
@@ -233,10 +237,10 @@ impl Builder<'_> {
         if taken || n.groups.insert(name.to_string(), self.m.groups.len()).is_some() {
             return Err(twice(path, name));
         }
-        let start = self.m.limits.len();
-        self.m.limits.extend(limits);
-        let limits = start..self.m.limits.len();
-        self.m.groups.push(Group { name: name.to_string(), word, ends, limits, engaged });
+        let start = self.m.unilateral.len();
+        self.m.unilateral.extend(limits);
+        let limits = start..self.m.unilateral.len();
+        self.m.groups.push(Group { name: name.to_string(), word, ends, constraints: limits, engaged });
         Ok(())
     }
 
@@ -249,7 +253,7 @@ impl Builder<'_> {
                     let hint = "give it a radius above 0, or write `point`";
                     return Err(CompileError::new(format!("{path}.radius"), "this circle has no size", hint));
                 }
-                let radius = self.number_slot(&format!("{path}.radius"), radius)?;
+                let radius = self.number_value(&format!("{path}.radius"), radius)?;
                 let (centre, hollow) = (site(self, centre)?, *hollow);
                 match ends {
                     None => Shape::Circle { centre, radius, hollow },
@@ -267,7 +271,7 @@ impl Builder<'_> {
         })
     }
 
-    fn ends_of_arc(&mut self, path: &str, [first, second]: &[Number; 2]) -> Result<[Slot; 2]> {
+    fn ends_of_arc(&mut self, path: &str, [first, second]: &[Number; 2]) -> Result<[ValueId; 2]> {
         let path = format!("{path}.ends");
         if let (Number::Literal(a), Number::Literal(b)) = (first, second) {
             if !(0.0..TAU).contains(&(b - a)) || a == b {
@@ -275,7 +279,7 @@ impl Builder<'_> {
                 return Err(CompileError::new(path, what, "turn its ends, or leave them out for a whole circle"));
             }
         }
-        Ok([self.number_slot(&path, first)?, self.number_slot(&path, second)?])
+        Ok([self.number_value(&path, first)?, self.number_value(&path, second)?])
     }
 
     fn friction(&mut self, path: &str, contact: &Contact) -> Result<Option<Friction>> {
@@ -303,16 +307,16 @@ impl Builder<'_> {
                 return error("static_friction", &what, "the coefficient at rest is the larger one");
             }
         }
-        let kinetic = self.number_slot(&format!("{path}.friction"), &contact.friction)?;
+        let kinetic = self.number_value(&format!("{path}.friction"), &contact.friction)?;
         let fixed = match &contact.static_friction {
-            Some(fixed) => self.number_slot(&format!("{path}.static_friction"), fixed)?,
+            Some(fixed) => self.number_value(&format!("{path}.static_friction"), fixed)?,
             None => kinetic,
         };
         Ok(Some(Friction::Coulomb { fixed, kinetic }))
     }
 
     /// A coefficient of restitution.
-    pub(crate) fn restitution(&mut self, path: &str, number: &Number) -> Result<Slot> {
+    pub(crate) fn restitution(&mut self, path: &str, number: &Number) -> Result<ValueId> {
         let path = format!("{path}.restitution");
         match number {
             Number::Literal(e) if !(0.0..=1.0).contains(e) => Err(CompileError::new(
@@ -320,7 +324,7 @@ impl Builder<'_> {
                 format!("a coefficient of restitution of {e}"),
                 "it is between 0, plastic, and 1, elastic",
             )),
-            number => self.number_slot(&path, number),
+            number => self.number_value(&path, number),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::builder::{twice, unknown, Builder, Fields, Reach, Result};
 use crate::error::CompileError;
-use crate::gauges::{Law, Leaf};
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Card, FieldKind, Role};
 use crate::mechanism::{Drive, Level};
 
@@ -25,7 +25,7 @@ impl Builder<'_> {
             let mut fields = Fields { c: self, element, card: &card, path: path.clone() };
             fields.check()?;
             let of = fields.gauge("zero")?;
-            let law = Law::constant(0.0);
+            let law = ModelExpr::constant(0.0);
             let name = element.name.clone();
             self.drive(
                 &path,
@@ -57,7 +57,7 @@ impl Builder<'_> {
                 let what = "a law of rates gives an acceleration, not a position or a velocity";
                 return Err(CompileError::new(format!("{path}.is"), what, "write `level: acceleration`"));
             }
-            let feedback = law.leaves().any(|l| !matches!(l, Leaf::Time | Leaf::Parameter(_)));
+            let feedback = law.variables().any(|l| !matches!(l, ModelVariable::Time | ModelVariable::Parameter(_)));
             let name = motion.name.clone();
             self.drive(&path, Drive { name, coupling: false, of, law, level, by, feedback })?;
         }
@@ -94,8 +94,8 @@ impl Builder<'_> {
             let mut force = kind.lower(&mut fields)?;
             force.name = element.name.clone();
             force.word = card.word;
-            force.cards = card.parts[..force.pulls.len() + force.pushes.len()].to_vec();
-            for (pull, card) in force.pulls.iter_mut().zip(&mut force.cards) {
+            force.cards = card.parts[..force.gauge_forces.len() + force.point_forces.len()].to_vec();
+            for (pull, card) in force.gauge_forces.iter_mut().zip(&mut force.cards) {
                 pull.bodies = self.m.bodies_of(&pull.gauge);
                 *card = card.along(self.m.turns(&pull.gauge));
             }

@@ -2,8 +2,8 @@
 
 use crate::builder::{unknown, Builder, Names, Reach, Result};
 use crate::error::CompileError;
-use crate::gauges::{Law, Leaf};
-use crate::mechanism::{Deed, Drive, Event, Level, Part, Runner};
+use crate::gauges::{ModelExpr, ModelVariable};
+use crate::mechanism::{CurveFollower, Drive, Event, EventAction, Level, Part};
 use crate::spec::{Action, Element, Event as EventSpec, Spec};
 
 /// Whether a joint is there all the time; one that comes or goes cannot be in the tree.
@@ -28,8 +28,8 @@ impl Builder<'_> {
                         continue;
                     }
                     let of = self.law(&path, text, Reach::Configuration)?;
-                    self.m.idle.push(Part::Drive(self.m.drives.len()));
-                    let (law, level) = (Law::constant(0.0), Level::Velocity);
+                    self.m.initially_absent.push(Part::Drive(self.m.drives.len()));
+                    let (law, level) = (ModelExpr::constant(0.0), Level::Velocity);
                     self.drive(&path, Drive { name, coupling: true, of, law, level, by: None, feedback: false })?;
                 }
             }
@@ -37,8 +37,8 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Of every joint along a curve that can be released, the pin that is released and a row that then holds what runs on the
-    /// curve.
+    /// Of every joint along a curve that can be released, the pin that is released and a row that then holds what runs
+    /// on the curve.
     pub(crate) fn runners(&mut self) -> Result<()> {
         for element in self.spec.joints.iter().filter(|element| !stays(self.spec, element)) {
             let Some(&(joint, _)) = self.names.joints.get(&element.name) else { continue };
@@ -46,12 +46,13 @@ impl Builder<'_> {
             let carried = |&pin: &usize| self.m.body_of(self.m.joints[pin].first.site) == child;
             let pin = self.m.closures.iter().copied().find(carried).expect("what runs on a curve carries a pin");
             let hold = self.m.drives.len();
-            let (name, of) = (format!("{}.hold", element.name), Law::leaf(Leaf::Coordinate(joint, 0)));
-            let (law, level) = (Law::constant(0.0), Level::Velocity);
-            self.m.idle.push(Part::Drive(hold));
+            let (name, of) =
+                (format!("{}.hold", element.name), ModelExpr::variable(ModelVariable::Coordinate(joint, 0)));
+            let (law, level) = (ModelExpr::constant(0.0), Level::Velocity);
+            self.m.initially_absent.push(Part::Drive(hold));
             let drive = Drive { name, coupling: true, of, law, level, by: None, feedback: false };
             self.drive(&format!("joints.{}", element.name), drive)?;
-            self.m.runners.push(Runner { joint, pin, hold });
+            self.m.curve_followers.push(CurveFollower { joint, released_joint: pin, hold });
         }
         Ok(())
     }
@@ -62,11 +63,11 @@ impl Builder<'_> {
             let when = self.law(&format!("{path}.when"), &event.when, Reach::Instant)?;
             let condition = match &event.condition {
                 Some(text) => {
-                    Some(self.scope(Reach::Instant).condition(text).map_err(|e| Names::complaint(&path, text, e))?)
+                    Some(self.scope(Reach::Instant).condition(text).map_err(|e| Names::error(&path, text, e))?)
                 }
                 None => None,
             };
-            let then = self.deeds(event, &format!("{path}.then"))?;
+            let then = self.event_actions(event, &format!("{path}.then"))?;
             let (name, direction) = (event.name.clone(), event.direction);
             let (opening, guard) = (event.opening, event.guard);
             self.m.events.push(Event { name, when, direction, condition, opening, guard, then });
@@ -74,33 +75,37 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn deeds(&mut self, event: &EventSpec, path: &str) -> Result<Vec<Deed>> {
-        let mut deeds = vec![];
+    fn event_actions(&mut self, event: &EventSpec, path: &str) -> Result<Vec<EventAction>> {
+        let mut actions = vec![];
         for action in &event.then {
             match action {
-                Action::Stop => deeds.push(Deed::Stop),
+                Action::Stop => actions.push(EventAction::Stop),
                 Action::Set(values) => {
                     for (name, text) in values {
                         let known = self.names.parameters.keys();
                         let missing = || CompileError::from(path, unknown("parameter", name, known));
                         let p = *self.names.parameters.get(name).ok_or_else(missing)?;
-                        deeds.push(Deed::Set(p, self.law(path, text, Reach::Instant)?));
+                        actions.push(EventAction::Set(p, self.law(path, text, Reach::Instant)?));
                     }
                 }
-                Action::Release(names) => deeds.extend(self.parts(path, names)?.into_iter().map(Deed::Release)),
-                Action::Engage(names) => deeds.extend(self.parts(path, names)?.into_iter().map(Deed::Engage)),
-                Action::Lock(texts) => deeds.extend(self.locked(path, texts)?.into_iter().map(Deed::Engage)),
-                Action::Unlock(texts) => deeds.extend(self.locked(path, texts)?.into_iter().map(Deed::Release)),
+                Action::Release(names) => {
+                    actions.extend(self.parts(path, names)?.into_iter().map(EventAction::Release))
+                }
+                Action::Engage(names) => actions.extend(self.parts(path, names)?.into_iter().map(EventAction::Engage)),
+                Action::Lock(texts) => actions.extend(self.locked(path, texts)?.into_iter().map(EventAction::Engage)),
+                Action::Unlock(texts) => {
+                    actions.extend(self.locked(path, texts)?.into_iter().map(EventAction::Release))
+                }
                 Action::Reset(rates) => {
                     for (gauge, rate) in rates {
                         let of = self.law(path, gauge, Reach::Configuration)?;
                         let rate = self.law(path, rate, Reach::Instant)?;
-                        deeds.push(Deed::Reset { gauge: gauge.clone(), of, rate });
+                        actions.push(EventAction::Reset { gauge: gauge.clone(), of, rate });
                     }
                 }
             }
         }
-        Ok(deeds)
+        Ok(actions)
     }
 
     fn parts(&self, path: &str, names: &[String]) -> Result<Vec<Part>> {
@@ -152,7 +157,7 @@ impl Builder<'_> {
                     "engage a slot or a contact in its place",
                 ));
             }
-            self.m.idle.push(part);
+            self.m.initially_absent.push(part);
         }
         Ok(())
     }

@@ -3,10 +3,10 @@
 use super::tree::Pair;
 use crate::builder::{twice, Builder, Fields, Result};
 use crate::error::CompileError;
-use crate::gauges::Law;
+use crate::gauges::ModelExpr;
 use crate::graph::Branch as TreeBranch;
 use crate::joints::{Card, Field, FieldKind, Joint as _, Kind, Role};
-use crate::mechanism::{Body, Branch, Coordinate, Joint, Marker, Rub, Rubbing};
+use crate::mechanism::{Body, Coordinate, FrictionSource, Joint, JointFriction, Marker, TreeJoint};
 use crate::spec::{Coordinate as CoordinateSpec, Number};
 
 /// What the fields of a joint give, side by side.
@@ -15,14 +15,14 @@ struct Sides {
     first: Option<Marker>,
     second: Option<Marker>,
     curve: Option<usize>,
-    numbers: Vec<Law>,
+    numbers: Vec<ModelExpr>,
 }
 
 impl Sides {
     /// Reads one field into its marker, curve or numbers.
     fn read(&mut self, fields: &mut Fields, field: &Field) -> Result<()> {
         let name = field.name;
-        let straight = |fields: &mut Fields, site| Marker { site, angle: fields.c.slot(Law::constant(0.0)) };
+        let straight = |fields: &mut Fields, site| Marker { site, angle: fields.c.value(ModelExpr::constant(0.0)) };
         let marker = match (field.role, field.kind) {
             (Role::Number, FieldKind::Numbers) => {
                 self.numbers.extend(fields.numbers(name)?);
@@ -66,7 +66,7 @@ impl Sides {
         let path = format!("{}.{name}", fields.path);
         let [dx, dy] = fields.c.offset(&path, p, q)?;
         self.numbers.push(dx.clone().hypot(dy.clone()));
-        Ok(Marker { site: p, angle: fields.c.slot(dy.atan2(dx)) })
+        Ok(Marker { site: p, angle: fields.c.value(dy.atan2(dx)) })
     }
 }
 
@@ -84,18 +84,18 @@ impl Builder<'_> {
         }
         self.number_coordinates();
         for (joint, pair) in pairs.iter().enumerate() {
-            self.rub(joint, pair)?;
+            self.joint_friction(joint, pair)?;
         }
         Ok(())
     }
 
     /// Friction of a joint along its first coordinate.
-    fn rub(&mut self, joint: usize, pair: &Pair) -> Result<()> {
+    fn joint_friction(&mut self, joint: usize, pair: &Pair) -> Result<()> {
         let Some(friction) = &pair.element.friction else { return Ok(()) };
         let path = format!("{}.friction", pair.path);
         let card = pair.kind.card();
         let turns = card.coordinates.first().is_some_and(|c| c.turn);
-        if !card.rubs || self.m.joints[joint].coordinates.is_empty() {
+        if !card.has_friction || self.m.joints[joint].coordinates.is_empty() {
             let what = format!("a {} has no friction of its own", card.word);
             return Err(CompileError::new(
                 path,
@@ -111,13 +111,13 @@ impl Builder<'_> {
             };
             return Err(CompileError::new(path, what, "the bearing radius belongs to the friction of a hinge"));
         }
-        let kinetic = self.number_slot(&path, &friction.kinetic)?;
+        let kinetic = self.number_value(&path, &friction.kinetic)?;
         let fixed = match &friction.fixed {
-            Some(fixed) => self.number_slot(&path, fixed)?,
+            Some(fixed) => self.number_value(&path, fixed)?,
             None => kinetic,
         };
-        let radius = friction.radius.as_ref().map(|r| self.number_slot(&path, r)).transpose()?;
-        self.m.rubs.push(Rub { of: Rubbing::Joint { joint, radius }, fixed, kinetic });
+        let radius = friction.radius.as_ref().map(|r| self.number_value(&path, r)).transpose()?;
+        self.m.joint_friction.push(JointFriction { of: FrictionSource::Joint { joint, radius }, fixed, kinetic });
         Ok(())
     }
 
@@ -160,7 +160,7 @@ impl Builder<'_> {
             return Err(CompileError::new(&pair.path, what, "use a slot or a link, or make the particle a rigid body"));
         }
         let coordinates = self.coordinates(pair, &card, child_is_particle, reversed)?;
-        let numbers = numbers.into_iter().map(|law| self.slot(law)).collect();
+        let numbers = numbers.into_iter().map(|law| self.value(law)).collect();
         let rows: Vec<usize> =
             (0..card.rows.len()).filter(|&r| !(card.rows[r].load.couple && particle.contains(&true))).collect();
         Ok(Joint {
@@ -174,14 +174,14 @@ impl Builder<'_> {
             coordinates,
             couple: rows.iter().any(|&r| card.rows[r].turns()),
             rows,
-            phased: card.rows.iter().map(|row| row.phased).collect(),
+            is_relative: card.rows.iter().map(|row| row.is_relative).collect(),
             child: branch.map(|b| b.child),
         })
     }
 
     fn at_origin(&mut self, body: usize) -> Marker {
         let name = &self.m.bodies[body].name;
-        Marker { site: self.names.sites[&format!("{name}.origin")], angle: self.slot(Law::constant(0.0)) }
+        Marker { site: self.names.sites[&format!("{name}.origin")], angle: self.value(ModelExpr::constant(0.0)) }
     }
 
     /// The coordinates of a joint: named by the model in the order of the card, or after the joint.
@@ -216,7 +216,7 @@ impl Builder<'_> {
                 name: c.name.clone(),
                 card: i,
                 dimension: card.dimension,
-                zero: self.number_slot(&path, &c.zero)?,
+                zero: self.number_value(&path, &c.zero)?,
                 sense: f64::from(c.sense),
                 absolute: c.absolute,
             });
@@ -231,7 +231,7 @@ impl Builder<'_> {
             let (name, particle) = (body.name.clone(), body.particle);
             let (first, second) = (self.at_origin(0), self.at_origin(branch.child));
             let card = Kind::Free.card();
-            let zero = self.slot(Law::constant(0.0));
+            let zero = self.value(ModelExpr::constant(0.0));
             let coordinates = card.coordinates.iter().enumerate().filter(|(_, c)| !(particle && c.turn));
             let coordinates = coordinates.map(|(i, c)| Coordinate {
                 name: format!("{name}.{}", c.name),
@@ -251,7 +251,7 @@ impl Builder<'_> {
                 size: 3,
                 coordinates: coordinates.collect(),
                 rows: vec![],
-                phased: vec![],
+                is_relative: vec![],
                 couple: false,
                 child: Some(branch.child),
             };
@@ -265,8 +265,8 @@ impl Builder<'_> {
             let j = &self.m.joints[joint];
             let far = if branch.reversed { j.first } else { j.second };
             let body = &mut self.m.bodies[branch.child];
-            body.pin = far.site;
-            body.branch = Some(Branch {
+            body.joint_origin = far.site;
+            body.tree_joint = Some(TreeJoint {
                 parent: branch.parent,
                 joint,
                 reversed: branch.reversed,
@@ -278,8 +278,9 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// A joint outside the tree closes a loop; one along a curve does so by way of a massless body that it carries: a particle in
-    /// place of a point, which may turn, to which the second body is pinned, or a rigid body to which it is welded.
+    /// A joint outside the tree closes a loop; one along a curve does so by way of a massless body that it carries: a
+    /// particle in place of a point, which may turn, to which the second body is pinned, or a rigid body to which it is
+    /// welded.
     fn close(&mut self, joint: usize) -> Result<()> {
         if self.m.joints[joint].child.is_some() {
             return Ok(());
@@ -289,9 +290,9 @@ impl Builder<'_> {
             return Ok(());
         }
         let (old, name) = (self.m.joints[joint].second, self.m.joints[joint].name.clone());
-        let zero = self.slot(Law::constant(0.0));
+        let zero = self.value(ModelExpr::constant(0.0));
         let body = self.m.bodies.len();
-        let site = self.site(body, crate::mechanism::Spot::At([zero, zero]));
+        let site = self.site(body, crate::mechanism::PointLocation::At([zero, zero]));
         let pin = Marker { site, angle: zero };
         let parent = self.m.body_of(self.m.joints[joint].first.site);
         let j = &mut self.m.joints[joint];
@@ -304,14 +305,14 @@ impl Builder<'_> {
         let turns = j.kind.card().coordinates.iter().any(|c| c.turn);
         let (kind, numbers, rows) =
             if turns { (Kind::Hinge, vec![], vec![0, 1]) } else { (Kind::Weld, vec![zero], vec![0, 1, 2]) };
-        let branch = Branch { parent, joint, reversed: false, start: 0, freedom: j.coordinates.len(), hinge: false };
+        let branch = TreeJoint { parent, joint, reversed: false, start: 0, freedom: j.coordinates.len(), hinge: false };
         self.m.bodies.push(Body {
             name: format!("{name}.pin"),
             listed: None,
             particle: turns,
-            pieces: vec![],
-            branch: Some(branch),
-            pin: site,
+            mass_elements: vec![],
+            tree_joint: Some(branch),
+            joint_origin: site,
         });
         self.m.closures.push(self.m.joints.len());
         self.m.joints.push(Joint {
@@ -323,7 +324,7 @@ impl Builder<'_> {
             curve: None,
             size: kind.card().coordinates.len(),
             coordinates: vec![],
-            phased: vec![false; rows.len()],
+            is_relative: vec![false; rows.len()],
             couple: !turns,
             rows,
             child: None,
@@ -335,7 +336,7 @@ impl Builder<'_> {
     fn number_coordinates(&mut self) {
         for joint in 0..self.m.joints.len() {
             let Some(child) = self.m.joints[joint].child else { continue };
-            let branch = self.m.bodies[child].branch.as_mut().expect("a body of the tree");
+            let branch = self.m.bodies[child].tree_joint.as_mut().expect("a body of the tree");
             branch.start = self.m.coordinates.len();
             self.m.coordinates.extend((0..branch.freedom).map(|k| (joint, k)));
         }

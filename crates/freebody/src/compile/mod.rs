@@ -1,7 +1,7 @@
-//! From the model as data to the mechanism: names resolved, numbers in slots, the tree chosen.
+//! From the model as data to the mechanism: names resolved, numbers in numbered values, the tree chosen.
 
+mod cables;
 mod contacts;
-mod cords;
 mod elements;
 mod events;
 mod joints;
@@ -15,8 +15,8 @@ pub use elements::coupling_card;
 use crate::builder::{twice, Builder, Names, Reach, Result, Scope};
 use crate::error::CompileError;
 use crate::expr::{Interpolation, Table};
-use crate::gauges::Law;
-use crate::mechanism::{Gap, Kink, Mechanism, Parameter};
+use crate::gauges::ModelExpr;
+use crate::mechanism::{Discontinuity, Gap, Mechanism, Parameter};
 use crate::spec::{Number, Spec};
 use std::collections::HashSet;
 
@@ -48,17 +48,17 @@ impl Compiled {
         c.forces()?;
         c.contacts()?;
         c.stops()?;
-        c.cords()?;
+        c.cables()?;
         c.idle()?;
         c.events()?;
-        c.find_kinks();
+        c.find_discontinuities();
         Ok(Compiled { mechanism: c.m, names: c.names })
     }
 
     /// An expression over the solved instant: a quantity to report.
-    pub fn observable(&mut self, text: &str) -> Result<Law> {
+    pub fn observable(&mut self, text: &str) -> Result<ModelExpr> {
         let mut scope = Scope { names: &self.names, reach: Reach::Instant, switches: &mut self.mechanism.switches };
-        scope.law(text).map_err(|e| Names::complaint("", text, e))
+        scope.law(text).map_err(|e| Names::error("", text, e))
     }
 }
 
@@ -113,53 +113,53 @@ impl Builder<'_> {
 
     fn gravity(&mut self) -> Result<()> {
         let g = self.spec.gravity.clone().unwrap_or([Number::Literal(0.0), Number::Literal(0.0)]);
-        self.m.gravity = [self.number_slot("gravity", &g[0])?, self.number_slot("gravity", &g[1])?];
+        self.m.gravity = [self.number_value("gravity", &g[0])?, self.number_value("gravity", &g[1])?];
         Ok(())
     }
 
     /// Where the laws of forces, drives and stops, and the curves of joints, are not smooth.
-    fn find_kinks(&mut self) {
+    fn find_discontinuities(&mut self) {
         let m = &self.m;
         let forces = m.forces.iter().flat_map(|f| f.laws());
         let drives = m.drives.iter().flat_map(|d| [&d.of, &d.law].into_iter().chain(&d.by));
-        let stops = m.limits.iter().filter_map(|limit| match &limit.gap {
+        let stops = m.unilateral.iter().filter_map(|constraint| match &constraint.gap {
             Gap::Gauge(law) => Some(law),
-            Gap::Touch(_) | Gap::Cord(_) => None,
+            Gap::ContactPair(_) | Gap::Cable(_) => None,
         });
-        let mut kinks: Vec<Kink> = vec![];
+        let mut discontinuities: Vec<Discontinuity> = vec![];
         for law in forces.chain(drives).chain(stops) {
-            for switch in sorted(law.kinks()) {
-                if !kinks.iter().any(|k| matches!(k, Kink::Switch(known, _) if *known == switch)) {
-                    kinks.push(Kink::Switch(switch, law.clone()));
+            for switch in sorted(law.discontinuities()) {
+                if !discontinuities.iter().any(|k| matches!(k, Discontinuity::Switch(known, _) if *known == switch)) {
+                    discontinuities.push(Discontinuity::Switch(switch, law.clone()));
                 }
             }
             for (table, argument) in law.lookups() {
                 let knots = m.tables[table].knots();
-                kinks.extend(knots.map(|x| Kink::Knot(argument.clone(), x)));
+                discontinuities.extend(knots.map(|x| Discontinuity::Knot(argument.clone(), x)));
             }
         }
         for (j, joint) in m.joints.iter().enumerate() {
             if let Some(curve) = joint.curve.map(|c| &m.curves[c]) {
-                let switches = sorted(curve.x.kinks().chain(curve.y.kinks()));
-                kinks.extend(switches.into_iter().map(|switch| Kink::Bend(j, switch)));
+                let switches = sorted(curve.x.discontinuities().chain(curve.y.discontinuities()));
+                discontinuities.extend(switches.into_iter().map(|switch| Discontinuity::Bend(j, switch)));
             }
         }
-        self.m.kinks = kinks;
+        self.m.discontinuities = discontinuities;
     }
 }
 
-fn sorted(kinks: impl Iterator<Item = usize>) -> Vec<usize> {
-    let mut kinks: Vec<usize> = kinks.collect();
-    kinks.sort_unstable();
-    kinks.dedup();
-    kinks
+fn sorted(discontinuities: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut discontinuities: Vec<usize> = discontinuities.collect();
+    discontinuities.sort_unstable();
+    discontinuities.dedup();
+    discontinuities
 }
 
 /// The parameters that a number uses.
-fn uses(law: &Law) -> HashSet<usize> {
-    law.leaves()
-        .filter_map(|leaf| match leaf {
-            crate::gauges::Leaf::Parameter(i) => Some(*i),
+fn uses(law: &ModelExpr) -> HashSet<usize> {
+    law.variables()
+        .filter_map(|variable| match variable {
+            crate::gauges::ModelVariable::Parameter(i) => Some(*i),
             _ => None,
         })
         .collect()

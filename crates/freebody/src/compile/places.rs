@@ -2,22 +2,22 @@
 
 use crate::builder::{unknown, Builder, Names, Reach, Result};
 use crate::error::CompileError;
-use crate::gauges::Law;
-use crate::mechanism::{Curve, Spot};
+use crate::gauges::ModelExpr;
+use crate::mechanism::{Curve, PointLocation};
 
 impl Builder<'_> {
     /// All named points, and the origin and mass centre of every body.
     pub(crate) fn points(&mut self) -> Result<()> {
-        let zero = self.slot(Law::constant(0.0));
+        let zero = self.value(ModelExpr::constant(0.0));
         for body in 0..self.m.bodies.len() {
             let name = self.m.bodies[body].name.clone();
-            let origin = self.site(body, Spot::At([zero, zero]));
-            self.m.bodies[body].pin = origin;
+            let origin = self.site(body, PointLocation::At([zero, zero]));
+            self.m.bodies[body].joint_origin = origin;
             self.name_site(format!("{name}.origin"), origin);
             if body == 0 {
                 self.name_site("ground.O".to_string(), origin);
             } else {
-                let centre = self.site(body, Spot::MassCentre);
+                let centre = self.site(body, PointLocation::MassCentre);
                 self.name_site(format!("{name}.G"), centre);
             }
         }
@@ -27,7 +27,7 @@ impl Builder<'_> {
             let missing = || CompileError::from(&path, unknown("body", &point.body, known));
             let body = *self.names.bodies.get(&point.body).ok_or_else(missing)?;
             let [x, y] = &point.at;
-            let at = Spot::At([self.number_slot(&path, x)?, self.number_slot(&path, y)?]);
+            let at = PointLocation::At([self.number_value(&path, x)?, self.number_value(&path, y)?]);
             let site = self.site(body, at);
             self.name_site(point.name.clone(), site);
         }
@@ -71,7 +71,7 @@ impl Builder<'_> {
         let mut left: Vec<_> = self.spec.gauges.iter().collect();
         while !left.is_empty() {
             let before = left.len();
-            let mut trouble = None;
+            let mut error = None;
             let mut later = vec![];
             for gauge in left {
                 let read = self.scope(Reach::Configuration).law(&gauge.value);
@@ -81,13 +81,13 @@ impl Builder<'_> {
                         self.m.gauges.push((gauge.name.clone(), law));
                     }
                     Err(e) => {
-                        trouble.get_or_insert(Names::complaint(&format!("gauges.{}", gauge.name), &gauge.value, e));
+                        error.get_or_insert(Names::error(&format!("gauges.{}", gauge.name), &gauge.value, e));
                         later.push(gauge);
                     }
                 }
             }
             if later.len() == before {
-                return Err(trouble.expect("a gauge is left because it could not be read"));
+                return Err(error.expect("a gauge is left because it could not be read"));
             }
             left = later;
         }

@@ -2,13 +2,13 @@
 
 use crate::builder::{Builder, Result};
 use crate::error::CompileError;
-use crate::mechanism::{Profile, Stretch, Touch, Track};
+use crate::mechanism::{ContactPair, Profile, Stretch, Track};
 use crate::plane::Vec2;
 use crate::scalar::real;
 use crate::spec;
 
-/// Sine of the turn between two stretches up to which there is no kink; difference of the radii at the two ends of an arc, over the
-/// first, up to which they are one.
+/// Sine of the turn between two stretches up to which there is no discontinuity; difference of the radii at the two
+/// ends of an arc, over the first, up to which they are one.
 const SMOOTH: f64 = 1e-9;
 
 impl Builder<'_> {
@@ -36,11 +36,11 @@ impl Builder<'_> {
     }
 
     /// Whether disks fit into all arcs of a track in which they lie, at the parameters' own values.
-    pub(super) fn fits(&self, path: &str, touch: &Touch) -> Result<()> {
+    pub(super) fn fits(&self, path: &str, touch: &ContactPair) -> Result<()> {
         let (Profile::Track(track), Some(radius)) = (&touch.against, touch.disk.radius) else { return Ok(()) };
         let n = self.m.bind(&self.m.parameters_with(&[]));
         let arm = |site: usize| n.arms[site];
-        let too_narrow = |stretch: &Stretch| stretch.hollow(&arm).is_some_and(|wide| wide <= n.slots[radius]);
+        let too_narrow = |stretch: &Stretch| stretch.hollow(&arm).is_some_and(|wide| wide <= n.values[radius]);
         let Some(narrow) = track.stretches.iter().position(too_narrow) else { return Ok(()) };
         let what = format!("the circle does not fit into the arc that is stretch {} of the track", narrow + 1);
         Err(CompileError::new(path, what, "make the circle smaller than the arc"))

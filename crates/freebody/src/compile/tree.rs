@@ -115,7 +115,8 @@ fn end(
 /// Rank of a joint that would hang a body on a particle and pass it a couple: taken last, and then refused.
 const THROUGH_PARTICLE: u32 = 100;
 
-/// How much a joint between bodies, of which some are particles, is wanted in the tree; None when it can only close loops.
+/// How much a joint between bodies, of which some are particles, is wanted in the tree; None when it can only close
+/// loops.
 fn rank(pair: &Pair, particle: [bool; 2]) -> [Option<u32>; 2] {
     let card = pair.kind.card();
     if card.coordinates.len() + card.rows.len() != 3 || !pair.stays {
@@ -197,13 +198,13 @@ impl Builder<'_> {
             name: spec.name.clone(),
             listed: Some(listed),
             particle: spec.particle,
-            pieces,
-            branch: None,
-            pin: 0,
+            mass_elements: pieces,
+            tree_joint: None,
+            joint_origin: 0,
         })
     }
 
-    fn piece(&mut self, path: &str, spec: &PieceSpec) -> Result<crate::mechanism::Piece> {
+    fn piece(&mut self, path: &str, spec: &PieceSpec) -> Result<crate::mechanism::MassElement> {
         let Some((_, shape, words)) = SHAPES.iter().find(|(word, ..)| *word == spec.shape) else {
             let words: Vec<String> = SHAPES.iter().map(|s| s.0.to_string()).collect();
             return Err(CompileError::from(format!("{path}.shape"), unknown("shape", &spec.shape, words.iter())));
@@ -212,28 +213,28 @@ impl Builder<'_> {
         for word in *words {
             let missing = || CompileError::new(path, format!("a {} needs its `{word}`", spec.shape), "");
             let number = spec.sizes.get(*word).ok_or_else(missing)?;
-            sizes.push(self.number_slot(&format!("{path}.{word}"), number)?);
+            sizes.push(self.number_value(&format!("{path}.{word}"), number)?);
         }
         if *shape == Shape::Polygon && spec.corners.len() < 3 {
             return Err(CompileError::new(format!("{path}.corners"), "a polygon has three corners or more", ""));
         }
         for corner in &spec.corners {
             for number in corner {
-                sizes.push(self.number_slot(&format!("{path}.corners"), number)?);
+                sizes.push(self.number_value(&format!("{path}.corners"), number)?);
             }
         }
         let inertia = match &spec.inertia {
-            Some(number) => Some(self.number_slot(&format!("{path}.inertia"), number)?),
+            Some(number) => Some(self.number_value(&format!("{path}.inertia"), number)?),
             None => None,
         };
-        Ok(crate::mechanism::Piece {
+        Ok(crate::mechanism::MassElement {
             shape: *shape,
-            mass: self.number_slot(&format!("{path}.mass"), &spec.mass)?,
+            mass: self.number_value(&format!("{path}.mass"), &spec.mass)?,
             at: [
-                self.number_slot(&format!("{path}.at"), &spec.at[0])?,
-                self.number_slot(&format!("{path}.at"), &spec.at[1])?,
+                self.number_value(&format!("{path}.at"), &spec.at[0])?,
+                self.number_value(&format!("{path}.at"), &spec.at[1])?,
             ],
-            angle: self.number_slot(&format!("{path}.angle"), &spec.angle)?,
+            angle: self.number_value(&format!("{path}.angle"), &spec.angle)?,
             inertia,
             sizes,
         })
@@ -241,5 +242,12 @@ impl Builder<'_> {
 }
 
 fn ground() -> Body {
-    Body { name: "ground".to_string(), listed: None, particle: false, pieces: vec![], branch: None, pin: 0 }
+    Body {
+        name: "ground".to_string(),
+        listed: None,
+        particle: false,
+        mass_elements: vec![],
+        tree_joint: None,
+        joint_origin: 0,
+    }
 }

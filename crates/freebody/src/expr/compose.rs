@@ -15,8 +15,8 @@ impl<L: Clone + PartialEq> Expr<L> {
         Expr { ops: vec![Op::Constant(value)] }
     }
     /// A leaf.
-    pub fn leaf(leaf: L) -> Self {
-        Expr { ops: vec![Op::Leaf(leaf)] }
+    pub fn variable(variable: L) -> Self {
+        Expr { ops: vec![Op::Variable(variable)] }
     }
     /// Square root.
     pub fn sqrt(self) -> Self {
@@ -64,32 +64,32 @@ impl<L: Clone + PartialEq> Expr<L> {
         }
     }
     /// Absolute value; `kink` names the switch.
-    pub fn abs(self, kink: usize) -> Self {
+    pub fn abs(self, discontinuity: usize) -> Self {
         match self.literal() {
             Some(value) => Self::constant(value.abs()),
-            None => self.extend(|of| Op::Abs { of, kink }),
+            None => self.extend(|of| Op::Abs { of, kink: discontinuity }),
         }
     }
     /// −1, 0 or 1; `kink` names the switch.
-    pub fn sign(self, kink: usize) -> Self {
+    pub fn sign(self, discontinuity: usize) -> Self {
         match self.literal() {
             Some(0.0) => self,
             Some(value) => Self::constant(value.signum()),
-            None => self.extend(|of| Op::Sign { of, kink }),
+            None => self.extend(|of| Op::Sign { of, kink: discontinuity }),
         }
     }
     /// The smaller of two; `kink` names the switch.
-    pub fn min(self, other: Self, kink: usize) -> Self {
+    pub fn min(self, other: Self, discontinuity: usize) -> Self {
         match (self.literal(), other.literal()) {
             (Some(a), Some(b)) => Self::constant(a.min(b)),
-            _ => self.join(other, |a, b| Op::Min { a, b, kink }),
+            _ => self.join(other, |a, b| Op::Min { a, b, kink: discontinuity }),
         }
     }
     /// The larger of two; `kink` names the switch.
-    pub fn max(self, other: Self, kink: usize) -> Self {
+    pub fn max(self, other: Self, discontinuity: usize) -> Self {
         match (self.literal(), other.literal()) {
             (Some(a), Some(b)) => Self::constant(a.max(b)),
-            _ => self.join(other, |a, b| Op::Max { a, b, kink }),
+            _ => self.join(other, |a, b| Op::Max { a, b, kink: discontinuity }),
         }
     }
     /// The value of a table at this argument.
@@ -105,12 +105,12 @@ impl<L: Clone + PartialEq> Expr<L> {
         self.derivative(Op::Accel)
     }
     /// Whether it is below another; `kink` names the switch.
-    pub fn less(self, other: Self, kink: usize) -> Condition<L> {
-        Condition(self.join(other, |a, b| Op::Less { a, b, kink }))
+    pub fn less(self, other: Self, discontinuity: usize) -> Condition<L> {
+        Condition(self.join(other, |a, b| Op::Less { a, b, kink: discontinuity }))
     }
     /// Whether it is at most another; `kink` names the switch.
-    pub fn less_equal(self, other: Self, kink: usize) -> Condition<L> {
-        Condition(self.join(other, |a, b| Op::LessEqual { a, b, kink }))
+    pub fn less_equal(self, other: Self, discontinuity: usize) -> Condition<L> {
+        Condition(self.join(other, |a, b| Op::LessEqual { a, b, kink: discontinuity }))
     }
     /// Whether it equals another to the bit. It is no switch, so it suits parameters only.
     pub fn equal(self, other: Self) -> Condition<L> {

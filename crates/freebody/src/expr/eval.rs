@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 /// the inside: were it its own, the compiler would build `Jet<Jet<…>>` without end.
 pub trait Env<S, L> {
     /// The value of a leaf.
-    fn leaf(&self, leaf: &L) -> S;
+    fn variable(&self, variable: &L) -> S;
     /// The time derivative of an expression, which holds no further derivative.
     fn rate(&self, of: &Expr<L>) -> S;
     /// The second time derivative of an expression, which holds no further derivative.
@@ -18,8 +18,8 @@ pub trait Env<S, L> {
     /// The value of a table at `x`.
     fn table(&self, table: usize, x: S) -> S;
     /// The arm at which a switch is frozen; by its switching function when `None`.
-    fn arm(&self, kink: usize) -> Option<bool> {
-        let _ = kink;
+    fn branch(&self, discontinuity: usize) -> Option<bool> {
+        let _ = discontinuity;
         None
     }
 }
@@ -33,7 +33,7 @@ impl<L> Expr<L> {
         let last = self.ops.len() - 1;
         match &self.ops[last] {
             Op::Constant(value) => S::of(*value),
-            Op::Leaf(leaf) => env.leaf(leaf),
+            Op::Variable(variable) => env.variable(variable),
             _ => self.with_values(last + 1, env, |values| values[last]),
         }
     }
@@ -43,11 +43,16 @@ impl<L> Expr<L> {
     ///
     /// It is x for `abs(x)` and `sign(x)`, a − b for `min(a, b)` and `max(a, b)`, b − a for `a < b`,
     /// `a <= b`, `b > a` and `b >= a`.
-    pub fn switch<E: Env<f64, L> + ?Sized>(&self, kink: usize, env: &E) -> f64 {
-        match self.ops.iter().position(|op| op.kink() == Some(kink)) {
+    pub fn switch<E: Env<f64, L> + ?Sized>(&self, discontinuity: usize, env: &E) -> f64 {
+        match self.ops.iter().position(|op| op.discontinuity() == Some(discontinuity)) {
             Some(i) => self.with_values(i, env, |values| self.ops[i].switching(values)),
-            None => match self.ops.iter().filter_map(Op::inner).find(|inner| inner.kinks().any(|k| k == kink)) {
-                Some(inner) => inner.switch(kink, env),
+            None => match self
+                .ops
+                .iter()
+                .filter_map(Op::inner)
+                .find(|inner| inner.discontinuities().any(|k| k == discontinuity))
+            {
+                Some(inner) => inner.switch(discontinuity, env),
                 None => f64::NAN,
             },
         }
@@ -95,7 +100,7 @@ impl<L> Op<L> {
     fn result<S: Scalar, E: Env<S, L> + ?Sized>(&self, v: &[S], env: &E) -> S {
         match *self {
             Op::Constant(value) => S::of(value),
-            Op::Leaf(ref leaf) => env.leaf(leaf),
+            Op::Variable(ref variable) => env.variable(variable),
             Op::Add(a, b) => v[a] + v[b],
             Op::Subtract(a, b) => v[a] - v[b],
             Op::Multiply(a, b) => v[a] * v[b],
@@ -105,11 +110,11 @@ impl<L> Op<L> {
             Op::Power(a, b) => power(v[a], v[b]),
             Op::Apply(function, a) => function.apply(v[a]),
             Op::Atan2(y, x) => v[y].atan2(v[x]),
-            Op::Sign { of, kink } => sign(v[of].value(), env.arm(kink)),
-            Op::Abs { of, .. } => S::select(self.arm(v, env), v[of], -v[of]),
-            Op::Min { a, b, .. } => S::select(self.arm(v, env), v[b], v[a]),
-            Op::Max { a, b, .. } => S::select(self.arm(v, env), v[a], v[b]),
-            Op::Less { .. } | Op::LessEqual { .. } => number(self.arm(v, env)),
+            Op::Sign { of, kink: discontinuity } => sign(v[of].value(), env.branch(discontinuity)),
+            Op::Abs { of, .. } => S::select(self.branch(v, env), v[of], -v[of]),
+            Op::Min { a, b, .. } => S::select(self.branch(v, env), v[b], v[a]),
+            Op::Max { a, b, .. } => S::select(self.branch(v, env), v[a], v[b]),
+            Op::Less { .. } | Op::LessEqual { .. } => number(self.branch(v, env)),
             Op::Equal(a, b) => number(v[a].value() == v[b].value()),
             Op::And(a, b) => number(truth(v[a]) && truth(v[b])),
             Op::Or(a, b) => number(truth(v[a]) || truth(v[b])),
@@ -123,8 +128,8 @@ impl<L> Op<L> {
 
     /// The arm of a switch: frozen, or by its switching function.
     #[inline]
-    fn arm<S: Scalar, E: Env<S, L> + ?Sized>(&self, v: &[S], env: &E) -> bool {
-        let frozen = self.kink().and_then(|kink| env.arm(kink));
+    fn branch<S: Scalar, E: Env<S, L> + ?Sized>(&self, v: &[S], env: &E) -> bool {
+        let frozen = self.discontinuity().and_then(|discontinuity| env.branch(discontinuity));
         frozen.unwrap_or_else(|| match self {
             Op::Less { .. } => self.switching(v) > 0.0,
             _ => self.switching(v) >= 0.0,

@@ -110,8 +110,8 @@ fn name(rest: &str, start: usize) -> Result<(Token, usize), ExprError> {
         while rest[length..].starts_with('[') {
             length += index(&rest[length..], start + length, &mut name)?;
         }
-        let mut ahead = rest[length..].chars();
-        match (ahead.next(), ahead.next()) {
+        let mut later = rest[length..].chars();
+        match (later.next(), later.next()) {
             (Some('.'), Some(c)) if is_head(c) || c == '\'' => name.push('.'),
             _ => break,
         }

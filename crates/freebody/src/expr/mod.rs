@@ -18,8 +18,8 @@
 //! # Switches
 //!
 //! `abs`, `sign`, `min`, `max`, `<`, `<=`, `>` and `>=` are switches: each owns an identifier, its
-//! *kink*, and a switching function whose sign tells the arm. An environment may freeze the arm, so
-//! that an integrator sees smooth functions only and finds the kinks as zeros of [`Expr::switch`].
+//! *discontinuity*, and a switching function whose sign tells the arm. An environment may freeze the arm, so
+//! that an integrator sees smooth functions only and finds the discontinuities as zeros of [`Expr::switch`].
 
 mod ast;
 mod compose;

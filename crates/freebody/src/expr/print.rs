@@ -86,7 +86,7 @@ impl<L> Op<L> {
         match *self {
             Op::Constant(value) if value.is_sign_negative() => (literal(value), Bond::Sign),
             Op::Constant(value) => (literal(value), Bond::Operand),
-            Op::Leaf(ref leaf) => (name(Named::Leaf(leaf)), Bond::Operand),
+            Op::Variable(ref variable) => (name(Named::Leaf(variable)), Bond::Operand),
             Op::Add(a, b) => (infix(a, Bond::Sum, " + ", b, Bond::Product), Bond::Sum),
             Op::Subtract(a, b) => (infix(a, Bond::Sum, " - ", b, Bond::Product), Bond::Sum),
             Op::Multiply(a, b) => (infix(a, Bond::Product, "*", b, Bond::Sign), Bond::Product),

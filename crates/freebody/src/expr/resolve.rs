@@ -33,7 +33,7 @@ pub trait Scope<L> {
         Vec::new()
     }
     /// A fresh identifier for a switch, unique in the model.
-    fn kink(&mut self) -> usize;
+    fn discontinuity(&mut self) -> usize;
 }
 
 type Resolved<T> = Result<T, ExprError>;
@@ -50,7 +50,7 @@ impl<L: Clone + PartialEq> Expr<L> {
             Kind::Call(name, arguments) => call(ast, name, arguments, scope)?,
             Kind::Not(_) | Kind::Chain(..) => {
                 let hint = "for a number, write `if(condition, 1, 0)`";
-                return complain(ast, "a condition stands where a number is needed", hint);
+                return error_at(ast, "a condition stands where a number is needed", hint);
             }
         };
         check(expr, ast)
@@ -65,24 +65,24 @@ impl<L: Clone + PartialEq> Condition<L> {
             Kind::Chain(first, rest) if !is_arithmetic(rest) => conditions(first, rest, scope)?,
             _ => {
                 let hint = "compare it with another, as in `x > 0`";
-                return complain(ast, "a number stands where a condition is needed", hint);
+                return error_at(ast, "a number stands where a condition is needed", hint);
             }
         };
         check(condition.0, ast).map(Condition)
     }
 }
 
-fn complain<T>(ast: &Ast, what: impl Into<String>, hint: impl Into<String>) -> Resolved<T> {
+fn error_at<T>(ast: &Ast, what: impl Into<String>, hint: impl Into<String>) -> Resolved<T> {
     Err(Message::new(what, hint).at(&ast.span))
 }
 
 fn check<L>(expr: Expr<L>, ast: &Ast) -> Resolved<Expr<L>> {
     if expr.literal().is_some_and(|value| !value.is_finite()) {
-        return complain(ast, "this number is undefined or infinite", "look for a division by 0 or a negative root");
+        return error_at(ast, "this number is undefined or infinite", "look for a division by 0 or a negative root");
     }
     if expr.ops.len() > MAX_OPERATIONS {
         let what = format!("the expression has more than {MAX_OPERATIONS} operations with all that it names");
-        return complain(ast, what, "let it name less");
+        return error_at(ast, what, "let it name less");
     }
     Ok(expr)
 }
@@ -141,10 +141,10 @@ where
 {
     let (a, b) = (Expr::resolve(a, scope)?, Expr::resolve(b, scope)?);
     Ok(match operator {
-        Operator::Less => a.less(b, scope.kink()),
-        Operator::LessEqual => a.less_equal(b, scope.kink()),
-        Operator::Greater => b.less(a, scope.kink()),
-        Operator::GreaterEqual => b.less_equal(a, scope.kink()),
+        Operator::Less => a.less(b, scope.discontinuity()),
+        Operator::LessEqual => a.less_equal(b, scope.discontinuity()),
+        Operator::Greater => b.less(a, scope.discontinuity()),
+        Operator::GreaterEqual => b.less_equal(a, scope.discontinuity()),
         Operator::NotEqual => !a.equal(b),
         _ => a.equal(b),
     })
@@ -170,7 +170,7 @@ where
         "min" | "max" => extreme(ast, name, arguments, scope),
         "clamp" => arity(ast, name, arguments, 3, || {
             let [x, low, high] = three(arguments, scope)?;
-            Ok(x.max(low, scope.kink()).min(high, scope.kink()))
+            Ok(x.max(low, scope.discontinuity()).min(high, scope.discontinuity()))
         }),
         "if" => arity(ast, name, arguments, 3, || {
             let condition = Condition::resolve(&arguments[0], scope)?;
@@ -195,7 +195,7 @@ fn arity<T>(
         "if" => "write `if(condition, value, other value)`",
         _ => "arguments are separated by commas",
     };
-    complain(ast, format!("`{name}` takes {wanted} {plural}, not {}", arguments.len()), hint)
+    error_at(ast, format!("`{name}` takes {wanted} {plural}, not {}", arguments.len()), hint)
 }
 
 fn three<L, C>(arguments: &[Ast], scope: &mut C) -> Resolved<[Expr<L>; 3]>
@@ -213,10 +213,10 @@ where
     C: Scope<L> + ?Sized,
 {
     let derivative = match name {
-        "abs" => return Ok(x.abs(scope.kink())),
-        "sign" => return Ok(x.sign(scope.kink())),
+        "abs" => return Ok(x.abs(scope.discontinuity())),
+        "sign" => return Ok(x.sign(scope.discontinuity())),
         "step" => {
-            let positive = Expr::constant(0.0).less(x, scope.kink());
+            let positive = Expr::constant(0.0).less(x, scope.discontinuity());
             return Ok(positive.choose(Expr::constant(1.0), Expr::constant(0.0)));
         }
         "rate" => x.rate(),
@@ -224,7 +224,7 @@ where
     };
     match derivative {
         Some(expr) => Ok(expr),
-        None => complain(ast, format!("`{name}` of a time derivative"), "for the second derivative, write `accel(…)`"),
+        None => error_at(ast, format!("`{name}` of a time derivative"), "for the second derivative, write `accel(…)`"),
     }
 }
 
@@ -234,13 +234,13 @@ where
     C: Scope<L> + ?Sized,
 {
     if arguments.len() < 2 {
-        return complain(ast, format!("`{name}` takes two arguments or more"), "arguments are separated by commas");
+        return error_at(ast, format!("`{name}` takes two arguments or more"), "arguments are separated by commas");
     }
     let mut value = Expr::resolve(&arguments[0], scope)?;
     for argument in &arguments[1..] {
         let other = Expr::resolve(argument, scope)?;
-        let kink = scope.kink();
-        let joined = if name == "min" { value.min(other, kink) } else { value.max(other, kink) };
+        let discontinuity = scope.discontinuity();
+        let joined = if name == "min" { value.min(other, discontinuity) } else { value.max(other, discontinuity) };
         value = check(joined, argument)?;
     }
     Ok(value)
@@ -267,5 +267,5 @@ where
             None => "for a product, write `*` before the parenthesis".to_string(),
         },
     };
-    complain(ast, format!("no function is called `{name}`"), hint)
+    error_at(ast, format!("no function is called `{name}`"), hint)
 }

@@ -5,15 +5,15 @@ use crate::scalar::{Dual, Jet, Scalar};
 use proptest::prelude::*;
 
 /// Leaves are named by letters; `x` is the first.
-struct Letters {
+struct SymbolicState {
     kinks: usize,
 }
 
-impl Scope<char> for Letters {
+impl Scope<char> for SymbolicState {
     fn name(&mut self, name: &str) -> Result<Expr<char>, Message> {
         match name {
-            "x" | "y" | "z" => Ok(Expr::leaf(name.chars().next().unwrap())),
-            "gauge" => Ok(Expr::leaf('x') * Expr::leaf('y')),
+            "x" | "y" | "z" => Ok(Expr::variable(name.chars().next().unwrap())),
+            "gauge" => Ok(Expr::variable('x') * Expr::variable('y')),
             _ => Err(Message::new(format!("`{name}` names nothing"), "did you mean `x`?")),
         }
     }
@@ -26,7 +26,7 @@ impl Scope<char> for Letters {
     fn functions(&self) -> Vec<String> {
         vec!["double".into(), "ramp".into()]
     }
-    fn kink(&mut self) -> usize {
+    fn discontinuity(&mut self) -> usize {
         self.kinks += 1;
         self.kinks
     }
@@ -39,30 +39,30 @@ struct At<S> {
 }
 
 impl<S: Scalar> Env<S, char> for At<S> {
-    fn leaf(&self, leaf: &char) -> S {
-        self.values[*leaf as usize - 'x' as usize]
+    fn variable(&self, variable: &char) -> S {
+        self.values[*variable as usize - 'x' as usize]
     }
     /// As if every leaf grew at the rate 1.
     fn rate(&self, of: &Expr<char>) -> S {
-        of.eval(&Moving(self)).d1
+        of.eval(&MotionView(self)).d1
     }
     fn accel(&self, of: &Expr<char>) -> S {
-        of.eval(&Moving(self)).d2
+        of.eval(&MotionView(self)).d2
     }
     fn table(&self, table: usize, x: S) -> S {
         ramp(table, x)
     }
-    fn arm(&self, _: usize) -> Option<bool> {
+    fn branch(&self, _: usize) -> Option<bool> {
         self.arm
     }
 }
 
 /// The inside of time derivatives, which holds no further ones.
-struct Moving<'a, S>(&'a At<S>);
+struct MotionView<'a, S>(&'a At<S>);
 
-impl<S: Scalar> Env<Jet<S>, char> for Moving<'_, S> {
-    fn leaf(&self, leaf: &char) -> Jet<S> {
-        Jet::new(self.0.leaf(leaf), S::one(), S::zero())
+impl<S: Scalar> Env<Jet<S>, char> for MotionView<'_, S> {
+    fn variable(&self, variable: &char) -> Jet<S> {
+        Jet::new(self.0.variable(variable), S::one(), S::zero())
     }
     fn rate(&self, _: &Expr<char>) -> Jet<S> {
         unreachable!()
@@ -73,8 +73,8 @@ impl<S: Scalar> Env<Jet<S>, char> for Moving<'_, S> {
     fn table(&self, table: usize, x: Jet<S>) -> Jet<S> {
         ramp(table, x)
     }
-    fn arm(&self, kink: usize) -> Option<bool> {
-        self.0.arm(kink)
+    fn branch(&self, discontinuity: usize) -> Option<bool> {
+        self.0.branch(discontinuity)
     }
 }
 
@@ -84,7 +84,7 @@ fn ramp<S: Scalar>(table: usize, x: S) -> S {
 }
 
 fn resolve(text: &str) -> Result<Expr<char>, ExprError> {
-    Expr::resolve(&parse(text)?, &mut Letters { kinks: 0 })
+    Expr::resolve(&parse(text)?, &mut SymbolicState { kinks: 0 })
 }
 
 fn free<S>(values: [S; 3]) -> At<S> {
@@ -96,12 +96,12 @@ fn value(text: &str) -> f64 {
 }
 
 fn condition(text: &str) -> Condition<char> {
-    Condition::resolve(&parse(text).unwrap(), &mut Letters { kinks: 0 }).unwrap()
+    Condition::resolve(&parse(text).unwrap(), &mut SymbolicState { kinks: 0 }).unwrap()
 }
 
 fn print(expr: &Expr<char>) -> String {
     expr.text(|named| match named {
-        Named::Leaf(leaf) => leaf.to_string(),
+        Named::Leaf(variable) => variable.to_string(),
         Named::Table(_) => "ramp".into(),
     })
 }
@@ -166,8 +166,8 @@ proptest! {
             "if(x < 0.5, x^2, 3*x)", "if(x < 0.3 or x >= 0.6 and not x > 0.8, x^2, 3*x)", "step(x - 0.5)*x", "ramp(x - 0.5)",
             "rate(x^3)", "accel(sin(x))", "rate(abs(x - 0.5)*x)", "x/(x + y)", "-x^2", "max(0, x - 0.5)^1.5",
         ];
-        // Central differences need a neighbourhood without kinks.
-        prop_assume!([0.3, 0.5, 0.6, 0.7, 0.8].iter().all(|kink| (x - kink).abs() > 1e-4));
+        // Central differences need a neighbourhood without discontinuities.
+        prop_assume!([0.3, 0.5, 0.6, 0.7, 0.8].iter().all(|discontinuity| (x - discontinuity).abs() > 1e-4));
         for text in texts {
             let expr = resolve(text).unwrap();
             let at = |x: f64| expr.eval(&free([x, -1.3, 2.1]));
@@ -295,11 +295,11 @@ fn switching_functions_are_positive_on_the_true_arm() {
         ("rate(abs(y))", -1.3),
     ] {
         let expr = resolve(text).unwrap();
-        assert_eq!(expr.kinks().collect::<Vec<_>>(), [1], "{text}");
+        assert_eq!(expr.discontinuities().collect::<Vec<_>>(), [1], "{text}");
         assert_eq!(expr.switch(1, &free([0.7, -1.3, 2.1])), switch, "{text}");
         assert!(expr.switch(2, &free([0.7, -1.3, 2.1])).is_nan());
     }
-    assert_eq!(resolve("if(x == y, 1, 0)").unwrap().kinks().count(), 0);
+    assert_eq!(resolve("if(x == y, 1, 0)").unwrap().discontinuities().count(), 0);
 }
 
 #[test]
@@ -324,10 +324,10 @@ fn conditions_hold_or_not() {
         assert_eq!(condition(text).holds(&free([0.7, -1.3, 2.1])), holds, "{text}");
     }
     let condition = condition("x > 0 and (y < 0 or z < x)");
-    assert_eq!(condition.as_expr().kinks().collect::<Vec<_>>(), [1, 2, 3]);
+    assert_eq!(condition.as_expr().discontinuities().collect::<Vec<_>>(), [1, 2, 3]);
     assert_eq!(
         condition.text(|named| match named {
-            Named::Leaf(leaf) => leaf.to_string(),
+            Named::Leaf(variable) => variable.to_string(),
             Named::Table(_) => unreachable!(),
         }),
         "0 < x and (y < 0 or z < x)"
@@ -337,7 +337,7 @@ fn conditions_hold_or_not() {
 #[test]
 fn leaves_and_derivatives_are_known() {
     let expr = resolve("rate(x*y) + accel(z) + 2").unwrap();
-    assert_eq!(expr.leaves().collect::<String>(), "xyz");
+    assert_eq!(expr.variables().collect::<String>(), "xyz");
     assert_eq!(expr.derivatives().map(|(_, second)| second).collect::<Vec<_>>(), [false, true]);
     assert!(expr.depends_on_rates() && expr.depends_on_accelerations() && !expr.is_constant());
     let expr = resolve("abs(ramp(1) - 2)*3").unwrap();

@@ -20,7 +20,7 @@ pub struct Condition<L>(pub(super) Expr<L>);
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Op<L> {
     Constant(f64),
-    Leaf(L),
+    Variable(L),
     Add(usize, usize),
     Subtract(usize, usize),
     Multiply(usize, usize),
@@ -76,11 +76,11 @@ pub(super) enum Op<L> {
 
 impl<L> Op<L> {
     /// The switch it is, if any.
-    pub(super) fn kink(&self) -> Option<usize> {
+    pub(super) fn discontinuity(&self) -> Option<usize> {
         match *self {
-            Op::Abs { kink, .. } | Op::Sign { kink, .. } => Some(kink),
-            Op::Min { kink, .. } | Op::Max { kink, .. } => Some(kink),
-            Op::Less { kink, .. } | Op::LessEqual { kink, .. } => Some(kink),
+            Op::Abs { kink: discontinuity, .. } | Op::Sign { kink: discontinuity, .. } => Some(discontinuity),
+            Op::Min { kink: discontinuity, .. } | Op::Max { kink: discontinuity, .. } => Some(discontinuity),
+            Op::Less { kink: discontinuity, .. } | Op::LessEqual { kink: discontinuity, .. } => Some(discontinuity),
             _ => None,
         }
     }
@@ -97,7 +97,7 @@ impl<L> Op<L> {
     pub(super) fn moved(self, to: impl Fn(usize) -> usize) -> Self {
         use Op::*;
         match self {
-            Constant(_) | Leaf(_) | Rate(_) | Accel(_) => self,
+            Constant(_) | Variable(_) | Rate(_) | Accel(_) => self,
             Add(a, b) => Add(to(a), to(b)),
             Subtract(a, b) => Subtract(to(a), to(b)),
             Multiply(a, b) => Multiply(to(a), to(b)),
@@ -107,12 +107,12 @@ impl<L> Op<L> {
             Power(a, b) => Power(to(a), to(b)),
             Apply(function, a) => Apply(function, to(a)),
             Atan2(a, b) => Atan2(to(a), to(b)),
-            Abs { of, kink } => Abs { of: to(of), kink },
-            Sign { of, kink } => Sign { of: to(of), kink },
-            Min { a, b, kink } => Min { a: to(a), b: to(b), kink },
-            Max { a, b, kink } => Max { a: to(a), b: to(b), kink },
-            Less { a, b, kink } => Less { a: to(a), b: to(b), kink },
-            LessEqual { a, b, kink } => LessEqual { a: to(a), b: to(b), kink },
+            Abs { of, kink: discontinuity } => Abs { of: to(of), kink: discontinuity },
+            Sign { of, kink: discontinuity } => Sign { of: to(of), kink: discontinuity },
+            Min { a, b, kink: discontinuity } => Min { a: to(a), b: to(b), kink: discontinuity },
+            Max { a, b, kink: discontinuity } => Max { a: to(a), b: to(b), kink: discontinuity },
+            Less { a, b, kink: discontinuity } => Less { a: to(a), b: to(b), kink: discontinuity },
+            LessEqual { a, b, kink: discontinuity } => LessEqual { a: to(a), b: to(b), kink: discontinuity },
             Equal(a, b) => Equal(to(a), to(b)),
             And(a, b) => And(to(a), to(b)),
             Or(a, b) => Or(to(a), to(b)),
@@ -135,16 +135,16 @@ impl<L> Expr<L> {
     }
 
     /// The leaf it is, when it is a bare leaf.
-    pub fn as_leaf(&self) -> Option<&L> {
+    pub fn as_variable(&self) -> Option<&L> {
         match &self.ops[..] {
-            [Op::Leaf(leaf)] => Some(leaf),
+            [Op::Variable(variable)] => Some(variable),
             _ => None,
         }
     }
 
     /// Whether nothing in it can change: it has no leaves.
     pub fn is_constant(&self) -> bool {
-        self.leaves().next().is_none()
+        self.variables().next().is_none()
     }
 
     /// Its operations, then those inside its time derivatives.
@@ -154,9 +154,9 @@ impl<L> Expr<L> {
     }
 
     /// Its leaves, those inside time derivatives included; one may come more than once.
-    pub fn leaves(&self) -> impl Iterator<Item = &L> {
+    pub fn variables(&self) -> impl Iterator<Item = &L> {
         self.all().filter_map(|op| match op {
-            Op::Leaf(leaf) => Some(leaf),
+            Op::Variable(variable) => Some(variable),
             _ => None,
         })
     }
@@ -176,9 +176,9 @@ impl<L> Expr<L> {
         self.ops.iter().filter_map(|op| op.inner().map(|inner| (inner, matches!(op, Op::Accel(_)))))
     }
 
-    /// The kinks of its switches, those inside time derivatives included; one may come more than once.
-    pub fn kinks(&self) -> impl Iterator<Item = usize> + '_ {
-        self.all().filter_map(Op::kink)
+    /// The discontinuities of its switches, those inside time derivatives included; one may come more than once.
+    pub fn discontinuities(&self) -> impl Iterator<Item = usize> + '_ {
+        self.all().filter_map(Op::discontinuity)
     }
 }
 
@@ -193,7 +193,7 @@ impl<L: Clone> Expr<L> {
 }
 
 impl<L> Condition<L> {
-    /// The condition as a number, 1 or 0; it has the leaves and kinks of the condition.
+    /// The condition as a number, 1 or 0; it has the leaves and discontinuities of the condition.
     pub fn as_expr(&self) -> &Expr<L> {
         &self.0
     }

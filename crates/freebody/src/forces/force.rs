@@ -3,9 +3,9 @@
 use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
-use crate::gauges::Law;
+use crate::gauges::ModelExpr;
 use crate::joints::{Card, FieldKind, LoadCard, Role};
-use crate::mechanism::{Force, Push};
+use crate::mechanism::{Force, PointForce};
 
 /// A force at a point, by size and direction or by components, in fixed axes or in those of the body.
 pub struct AtPoint;
@@ -24,12 +24,12 @@ impl ForceKind for AtPoint {
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let along = fields.law("direction")?;
         let (size, x, y) = (fields.law("value")?, fields.law("x")?, fields.law("y")?);
-        let push = Push {
+        let applied = PointForce {
             site: fields.site("at")?,
-            x: x + size.clone() * Law::cos(along.clone()),
-            y: y + size * Law::sin(along),
+            x: x + size.clone() * ModelExpr::cos(along.clone()),
+            y: y + size * ModelExpr::sin(along),
             with_body: fields.word("frame", &["fixed", "body"])? == "body",
         };
-        Ok(Force { pushes: vec![push], ..Force::default() })
+        Ok(Force { point_forces: vec![applied], ..Force::default() })
     }
 }

@@ -19,6 +19,6 @@ impl ForceKind for General {
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let potential = if fields.given("potential") { Some(fields.gauge("potential")?) } else { None };
-        Ok(Force::pulling(fields.gauge("along")?, fields.law("value")?, potential))
+        Ok(Force::along_gauge(fields.gauge("along")?, fields.law("value")?, potential))
     }
 }

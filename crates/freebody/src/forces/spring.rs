@@ -3,9 +3,9 @@
 use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
-use crate::gauges::Law;
+use crate::gauges::ModelExpr;
 use crate::joints::{Card, FieldKind, LoadCard, Role};
-use crate::mechanism::{Force, Pull};
+use crate::mechanism::{Force, GaugeForce};
 
 const DAMPER: LoadCard = LoadCard::force("damper", "value", "F");
 
@@ -20,7 +20,7 @@ fn along(card: Card) -> Card {
 }
 
 /// The gauge of a force along `along` or between two points.
-fn gauge(fields: &mut Fields) -> Result<Law, CompileError> {
+fn gauge(fields: &mut Fields) -> Result<ModelExpr, CompileError> {
     match (fields.given("between"), fields.given("along")) {
         (true, false) => {
             let [p, q] = fields.two_sites("between")?;
@@ -36,21 +36,21 @@ fn gauge(fields: &mut Fields) -> Result<Law, CompileError> {
 }
 
 /// A linear spring with a damper on a gauge: −k(x − x₀) − cẋ, potential k(x − x₀)²/2.
-pub(super) fn elastic(gauge: Law, fields: &mut Fields, rest: &str) -> Result<Force, CompileError> {
+pub(super) fn elastic(gauge: ModelExpr, fields: &mut Fields, rest: &str) -> Result<Force, CompileError> {
     let stretch = gauge.clone() - fields.number(rest)?;
     let stiffness = fields.number("stiffness")?;
     let damping = fields.number("damping")?;
-    let potential = Law::constant(0.5) * stiffness.clone() * stretch.clone().powi(2);
-    let mut force = Force::pulling(gauge.clone(), -(stiffness * stretch), Some(potential));
+    let potential = ModelExpr::constant(0.5) * stiffness.clone() * stretch.clone().powi(2);
+    let mut force = Force::along_gauge(gauge.clone(), -(stiffness * stretch), Some(potential));
     if damping.literal() != Some(0.0) {
-        force.pulls.push(drag(gauge, damping));
+        force.gauge_forces.push(drag(gauge, damping));
     }
     Ok(force)
 }
 
-fn drag(gauge: Law, damping: Law) -> Pull {
+fn drag(gauge: ModelExpr, damping: ModelExpr) -> GaugeForce {
     let rate = gauge.clone().rate().expect("a gauge of the configuration has a rate");
-    Pull { gauge, value: -(damping * rate), bodies: vec![], conservative: false }
+    GaugeForce { gauge, value: -(damping * rate), bodies: vec![], conservative: false }
 }
 
 /// A spring, with a damper beside it if wished.
@@ -81,6 +81,6 @@ impl ForceKind for Damper {
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let gauge = gauge(fields)?;
-        Ok(Force { pulls: vec![drag(gauge, fields.number("damping")?)], ..Force::default() })
+        Ok(Force { gauge_forces: vec![drag(gauge, fields.number("damping")?)], ..Force::default() })
     }
 }

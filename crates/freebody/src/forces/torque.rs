@@ -3,14 +3,14 @@
 use super::ForceKind;
 use crate::builder::Fields;
 use crate::error::CompileError;
-use crate::gauges::{Law, Leaf};
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Card, FieldKind, LoadCard, Role};
 use crate::mechanism::Force;
 
 /// The turn of `on` against `from`.
-fn turn(fields: &mut Fields) -> Result<Law, CompileError> {
+fn turn(fields: &mut Fields) -> Result<ModelExpr, CompileError> {
     let (on, from) = (fields.turning_body("on")?, fields.turning_body("from")?);
-    Ok(Law::leaf(Leaf::Angle(on)) - Law::leaf(Leaf::Angle(from)))
+    Ok(ModelExpr::variable(ModelVariable::Angle(on)) - ModelExpr::variable(ModelVariable::Angle(from)))
 }
 
 fn between(card: Card) -> Card {
@@ -33,7 +33,7 @@ impl ForceKind for Torque {
             .loads(&[LoadCard::couple("couple", "value")])
     }
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
-        Ok(Force::pulling(turn(fields)?, fields.law("value")?, None))
+        Ok(Force::along_gauge(turn(fields)?, fields.law("value")?, None))
     }
 }
 

@@ -1,21 +1,22 @@
-//! What acts on each body: the loads of a free-body diagram, told over any scalar.
+//! What acts on each body: the loads of a free-body diagram, expressed over any scalar.
 //!
-//! A load is one thing that pushes, pulls or turns: a weight, a spring, one component of the reaction of a joint. On two bodies
-//! it acts in equal and opposite ways. What is not known before the balance is solved is told for a unit of it.
+//! A load is one thing that pushes, pulls or turns: a weight, a spring, one component of the reaction of a joint. On
+//! two bodies it acts in equal and opposite ways. What is not known before the balance is solved is expressed for a
+//! unit of it.
 
-mod given;
-mod limits;
+mod applied;
+mod contacts;
 mod numbers;
 mod reactions;
 
 pub use numbers::free_bodies;
 
-use crate::balance::Source;
-use crate::gauges::{Law, Leaf};
+use crate::dynamics::Source;
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::LoadCard;
-use crate::kinematics::{relative, JointView, Placed, Poses};
-use crate::mechanism::{Mechanism, Rubbing};
-use crate::mode::Hold;
+use crate::kinematics::{relative, JointView, Poses, StateView};
+use crate::mechanism::{FrictionSource, Mechanism};
+use crate::mode::ContactMode;
 use crate::plane::{Vec2, Wrench};
 use crate::scalar::Scalar;
 
@@ -28,14 +29,14 @@ pub enum Origin {
     Force(usize, usize),
     /// The force of a pin of a joint along fixed axes: 0 for x, 1 for y.
     Pin(usize, usize),
-    /// A row: of a joint, a motion or coupling, a closed limit, friction that sticks.
+    /// A row: of a joint, a motion or coupling, a closed unilateral constraint, friction that sticks.
     Row(Source),
-    /// Friction of a limit that slides.
+    /// Friction of a unilateral constraint that slides.
     Sliding(usize),
-    /// The spring and damper that stand for a limit.
-    Pressed(usize),
+    /// The spring and damper that stand for a unilateral constraint.
+    Compliant(usize),
     /// Friction of a joint that slides.
-    Rubbing(usize),
+    JointFriction(usize),
 }
 
 impl Origin {
@@ -43,7 +44,9 @@ impl Origin {
     pub fn is_conservative(self, m: &Mechanism) -> bool {
         match self {
             Origin::Weight(_) => true,
-            Origin::Force(force, number) => m.forces[force].pulls.get(number).is_some_and(|pull| pull.conservative),
+            Origin::Force(force, number) => {
+                m.forces[force].gauge_forces.get(number).is_some_and(|gauge_force| gauge_force.conservative)
+            }
             _ => false,
         }
     }
@@ -67,11 +70,11 @@ pub struct Part<S> {
 pub enum Size<S> {
     /// All: its parts are what acts.
     Known,
-    /// Nothing: its parts are told for a unit of it.
+    /// Nothing: its parts are expressed for a unit of it.
     Unknown,
-    /// It is this many times another load of the list, its parts being told for a unit of it.
+    /// It is this many times another load of the list, its parts being expressed for a unit of it.
     Follows(usize, S),
-    /// It follows from the others by a law that is not linear; its parts are told for a unit of it.
+    /// It follows from the others by a law that is not linear; its parts are expressed for a unit of it.
     ByLaw,
 }
 
@@ -94,40 +97,40 @@ pub struct Load<S> {
     pub size: Size<S>,
 }
 
-/// All loads at a state, in the order: weights, forces, joints, motions, limits, friction.
-pub fn loads<S: Scalar>(at: Placed<'_, S>) -> Vec<Load<S>> {
+/// All loads at a state, in the order: weights, forces, joints, motions, unilateral constraints, friction.
+pub fn loads<S: Scalar>(at: StateView<'_, S>) -> Vec<Load<S>> {
     let mut loads = vec![];
-    given::weights(at, &mut loads);
-    given::forces(at, &mut loads);
+    applied::weights(at, &mut loads);
+    applied::forces(at, &mut loads);
     reactions::joints(at, &mut loads);
     reactions::drives(at, &mut loads);
-    limits::limits(at, &mut loads);
-    limits::rubs(at, &mut loads);
+    contacts::contacts(at, &mut loads);
+    contacts::joint_friction(at, &mut loads);
     loads
 }
 
-/// Where what slides is pressed by one load, as of a joint that carries its force by one row or of a contact on a spring, its
-/// friction is that many times it; `values` are those of the loads, and say on which side it presses.
-pub fn follow_presses<S: Scalar>(at: Placed<'_, S>, loads: &mut [Load<S>], values: &[f64]) {
+/// Where what slides is pressed by one load, as of a joint that carries its force by one row or of a contact on a
+/// spring, its friction is that many times it; `values` are those of the loads, and say on which side it presses.
+pub fn relate_friction<S: Scalar>(at: StateView<'_, S>, loads: &mut [Load<S>], values: &[f64]) {
     for i in 0..loads.len() {
-        let Origin::Rubbing(rub) = loads[i].origin else { continue };
-        let presses = |load: &Load<S>| match (load.origin, &at.m.rubs[rub].of) {
-            (Origin::Row(Source::Joint(joint, _)), Rubbing::Joint { joint: rubs, .. }) => {
-                joint == *rubs && !load.card.couple
+        let Origin::JointFriction(friction) = loads[i].origin else { continue };
+        let presses = |load: &Load<S>| match (load.origin, &at.m.joint_friction[friction].of) {
+            (Origin::Row(Source::Joint(joint, _)), FrictionSource::Joint { joint: friction, .. }) => {
+                joint == *friction && !load.card.couple
             }
-            (Origin::Pressed(limit), Rubbing::Limit(rubs)) => limit == *rubs,
+            (Origin::Compliant(constraint), FrictionSource::Limit(friction)) => constraint == *friction,
             _ => false,
         };
         if let Some(press) = loads.iter().position(presses) {
-            let Hold::Sliding(sense) = at.mode.rubs[rub] else { continue };
+            let ContactMode::Slip(sense) = at.mode.joint_friction[friction] else { continue };
             let side = if values[press] < 0.0 { -sense } else { sense };
-            loads[i].size = Size::Follows(press, at.n.slots[at.m.rubs[rub].kinetic].scale(-side));
+            loads[i].size = Size::Follows(press, at.n.values[at.m.joint_friction[friction].kinetic].scale(-side));
         }
     }
 }
 
-/// A load at the pin of a body, told as a force at a point and a couple beside it.
-fn part<S: Scalar>(at: Placed<'_, S>, body: usize, at_pin: Wrench<S>, point: Vec2<S>) -> Part<S> {
+/// A load at the joint origin of a body, expressed as a force at a point and a couple beside it.
+fn part<S: Scalar>(at: StateView<'_, S>, body: usize, at_pin: Wrench<S>, point: Vec2<S>) -> Part<S> {
     let there = at_pin.seen_from(at.k.pose[body].at - point);
     Part { body, point, force: there.f, couple: there.m }
 }
@@ -143,9 +146,9 @@ fn ground_takes<S: Scalar>(parts: &mut Vec<Part<S>>, point: Vec2<S>) {
 }
 
 /// The loads of a spread along a gauge, each at the point that the gauge looks at.
-fn along_gauge<S: Scalar>(at: Placed<'_, S>, gauge: &Law, spread: &[(usize, Wrench<S>)]) -> Vec<Part<S>> {
-    let told = |&(body, w): &(usize, Wrench<S>)| part(at, body, w, place_on(at, gauge, body));
-    let mut parts: Vec<Part<S>> = spread.iter().map(told).collect();
+fn along_gauge<S: Scalar>(at: StateView<'_, S>, gauge: &ModelExpr, wrenches: &[(usize, Wrench<S>)]) -> Vec<Part<S>> {
+    let to_part = |&(body, w): &(usize, Wrench<S>)| part(at, body, w, place_on(at, gauge, body));
+    let mut parts: Vec<Part<S>> = wrenches.iter().map(to_part).collect();
     if looks_at_ground(at, gauge) {
         ground_takes(&mut parts, place_on(at, gauge, 0));
     }
@@ -153,12 +156,12 @@ fn along_gauge<S: Scalar>(at: Placed<'_, S>, gauge: &Law, spread: &[(usize, Wren
 }
 
 /// Where a gauge takes hold of a body: its only site there, or the place of a joint, or the mass centre.
-fn place_on<S: Scalar>(at: Placed<'_, S>, gauge: &Law, body: usize) -> Vec2<S> {
-    let mut sites: Vec<usize> = gauge.leaves().filter_map(|leaf| site_on(at, leaf, body)).collect();
+fn place_on<S: Scalar>(at: StateView<'_, S>, gauge: &ModelExpr, body: usize) -> Vec2<S> {
+    let mut sites: Vec<usize> = gauge.variables().filter_map(|variable| site_on(at, variable, body)).collect();
     sites.sort_unstable();
     sites.dedup();
-    let joint = gauge.leaves().find_map(|leaf| match leaf {
-        Leaf::Coordinate(joint, _) if at.m.ends(&at.m.joints[*joint]).contains(&body) => Some(*joint),
+    let joint = gauge.variables().find_map(|variable| match variable {
+        ModelVariable::Coordinate(joint, _) if at.m.ends(&at.m.joints[*joint]).contains(&body) => Some(*joint),
         _ => None,
     });
     match (&sites[..], joint) {
@@ -168,23 +171,23 @@ fn place_on<S: Scalar>(at: Placed<'_, S>, gauge: &Law, body: usize) -> Vec2<S> {
     }
 }
 
-fn site_on<S: Scalar>(at: Placed<'_, S>, leaf: &Leaf, body: usize) -> Option<usize> {
-    match leaf {
-        Leaf::X(site) | Leaf::Y(site) if at.m.body_of(*site) == body => Some(*site),
+fn site_on<S: Scalar>(at: StateView<'_, S>, variable: &ModelVariable, body: usize) -> Option<usize> {
+    match variable {
+        ModelVariable::X(site) | ModelVariable::Y(site) if at.m.body_of(*site) == body => Some(*site),
         _ => None,
     }
 }
 
-fn looks_at_ground<S: Scalar>(at: Placed<'_, S>, gauge: &Law) -> bool {
-    gauge.leaves().any(|leaf| match leaf {
-        Leaf::X(_) | Leaf::Y(_) => site_on(at, leaf, 0).is_some(),
-        Leaf::Coordinate(joint, _) => at.m.ends(&at.m.joints[*joint]).contains(&0),
+fn looks_at_ground<S: Scalar>(at: StateView<'_, S>, gauge: &ModelExpr) -> bool {
+    gauge.variables().any(|variable| match variable {
+        ModelVariable::X(_) | ModelVariable::Y(_) => site_on(at, variable, 0).is_some(),
+        ModelVariable::Coordinate(joint, _) => at.m.ends(&at.m.joints[*joint]).contains(&0),
         _ => false,
     })
 }
 
 /// Where the reaction of a joint acts, fixed axes.
-fn joint_place<S: Scalar>(at: Placed<'_, S>, joint: usize) -> Vec2<S> {
+fn joint_place<S: Scalar>(at: StateView<'_, S>, joint: usize) -> Vec2<S> {
     let joint = &at.m.joints[joint];
     let (axes, place) = relative(joint, at.m, &at);
     axes.place(JointView::new(at.m, at.n, joint, |x| x).contact(&place))

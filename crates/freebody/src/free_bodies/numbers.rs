@@ -1,7 +1,7 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
-use super::{follow_presses, loads, Load, Origin, Part, Size};
-use crate::balance::{closing_rows, Balance, Labels, Source, Trouble};
+use super::{loads, relate_friction, Load, Origin, Part, Size};
+use crate::dynamics::{closing_rows, Determinacy, Source, Trouble, Workspace};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
 use crate::plane::{Twist, Vec2};
@@ -13,31 +13,31 @@ const NO_COUPLE: f64 = 1e-12;
 /// Bodies, loads with their sizes, and what joints and motions ask of the accelerations, at the state of `balance`.
 ///
 /// # Errors
-/// `not_finite`; as [`Balance::solve`].
-pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
-    balance.solve()?;
-    if !balance.solved().nu_dot.iter().all(|a| a.is_finite()) {
+/// `not_finite`; as [`Workspace::solve`].
+pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, Trouble> {
+    workspace.solve()?;
+    if !workspace.solved().nu_dot.iter().all(|a| a.is_finite()) {
         return Err(Trouble::not_finite());
     }
-    let labels = balance.labels();
-    let sizes = Sizes::of(balance, &labels);
-    let at = balance.at();
-    let m = balance.m;
+    let determinacy = workspace.determinacy();
+    let sizes = LoadValues::of(workspace, &determinacy);
+    let at = workspace.at();
+    let m = workspace.m;
     let mut all = loads(at);
-    let found: Vec<(Option<f64>, bool)> = all.iter().map(|load| sizes.of_load(balance, load, &all)).collect();
+    let found: Vec<(Option<f64>, bool)> = all.iter().map(|load| sizes.of_load(workspace, load, &all)).collect();
     let values: Vec<f64> = found.iter().map(|(value, _)| value.unwrap_or(1.0)).collect();
-    follow_presses(at, &mut all, &values);
-    let told: Vec<Value> = all.iter().zip(found).map(|(load, size)| tell(balance, load, size)).collect();
+    relate_friction(at, &mut all, &values);
+    let entries: Vec<Value> = all.iter().zip(found).map(|(load, size)| load_data(workspace, load, size)).collect();
     let still = vec![0.0; m.freedom()];
-    let spread = |of_coordinates: &[f64]| at.k.spread_user(m, at.n, of_coordinates);
-    let drift = spread(&still);
+    let wrenches = |of_coordinates: &[f64]| at.k.propagate_user_motion(m, at.n, of_coordinates);
+    let drift = wrenches(&still);
     let unit = |j: usize| -> Vec<Twist> {
         let mut one = still.clone();
         one[j] = 1.0;
-        spread(&one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
+        wrenches(&one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
     };
     let units: Vec<Vec<Twist>> = (0..m.freedom()).map(unit).collect();
-    let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(balance, i, &drift, &units)).collect();
+    let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(workspace, i, &drift, &units)).collect();
     let rows: Vec<Value> = closing_rows(at, Some(&drift))
         .iter()
         .map(|row| {
@@ -48,29 +48,29 @@ pub fn free_bodies(balance: &mut Balance<'_>) -> Result<Value, Trouble> {
         })
         .collect();
     let mut found = vec![0.0; m.freedom()];
-    balance.accelerations(&mut found);
+    workspace.accelerations(&mut found);
     let accelerations: Map<String, Value> =
         found.iter().enumerate().map(|(j, a)| (m.coordinate(j).name.clone(), json!(a))).collect();
-    Ok(json!({"bodies": bodies, "loads": told, "rows": rows, "accelerations": accelerations}))
+    Ok(json!({"bodies": bodies, "loads": entries, "rows": rows, "accelerations": accelerations}))
 }
 
 fn xy(v: Vec2) -> Value {
     json!([v.x, v.y])
 }
 
-/// Acceleration of the mass centre and angular acceleration, by those of the pin; `w` the angular velocity.
+/// Acceleration of the mass centre and angular acceleration, by those of the joint origin; `w` the angular velocity.
 fn at_centre(arm: Vec2, pin: Twist, w: f64) -> [f64; 3] {
     let a = pin.at(arm) - arm * (w * w);
     [a.x, a.y, pin.w]
 }
 
-fn body(balance: &Balance<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) -> Value {
-    let (at, m) = (balance.at(), balance.m);
+fn body(workspace: &Workspace<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) -> Value {
+    let (at, m) = (workspace.at(), workspace.m);
     let (body, pose, twist) = (&m.bodies[i], at.k.pose[i], at.k.twist[i]);
     let centre = at.mass_centre(i);
     let arm = centre - pose.at;
     let origin = m.sites.iter().position(|s| s.body == i).expect("every body has its origin as a site");
-    let found = at_centre(arm, balance.solved().bodies[i], twist.w);
+    let found = at_centre(arm, workspace.solved().bodies[i], twist.w);
     let by: Map<String, Value> = units
         .iter()
         .enumerate()
@@ -86,11 +86,11 @@ fn body(balance: &Balance<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) 
     })
 }
 
-fn tell(balance: &Balance<'_>, load: &Load<f64>, (value, determinate): (Option<f64>, bool)) -> Value {
-    let m = balance.m;
+fn load_data(workspace: &Workspace<'_>, load: &Load<f64>, (value, determinate): (Option<f64>, bool)) -> Value {
+    let m = workspace.m;
     let (kind, name, path) = described(m, load);
     let axis = if let Origin::Pin(_, axis) = load.origin { Some(["x", "y"][axis]) } else { None };
-    let parts: Vec<Value> = load.parts.iter().map(|p| part(balance, p)).collect();
+    let parts: Vec<Value> = load.parts.iter().map(|p| part(workspace, p)).collect();
     let follows = match load.size {
         Size::Follows(of, ratio) => json!({"load": of, "ratio": ratio}),
         _ => Value::Null,
@@ -103,22 +103,22 @@ fn tell(balance: &Balance<'_>, load: &Load<f64>, (value, determinate): (Option<f
 }
 
 /// A part, its couple taken up by the place of the force where there is one, round-off left out.
-fn part(balance: &Balance<'_>, p: &Part<f64>) -> Value {
+fn part(workspace: &Workspace<'_>, p: &Part<f64>) -> Value {
     let size = p.force.norm();
     let (mut point, mut couple) = (p.point, p.couple);
-    if couple.abs() <= NO_COUPLE * size * balance.length {
+    if couple.abs() <= NO_COUPLE * size * workspace.length {
         couple = 0.0;
     } else if size > 0.0 {
         point = p.point + p.force.perp() * (-couple / (size * size));
         couple = 0.0;
     }
-    json!({"body": balance.m.bodies[p.body].name, "point": xy(point), "force": xy(p.force), "couple": couple})
+    json!({"body": workspace.m.bodies[p.body].name, "point": xy(point), "force": xy(p.force), "couple": couple})
 }
 
 /// Kind, name and place in the model of a load.
 fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, String) {
     let of = |kind, source: Source| (kind, source.name(m), source.path(m));
-    let group = |limit: usize| m.groups[m.limits[limit].group].word;
+    let group = |constraint: usize| m.groups[m.unilateral[constraint].group].word;
     match load.origin {
         Origin::Weight(body) => ("weight", &m.bodies[body].name, format!("bodies.{}", m.bodies[body].name)),
         Origin::Force(force, _) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name)),
@@ -126,32 +126,32 @@ fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, 
         Origin::Row(source @ Source::Joint(..)) => of("joint", source),
         Origin::Row(source @ Source::Drive(drive)) if m.drives[drive].coupling => of("coupling", source),
         Origin::Row(source @ Source::Drive(_)) => of("motion", source),
-        Origin::Row(source @ Source::Limit(limit)) => of(group(limit), source),
-        Origin::Pressed(limit) => of(group(limit), Source::Limit(limit)),
-        Origin::Sliding(limit) => of("friction", Source::Limit(limit)),
-        Origin::Row(source @ (Source::Friction(_) | Source::Rub(_))) => of("friction", source),
-        Origin::Rubbing(rub) => of("friction", Source::Rub(rub)),
+        Origin::Row(source @ Source::Gap(constraint)) => of(group(constraint), source),
+        Origin::Compliant(constraint) => of(group(constraint), Source::Gap(constraint)),
+        Origin::Sliding(constraint) => of("friction", Source::Gap(constraint)),
+        Origin::Row(source @ (Source::Friction(_) | Source::JointFriction(_))) => of("friction", source),
+        Origin::JointFriction(friction) => of("friction", Source::JointFriction(friction)),
     }
 }
 
 /// The sizes of all unknown loads in the last solution, and whether they are determinate.
-struct Sizes<'l> {
-    labels: &'l Labels,
+struct LoadValues<'l> {
+    labels: &'l Determinacy,
     joints: Vec<(Vec2, Vec<f64>)>,
     drives: Vec<f64>,
     limits: Vec<[f64; 2]>,
 }
 
-impl<'l> Sizes<'l> {
-    fn of(b: &Balance<'_>, labels: &'l Labels) -> Self {
+impl<'l> LoadValues<'l> {
+    fn of(b: &Workspace<'_>, determinacy: &'l Determinacy) -> Self {
         let loads = b.joint_loads();
         let joints = loads.iter().enumerate().map(|(j, l)| (l.force, rows_of(b, j))).collect();
-        Sizes { labels, joints, drives: b.drive_forces(), limits: b.limit_forces() }
+        LoadValues { labels: determinacy, joints, drives: b.drive_forces(), limits: b.contact_forces() }
     }
 
-    fn of_load(&self, b: &Balance<'_>, load: &Load<f64>, all: &[Load<f64>]) -> (Option<f64>, bool) {
+    fn of_load(&self, b: &Workspace<'_>, load: &Load<f64>, all: &[Load<f64>]) -> (Option<f64>, bool) {
         let m = b.m;
-        let group = |limit: usize| m.limits[limit].group;
+        let group = |constraint: usize| m.unilateral[constraint].group;
         if let Size::Follows(of, ratio) = load.size {
             let (normal, sure) = self.of_load(b, &all[of], all);
             return (normal.map(|n| n * ratio), sure);
@@ -169,23 +169,26 @@ impl<'l> Sizes<'l> {
                 (Some(sign * self.joints[joint].1[at]), self.is_sure(joint, load, all))
             }
             Origin::Row(Source::Drive(drive)) => (Some(self.drives[drive]), self.labels.drives[drive]),
-            Origin::Row(Source::Limit(l)) => (Some(self.limits[l][0]), self.labels.groups[group(l)][2]),
+            Origin::Row(Source::Gap(l)) => (Some(self.limits[l][0]), self.labels.groups[group(l)][2]),
             Origin::Row(Source::Friction(l)) => (Some(self.limits[l][1]), self.labels.groups[group(l)][3]),
-            Origin::Row(Source::Rub(rub)) | Origin::Rubbing(rub) => (Some(b.rub_force(rub)), true),
-            Origin::Pressed(l) | Origin::Sliding(l) => (Some(b.press(l)), true),
+            Origin::Row(Source::JointFriction(friction)) | Origin::JointFriction(friction) => {
+                (Some(b.joint_friction_force(friction)), true)
+            }
+            Origin::Compliant(l) | Origin::Sliding(l) => (Some(b.compliant_force(l)), true),
         }
     }
 
-    /// Whether the load of a row is determinate: where all components of its joint are, or those of its force that no other row
-    /// of the joint shares.
+    /// Whether the load of a row is determinate: where all components of its joint are, or those of its force that no
+    /// other row of the joint shares.
     fn is_sure(&self, joint: usize, load: &Load<f64>, all: &[Load<f64>]) -> bool {
-        let labels = self.labels.joints[joint];
+        let determinacy = self.labels.joints[joint];
         let own = along(load);
         let of_joint = |other: &&Load<f64>| matches!(other.origin, Origin::Row(Source::Joint(j, _)) if j == joint);
         let others = all.iter().filter(of_joint).filter(|other| other.symbol != load.symbol);
         let alone = !others.map(along).any(|other| (0..2).any(|axis| own[axis] && other[axis]));
-        let pushes = own.contains(&true);
-        labels.iter().all(|&sure| sure) || (pushes && alone && (0..2).all(|axis| !own[axis] || labels[axis]))
+        let point_forces = own.contains(&true);
+        determinacy.iter().all(|&sure| sure)
+            || (point_forces && alone && (0..2).all(|axis| !own[axis] || determinacy[axis]))
     }
 }
 
@@ -195,7 +198,7 @@ fn along(load: &Load<f64>) -> [bool; 2] {
     [any(|part| part.force.x), any(|part| part.force.y)]
 }
 
-fn rows_of(b: &Balance<'_>, joint: usize) -> Vec<f64> {
+fn rows_of(b: &Workspace<'_>, joint: usize) -> Vec<f64> {
     if b.m.joints[joint].rows.is_empty() {
         return vec![];
     }

@@ -1,16 +1,16 @@
 //! Unknown loads of joints, motions and couplings.
 
 use super::{along_gauge, joint_place, part, Load, Origin, Part, Size};
-use crate::balance::{curve_row, drive_row, joint_rows, Row, Source};
+use crate::dynamics::{curve_row, drive_row, joint_rows, Row, Source};
 use crate::expr::spell;
 use crate::joints::{Joint as _, LoadCard};
-use crate::kinematics::{Placed, Poses};
+use crate::kinematics::{Poses, StateView};
 use crate::mechanism::Joint;
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 
 /// The components of the reaction of every joint in place, on its second body.
-pub fn joints<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
+pub fn joints<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, joint) in at.joints().filter(|(_, joint)| !joint.rows.is_empty()) {
         let (of, mut rows) = (at.m.ends(joint), vec![]);
         let place = match joint.curve {
@@ -49,7 +49,7 @@ pub fn joints<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
 }
 
 /// A unit force of a pin along a fixed axis; each body feels it where it has the pin.
-fn pinned<S: Scalar>(at: Placed<'_, S>, joint: &Joint, axis: usize) -> Vec<Part<S>> {
+fn pinned<S: Scalar>(at: StateView<'_, S>, joint: &Joint, axis: usize) -> Vec<Part<S>> {
     let (zero, one) = (S::zero(), S::one());
     let force = if axis == 0 { vec2(one, zero) } else { vec2(zero, one) };
     let on = |site: usize, force| {
@@ -60,7 +60,7 @@ fn pinned<S: Scalar>(at: Placed<'_, S>, joint: &Joint, axis: usize) -> Vec<Part<
 }
 
 /// The loads of a unit multiplier of a row between two bodies, both at one place.
-pub(super) fn loaded<S: Scalar>(at: Placed<'_, S>, row: &Row<S>, place: Vec2<S>) -> Vec<Part<S>> {
+pub(super) fn loaded<S: Scalar>(at: StateView<'_, S>, row: &Row<S>, place: Vec2<S>) -> Vec<Part<S>> {
     let mut parts: Vec<Part<S>> = row.loads().iter().map(|&(body, w)| part(at, body, w, place)).collect();
     if parts.len() == 1 {
         super::ground_takes(&mut parts, place);
@@ -69,7 +69,7 @@ pub(super) fn loaded<S: Scalar>(at: Placed<'_, S>, row: &Row<S>, place: Vec2<S>)
 }
 
 /// What drives every motion and what every coupling passes.
-pub fn drives<S: Scalar>(at: Placed<'_, S>, out: &mut Vec<Load<S>>) {
+pub fn drives<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, drive) in at.drives() {
         let row = drive_row(at, index, None);
         let parts = along_gauge(at, drive.by.as_ref().unwrap_or(&drive.of), row.loads());

@@ -1,19 +1,19 @@
 //! Gauges: scalars measured from the configuration, their rates and accelerations, and everything else
 //! that an expression of a model may read.
 //!
-//! A gauge is an [`Expr`] over [`Leaf`]s. One definition serves springs, drives, couplings, limits,
+//! A gauge is an [`Expr`] over [`Leaf`]s. One definition serves springs, drives, couplings, unilateral constraints,
 //! events and reports: over plain numbers it gives a value, over jets its rate and acceleration, over
 //! duals seeded on one body the load that a unit force along the gauge puts on that body.
 
 mod reading;
 
-pub use reading::{Axis, Bound, Reading};
+pub use reading::{Axis, ContactQuantity, Reading};
 
 use crate::expr::Expr;
 
 /// What the names in an expression stand for, in the end.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Leaf {
+pub enum ModelVariable {
     /// A parameter of the model.
     Parameter(usize),
     /// Time, s.
@@ -33,4 +33,4 @@ pub enum Leaf {
 }
 
 /// An expression of a model.
-pub type Law = Expr<Leaf>;
+pub type ModelExpr = Expr<ModelVariable>;

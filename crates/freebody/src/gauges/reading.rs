@@ -28,16 +28,16 @@ pub enum Reading {
     /// Mass centre of all bodies.
     Centre(Axis),
     /// Something of a contact, stop or string.
-    Limit(usize, Bound),
+    Contact(usize, ContactQuantity),
     /// Friction of a joint along its coordinate.
-    Rub(usize),
+    JointFriction(usize),
     /// Work of all friction since the start.
     FrictionWork,
 }
 
 /// Something of a contact, stop or string.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
+pub enum ContactQuantity {
     /// Its least gap; what is slack of a string.
     Gap,
     /// The force along the gap, all touches together: normal force, tension, force of a stop.
@@ -52,16 +52,16 @@ pub enum Bound {
     Slip,
 }
 
-impl Bound {
+impl ContactQuantity {
     /// What must be determinate for it: of the force on the first body along x and y, the normal force, the friction.
     pub fn needs(self) -> &'static [usize] {
         match self {
-            Bound::Gap | Bound::Slip => &[],
-            Bound::OnFirst(Axis::X) => &[0],
-            Bound::OnFirst(Axis::Y) => &[1],
-            Bound::OnFirst(_) => &[0, 1],
-            Bound::Force | Bound::Place(_) => &[2],
-            Bound::Friction => &[3],
+            ContactQuantity::Gap | ContactQuantity::Slip => &[],
+            ContactQuantity::OnFirst(Axis::X) => &[0],
+            ContactQuantity::OnFirst(Axis::Y) => &[1],
+            ContactQuantity::OnFirst(_) => &[0, 1],
+            ContactQuantity::Force | ContactQuantity::Place(_) => &[2],
+            ContactQuantity::Friction => &[3],
         }
     }
 }

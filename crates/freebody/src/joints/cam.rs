@@ -18,7 +18,7 @@ impl Joint for CurvedSlot {
             .along("the tangent of {}")
             .turn()
             .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
-            .rubbing()
+            .with_friction()
             .glyph("curve")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {

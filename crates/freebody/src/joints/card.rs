@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-/// The card of a joint or of a force: its word and its fields; for joints also coordinates and rows, for forces its loads.
+/// The card of a joint or of a force: its word and its fields; for joints also coordinates and rows, for forces its
+/// loads.
 #[derive(Clone, Debug, Serialize)]
 pub struct Card {
     /// The word in a model file.
@@ -16,8 +17,8 @@ pub struct Card {
     pub coordinates: Vec<CoordinateCard>,
     /// Rows of `residual`, in order.
     pub rows: Vec<RowCard>,
-    /// Whether it can rub along its first coordinate.
-    pub rubs: bool,
+    /// Whether it can have friction along its first coordinate.
+    pub has_friction: bool,
     /// The loads of a force, in the order of its pulls and pushes.
     pub parts: Vec<LoadCard>,
     /// The glyph by which drawings show it, of the set in `views/symbols.py`; empty for none.
@@ -96,13 +97,15 @@ pub struct CoordinateCard {
     pub dimension: &'static str,
     /// The turn of the second body, which a particle does not have.
     pub turn: bool,
-    /// The line along which, or across which, it moves the second body, `{}` being the joint: `the slider {}`; or empty.
+    /// The line along which, or across which, it moves the second body, `{}` being the joint: `the slider {}`; or
+    /// empty.
     pub line: &'static str,
     /// Whether it moves the body across that line.
     pub across: bool,
 }
 
-/// What a load is: a component of a reaction, a force of the model, friction. Who names it, draws it or tells its unit reads it here.
+/// What a load is: a component of a reaction, a force of the model, friction. Who names it, draws it or tells its unit
+/// reads it here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct LoadCard {
     /// What it is called: `normal force`.
@@ -150,7 +153,7 @@ impl LoadCard {
     }
 }
 
-/// A row of a joint told as a constraint, by the load that its multiplier is.
+/// A row of a joint expressed as a constraint, by the load that its multiplier is.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct RowCard {
     /// The load. One that pulls is read against the multiplier, which pushes where it is positive.
@@ -161,7 +164,7 @@ pub struct RowCard {
     pub pin: Option<usize>,
     /// Only its change counts: its value at the start of a motion is its zero (teeth mesh as they are put).
     #[serde(skip)]
-    pub phased: bool,
+    pub is_relative: bool,
     /// It is a force that passes beside the joint's point, and so has a moment about it.
     #[serde(skip)]
     pub beside: bool,
@@ -170,7 +173,7 @@ pub struct RowCard {
 impl RowCard {
     /// A row whose multiplier is this load.
     pub fn of(load: LoadCard) -> Self {
-        RowCard { load, pin: None, phased: false, beside: false }
+        RowCard { load, pin: None, is_relative: false, beside: false }
     }
     /// The sign of its load for a positive multiplier.
     pub fn sign(&self) -> f64 {
@@ -195,7 +198,7 @@ impl Card {
             fields: vec![],
             coordinates: vec![],
             rows: vec![],
-            rubs: false,
+            has_friction: false,
             parts: vec![],
             glyph: "",
             outline: &[],
@@ -256,9 +259,9 @@ impl Card {
     pub fn couple(self) -> Self {
         self.row(RowCard::of(LoadCard::couple("couple", "M")))
     }
-    /// It can rub along its first coordinate.
-    pub fn rubbing(mut self) -> Self {
-        self.rubs = true;
+    /// It can have friction along its first coordinate.
+    pub fn with_friction(mut self) -> Self {
+        self.has_friction = true;
         self
     }
     /// The glyph by which drawings show it.

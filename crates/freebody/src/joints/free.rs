@@ -16,11 +16,11 @@ impl Joint for Free {
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: q[1], angle: q[2] })
     }
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, _: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[]))
+    fn residual<S: Scalar>(&self, _: &Numbers<S>, _: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x, r.y, r.angle]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x, r.y, r.angle]))
     }
 }
 
@@ -41,11 +41,11 @@ impl Joint for Polar {
         let (sin, cos) = q[1].sin_cos();
         Some(Relative { x: q[0] * cos, y: q[0] * sin, angle: q[2] })
     }
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, _: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[]))
+    fn residual<S: Scalar>(&self, _: &Numbers<S>, _: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.at().norm(), r.y.atan2(r.x), r.angle]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.at().norm(), r.y.atan2(r.x), r.angle]))
     }
     fn unsigned(&self, k: usize) -> bool {
         k == 0

@@ -62,17 +62,17 @@ impl Joint for Gear {
                 "+1 or -1: the side of the teeth that is tried first; the other carries where it would have to pull",
             )
             .row(RowCard {
-                phased: true,
+                is_relative: true,
                 ..RowCard::of(LoadCard { flank: true, ..LoadCard::force("tooth force", "F1", "F") })
             })
             .glyph("pitch_circles")
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         let (b1, b2) = Self::base(n);
         let flank = Self::side(n) * n.of[Self::FLANK];
         // At the distance of the pitch radii both flanks touch at once.
         let pitch = n.of[0] + Self::side(n) * n.of[1];
-        Some(Few::of(&[passed(r, b1, b2, flank) - flank * strand(pitch * pitch, b1 + b2)]))
+        Some(Rows3::of(&[passed(r, b1, b2, flank) - flank * strand(pitch * pitch, b1 + b2)]))
     }
     fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         let (b1, b2) = Self::base(n);
@@ -104,12 +104,12 @@ impl Joint for Belt {
         .needs("radii", FieldKind::Numbers, Role::Number, "m", "the two radii")
         .takes("crossed", FieldKind::Flag, "", "false", "whether the strands cross")
         .takes("strand", FieldKind::Number, "", "1", "+1 or -1: the strand that carries")
-        .row(RowCard { phased: true, beside: true, ..RowCard::of(LoadCard::force("strand force", "F1", "F")) })
+        .row(RowCard { is_relative: true, beside: true, ..RowCard::of(LoadCard::force("strand force", "F1", "F")) })
         .glyph("belt")
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         let (b1, b2) = Self::radii(n);
-        Some(Few::of(&[passed(r, b1, b2, n.of[3])]))
+        Some(Rows3::of(&[passed(r, b1, b2, n.of[3])]))
     }
     fn period(&self, n: &Numbers<f64>, _: usize) -> f64 {
         let (b1, b2) = Self::radii(n);

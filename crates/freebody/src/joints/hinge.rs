@@ -11,7 +11,7 @@ impl Joint for Hinge {
             .needs("of", FieldKind::Points, Role::Both, "m", "the points; more than two share one pin")
             .turn()
             .pin()
-            .rubbing()
+            .with_friction()
             .glyph("pin")
     }
     #[inline]
@@ -19,10 +19,10 @@ impl Joint for Hinge {
         Some(Relative { x: S::zero(), y: S::zero(), angle: q[0] })
     }
     #[inline]
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x, r.y]))
+    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x, r.y]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.angle]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.angle]))
     }
 }

@@ -20,12 +20,12 @@ impl Joint for Link {
         let (sin, cos) = q[0].sin_cos();
         Some(Relative { x: n.of[0] * cos, y: n.of[0] * sin, angle: q[1] })
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         // Where it closes it is the distance less the length, with its first two derivatives; and it has no root.
         let length = n.of[0];
-        Some(Few::of(&[(r.at().dot(r.at()) - length * length) / length.scale(2.0)]))
+        Some(Rows3::of(&[(r.at().dot(r.at()) - length * length) / length.scale(2.0)]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.y.atan2(r.x), r.angle]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.y.atan2(r.x), r.angle]))
     }
 }

@@ -1,5 +1,5 @@
 //! The joints. One is a card (what a person writes and reads), a `pose` (how it moves as a joint of
-//! the tree), a `residual` (the same joint told as a constraint) and a `measure` (its coordinates,
+//! the tree), a `residual` (the same joint expressed as a constraint) and a `measure` (its coordinates,
 //! read off the bodies). Everything else (Jacobians, bias terms, reactions) follows.
 //!
 //! To add a joint: write its file, and add one line to the list below.
@@ -19,7 +19,7 @@ mod weld;
 pub use card::{Card, CoordinateCard, Field, FieldKind, LoadCard, Role, RowCard};
 pub use gear::Gear;
 
-use crate::plane::{vec2, Few, Turn, Vec2};
+use crate::plane::{vec2, Rows3, Turn, Vec2};
 use crate::scalar::{Dual, Scalar};
 
 /// Where the second body's marker is, as seen from the first body's marker.
@@ -75,11 +75,11 @@ pub trait Joint {
         None
     }
     /// The rows that vanish on the joint; None when it can only be a joint of the tree.
-    fn residual<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Few<S>> {
+    fn residual<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Rows3<S>> {
         None
     }
     /// The coordinates, read off the relative place; None where that has no formula.
-    fn measure<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Few<S>> {
+    fn measure<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Rows3<S>> {
         None
     }
     /// Whether `measure` gives coordinate `k` without its sign, as a distance; `pose` takes either sign.
@@ -117,11 +117,11 @@ macro_rules! list {
                 match self { $(Kind::$Joint => $module::$Joint.pose(n, q)),* }
             }
             #[inline]
-            fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+            fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.residual(n, r)),* }
             }
             #[inline]
-            fn measure<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+            fn measure<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.measure(n, r)),* }
             }
             fn unsigned(&self, k: usize) -> bool {

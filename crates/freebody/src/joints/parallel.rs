@@ -19,11 +19,11 @@ impl Joint for Parallel {
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: q[1], angle: n.of[0] })
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.angle - n.of[0]]))
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.angle - n.of[0]]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x, r.y]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x, r.y]))
     }
     fn period(&self, _: &Numbers<f64>, _: usize) -> f64 {
         TAU

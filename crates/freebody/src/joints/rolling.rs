@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// The row that keeps a circle from slipping.
 fn friction(reading: &'static str) -> RowCard {
     let load = LoadCard { tangent: true, ..LoadCard::force("friction force", reading, "F") };
-    RowCard { phased: true, ..RowCard::of(load) }
+    RowCard { is_relative: true, ..RowCard::of(load) }
 }
 
 /// A circle of the second body rolls on a line of the first, on the line's left side.
@@ -25,11 +25,11 @@ impl Joint for Rolling {
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: n.of[0], angle: -q[0] / n.of[0] })
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.y - n.of[0], r.x + n.of[0] * r.angle]))
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.y - n.of[0], r.x + n.of[0] * r.angle]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x]))
     }
     fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         vec2(r.x, r.y - n.of[0])
@@ -67,12 +67,12 @@ impl Joint for RollingCircles {
         let (sin, cos) = q[0].sin_cos();
         Some(Relative { x: distance * cos, y: distance * sin, angle: distance * q[0] / r2 })
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         let (distance, r2) = Self::sizes(n);
-        Some(Few::of(&[r.at().norm() - distance, distance * r.y.atan2(r.x) - r2 * r.angle]))
+        Some(Rows3::of(&[r.at().norm() - distance, distance * r.y.atan2(r.x) - r2 * r.angle]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.y.atan2(r.x)]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.y.atan2(r.x)]))
     }
     fn contact<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Vec2<S> {
         r.at() * (n.of[0] / r.at().norm())

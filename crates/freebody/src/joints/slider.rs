@@ -16,24 +16,24 @@ impl Joint for Slider {
             .along("the slider {}")
             .row(RowCard::of(LoadCard::press("normal force", "Fn")))
             .couple()
-            .rubbing()
+            .with_friction()
             .glyph("block")
     }
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })
     }
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.y, r.angle]))
+    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.y, r.angle]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x]))
     }
     fn period(&self, _: &Numbers<f64>, row: usize) -> f64 {
         [0.0, TAU][row]
     }
 }
 
-/// A slider told as two rollers: two points of the second body stay on a line of the first.
+/// A slider expressed as two rollers: two points of the second body stay on a line of the first.
 ///
 /// The second marker sits at the first roller and points towards the other; the joint's number is
 /// the distance between them.
@@ -53,11 +53,11 @@ impl Joint for Rollers {
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         let (sin, _) = r.angle.sin_cos();
-        Some(Few::of(&[r.y, r.y + n.of[0] * sin]))
+        Some(Rows3::of(&[r.y, r.y + n.of[0] * sin]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x]))
     }
 }

@@ -18,11 +18,11 @@ impl Joint for Weld {
     fn pose<S: Scalar>(&self, n: &Numbers<S>, _: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: S::zero(), y: S::zero(), angle: n.of[0] })
     }
-    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[r.x, r.y, r.angle - n.of[0]]))
+    fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[r.x, r.y, r.angle - n.of[0]]))
     }
-    fn measure<S: Scalar>(&self, _: &Numbers<S>, _: &Relative<S>) -> Option<Few<S>> {
-        Some(Few::of(&[]))
+    fn measure<S: Scalar>(&self, _: &Numbers<S>, _: &Relative<S>) -> Option<Rows3<S>> {
+        Some(Rows3::of(&[]))
     }
     fn period(&self, _: &Numbers<f64>, row: usize) -> f64 {
         [0.0, 0.0, TAU][row]

@@ -1,11 +1,11 @@
 //! A joint with its numbers: its own formulas, read with any scalar.
 
+use crate::bound_values::BoundValues;
 use crate::expr::Env;
-use crate::gauges::{Law, Leaf};
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Curve as CurveOf, Joint as Formulas, Numbers as JointNumbers, Relative};
 use crate::mechanism::{Curve, Joint, Mechanism};
-use crate::numbers::Numbers;
-use crate::plane::{vec2, Few, Vec2};
+use crate::plane::{vec2, Rows3, Vec2};
 use crate::scalar::{Dual, Scalar};
 
 /// Most numbers that a joint has.
@@ -26,10 +26,10 @@ struct CurveView<'a, T> {
 
 impl<'a, T: Scalar> JointView<'a, T> {
     /// The joint with its numbers carried over by `to`.
-    pub fn new<S: Scalar>(m: &'a Mechanism, n: &Numbers<S>, joint: &'a Joint, to: impl Fn(S) -> T) -> Self {
+    pub fn new<S: Scalar>(m: &'a Mechanism, n: &BoundValues<S>, joint: &'a Joint, to: impl Fn(S) -> T) -> Self {
         let mut own = [T::zero(); MOST];
-        for (number, &slot) in own.iter_mut().zip(&joint.numbers) {
-            *number = to(n.slots[slot]);
+        for (number, &id) in own.iter_mut().zip(&joint.numbers) {
+            *number = to(n.values[id]);
         }
         let curve = joint.curve.map(|i| CurveView {
             mechanism: m,
@@ -54,14 +54,15 @@ impl<'a, T: Scalar> JointView<'a, T> {
         }
     }
     /// All rows of the card.
-    pub fn residual(&self, r: &Relative<T>) -> Few<T> {
+    pub fn residual(&self, r: &Relative<T>) -> Rows3<T> {
         self.joint.kind.residual(&self.numbers(), r).expect("a joint that closes a loop has a residual")
     }
     /// Where the reaction acts, in the first marker's axes.
     pub fn contact(&self, r: &Relative<T>) -> Vec2<T> {
         self.joint.kind.contact(&self.numbers(), r)
     }
-    /// Direction of the joint's line, or of its curve at the own measure `s` of its first coordinate, in the first marker's axes.
+    /// Direction of the joint's line, or of its curve at the own measure `s` of its first coordinate, in the first
+    /// marker's axes.
     pub fn tangent(&self, s: T) -> Vec2<T> {
         match &self.curve {
             Some(curve) => {
@@ -72,7 +73,7 @@ impl<'a, T: Scalar> JointView<'a, T> {
         }
     }
     /// The coordinates in the order of the card, where they can be read off.
-    pub fn measure(&self, r: &Relative<T>) -> Option<Few<T>> {
+    pub fn measure(&self, r: &Relative<T>) -> Option<Rows3<T>> {
         self.joint.kind.measure(&self.numbers(), r)
     }
 }
@@ -94,10 +95,10 @@ impl<T: Scalar> CurveOf<T> for CurveView<'_, T> {
 }
 
 /// The switching function of a switch in the curve of a joint, at a place on it.
-pub fn curve_switch(m: &Mechanism, n: &Numbers, joint: usize, s: f64, switch: usize) -> f64 {
+pub fn curve_switch(m: &Mechanism, n: &BoundValues, joint: usize, s: f64, switch: usize) -> f64 {
     let curve = &m.curves[m.joints[joint].curve.expect("a joint along a curve")];
     let env = Still { m, p: &n.p, s };
-    match curve.x.kinks().any(|k| k == switch) {
+    match curve.x.discontinuities().any(|k| k == switch) {
         true => curve.x.switch(switch, &env),
         false => curve.y.switch(switch, &env),
     }
@@ -110,15 +111,15 @@ struct Still<'a> {
     s: f64,
 }
 
-impl Env<f64, Leaf> for Still<'_> {
-    fn leaf(&self, leaf: &Leaf) -> f64 {
-        let along: Dual<1> = Along { m: self.m, p: self.p, s: self.s }.leaf(leaf);
+impl Env<f64, ModelVariable> for Still<'_> {
+    fn variable(&self, variable: &ModelVariable) -> f64 {
+        let along: Dual<1> = Along { m: self.m, p: self.p, s: self.s }.variable(variable);
         along.re
     }
-    fn rate(&self, _: &Law) -> f64 {
+    fn rate(&self, _: &ModelExpr) -> f64 {
         0.0
     }
-    fn accel(&self, _: &Law) -> f64 {
+    fn accel(&self, _: &ModelExpr) -> f64 {
         0.0
     }
     fn table(&self, table: usize, x: f64) -> f64 {
@@ -133,18 +134,18 @@ struct Along<'a, T> {
     s: T,
 }
 
-impl<T: Scalar> Env<Dual<1, T>, Leaf> for Along<'_, T> {
-    fn leaf(&self, leaf: &Leaf) -> Dual<1, T> {
-        match leaf {
-            Leaf::Parameter(i) => Dual::constant(self.p[*i]),
-            Leaf::Local => Dual::variable(self.s, 0),
+impl<T: Scalar> Env<Dual<1, T>, ModelVariable> for Along<'_, T> {
+    fn variable(&self, variable: &ModelVariable) -> Dual<1, T> {
+        match variable {
+            ModelVariable::Parameter(i) => Dual::constant(self.p[*i]),
+            ModelVariable::Local => Dual::variable(self.s, 0),
             other => unreachable!("{other:?} in the description of a curve"),
         }
     }
-    fn rate(&self, _: &Law) -> Dual<1, T> {
+    fn rate(&self, _: &ModelExpr) -> Dual<1, T> {
         Dual::constant(T::zero())
     }
-    fn accel(&self, _: &Law) -> Dual<1, T> {
+    fn accel(&self, _: &ModelExpr) -> Dual<1, T> {
         Dual::constant(T::zero())
     }
     fn table(&self, table: usize, x: Dual<1, T>) -> Dual<1, T> {

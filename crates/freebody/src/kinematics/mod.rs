@@ -4,7 +4,7 @@
 //! Joint rates ν are relative (of the second body against the first); the user's rates u may be
 //! absolute or reversed. [`Kinematics::user_rates`] goes between them.
 //!
-//! A state is seen as [`Placed`], over any scalar; gauges are measured on it.
+//! A state is seen as [`StateView`], over any scalar; gauges are measured on it.
 
 mod joint_view;
 mod measure;
@@ -12,28 +12,28 @@ mod view;
 
 pub use joint_view::{curve_switch, JointView};
 pub use measure::{gradient, jet, Config, Observed, State};
-pub use view::{relative, Moving, Placed, Poses, Seeded};
+pub use view::{relative, MotionView, Poses, SeededView, StateView};
 
+use crate::bound_values::BoundValues;
 use crate::joints::Relative;
-use crate::mechanism::{Body, Branch, Joint, Mechanism};
-use crate::numbers::Numbers;
+use crate::mechanism::{Body, Joint, Mechanism, TreeJoint};
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
 use crate::scalar::{Dual, Jet, Scalar};
 
 /// Poses, twists and velocity-product accelerations of all bodies at one state.
 #[derive(Clone, Debug, Default)]
 pub struct Kinematics<S = f64> {
-    /// Pose of each body at its pin.
+    /// Pose of each body at its joint origin.
     pub pose: Vec<Pose<S>>,
-    /// Velocity of the pin and angular velocity.
+    /// Velocity of the joint origin and angular velocity.
     pub twist: Vec<Twist<S>>,
-    /// From the parent's pin to the own pin, fixed axes.
+    /// From the parent's joint origin to the own joint origin, fixed axes.
     pub arm: Vec<Vec2<S>>,
-    /// Acceleration of the own pin against the parent's motion when all joint accelerations are 0:
+    /// Acceleration of the own joint origin against the parent's motion when all joint accelerations are 0:
     /// centripetal, Coriolis and the joint's own.
-    pub drift: Vec<Twist<S>>,
-    /// Motion of the own pin against the parent for each unit joint rate, fixed axes.
-    pub columns: Vec<[Twist<S>; 3]>,
+    pub bias_acceleration: Vec<Twist<S>>,
+    /// Motion of the own joint origin against the parent for each unit joint rate, fixed axes.
+    pub motion_subspace: Vec<[Twist<S>; 3]>,
     /// Joint rates of each coordinate, in the order of `q`.
     pub nu: Vec<S>,
 }
@@ -46,27 +46,35 @@ impl<S: Scalar> Kinematics<S> {
             pose: vec![Pose::identity(); n],
             twist: vec![Twist::zero(); n],
             arm: vec![Vec2::zero(); n],
-            drift: vec![Twist::zero(); n],
-            columns: mechanism.bodies.iter().map(still_columns).collect(),
+            bias_acceleration: vec![Twist::zero(); n],
+            motion_subspace: mechanism.bodies.iter().map(constant_subspace).collect(),
             nu: vec![S::zero(); mechanism.freedom()],
         }
     }
 
     /// Goes through the tree from ground to the leaves, at coordinates `q` and rates `u`.
-    pub fn sweep(&mut self, m: &Mechanism, n: &Numbers<S>, q: &[S], u: &[S]) {
+    pub fn forward_kinematics(&mut self, m: &Mechanism, n: &BoundValues<S>, q: &[S], u: &[S]) {
         for body in 1..m.bodies.len() {
-            let Some(branch) = m.bodies[body].branch else { continue };
-            if branch.hinge {
-                self.hang_by_hinge(n, body, m.bodies[body].particle, branch, q, u);
+            let Some(tree_joint) = m.bodies[body].tree_joint else { continue };
+            if tree_joint.hinge {
+                self.place_child_by_hinge(n, body, m.bodies[body].particle, tree_joint, q, u);
             } else {
-                self.hang(m, n, body, branch, q, u);
+                self.place_child(m, n, body, tree_joint, q, u);
             }
         }
     }
 
     /// A body on a plain hinge between body axes: the general case, written short.
     #[inline]
-    fn hang_by_hinge(&mut self, n: &Numbers<S>, body: usize, particle: bool, b: Branch, q: &[S], u: &[S]) {
+    fn place_child_by_hinge(
+        &mut self,
+        n: &BoundValues<S>,
+        body: usize,
+        particle: bool,
+        b: TreeJoint,
+        q: &[S],
+        u: &[S],
+    ) {
         let hinge = &n.hinges[body];
         let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
         let arm = base.turn.apply(hinge.arm);
@@ -83,19 +91,19 @@ impl<S: Scalar> Kinematics<S> {
         }
         self.pose[body] = pose;
         self.twist[body] = twist;
-        self.drift[body] = Twist { v: -(arm * (carrier.w * carrier.w)), w: S::zero() };
+        self.bias_acceleration[body] = Twist { v: -(arm * (carrier.w * carrier.w)), w: S::zero() };
     }
 
     /// A body on any joint, from the joint's pose.
-    fn hang(&mut self, m: &Mechanism, n: &Numbers<S>, body: usize, b: Branch, q: &[S], u: &[S]) {
+    fn place_child(&mut self, m: &Mechanism, n: &BoundValues<S>, body: usize, b: TreeJoint, q: &[S], u: &[S]) {
         let joint = &m.joints[b.joint];
         let (near, far) = joint.sides(b.reversed);
         let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
-        let axes = Turn::by(base.turn.angle + n.slots[near.angle]);
+        let axes = Turn::by(base.turn.angle + n.values[near.angle]);
         let (mut at, mut rate) = ([S::zero(); 3], [S::zero(); 3]);
         for (k, c) in joint.coordinates.iter().enumerate() {
             let i = b.start + k;
-            (at[c.card], rate[c.card]) = c.reading(&n.slots).to_joint(q[i], u[i], axes.angle, carrier.w);
+            (at[c.card], rate[c.card]) = c.reading(&n.values).to_joint(q[i], u[i], axes.angle, carrier.w);
             self.nu[i] = rate[c.card];
         }
         let motion = JointMotion::of(m, n, joint, b.reversed, &at[..joint.size], &rate[..joint.size]);
@@ -103,67 +111,68 @@ impl<S: Scalar> Kinematics<S> {
         let moved = axes.apply(motion.at.at());
         let arm = base.turn.apply(n.arms[near.site]) + moved;
         let slide = axes.apply(vec2(motion.rate[0], motion.rate[1]));
-        let curl = axes.apply(vec2(motion.drift[0], motion.drift[1]));
+        let curl = axes.apply(vec2(motion.bias_acceleration[0], motion.bias_acceleration[1]));
         let w = carrier.w;
         let particle = m.bodies[body].particle;
         let turning = |x: S| if particle { S::zero() } else { x };
-        let angle = turning(axes.angle + motion.at.angle - n.slots[far.angle]);
+        let angle = turning(axes.angle + motion.at.angle - n.values[far.angle]);
 
         self.arm[body] = arm;
         self.pose[body] = Pose { at: base.at + arm, turn: Turn::by(angle) };
         self.twist[body] = Twist { v: carrier.at(arm) + slide, w: turning(w + motion.rate[2]) };
-        self.drift[body] = Twist { v: curl + slide.perp() * w.scale(2.0) - arm * (w * w), w: turning(motion.drift[2]) };
+        self.bias_acceleration[body] =
+            Twist { v: curl + slide.perp() * w.scale(2.0) - arm * (w * w), w: turning(motion.bias_acceleration[2]) };
         for (k, coordinate) in joint.coordinates.iter().enumerate() {
-            let column = motion.columns[coordinate.card];
-            self.columns[body][k] = Twist { v: axes.apply(vec2(column[0], column[1])), w: turning(column[2]) };
+            let column = motion.motion_subspace[coordinate.card];
+            self.motion_subspace[body][k] = Twist { v: axes.apply(vec2(column[0], column[1])), w: turning(column[2]) };
         }
     }
 
-    /// The user's accelerations from the bodies' accelerations (of the pins) and the joints' own `nu_dot`.
-    pub fn user_rates(&self, m: &Mechanism, n: &Numbers<S>, bodies: &[Twist<S>], nu: &[S], out: &mut [S]) {
+    /// The user's accelerations from the bodies' accelerations (of the joint origins) and the joints' own `nu_dot`.
+    pub fn user_rates(&self, m: &Mechanism, n: &BoundValues<S>, bodies: &[Twist<S>], nu: &[S], out: &mut [S]) {
         for (body, hinge) in m.bodies.iter().zip(&n.hinges) {
-            let Some(b) = body.branch else { continue };
+            let Some(b) = body.tree_joint else { continue };
             let carried = bodies[b.parent].w;
             if b.hinge && b.freedom == 1 {
                 out[b.start] = hinge.reading.to_user(nu[b.start], carried);
                 continue;
             }
             for (c, i) in m.joints[b.joint].coordinates.iter().zip(b.start..) {
-                out[i] = c.reading(&n.slots).to_user(nu[i], carried);
+                out[i] = c.reading(&n.values).to_user(nu[i], carried);
             }
         }
     }
 
-    /// Accelerations of all pins and angles for joint accelerations `nu_dot`; with `drift`, those that
+    /// Accelerations of all joint origins and angles for joint accelerations `nu_dot`; with `drift`, those that
     /// the velocities cause are added (without, the result is a virtual displacement or a velocity).
-    pub fn spread(&self, m: &Mechanism, nu_dot: &[S], drift: bool, out: &mut [Twist<S>]) {
-        self.carry(m, drift, |b, k, _| nu_dot[b.start + k], out);
+    pub fn propagate_motion(&self, m: &Mechanism, nu_dot: &[S], drift: bool, out: &mut [Twist<S>]) {
+        self.propagate(m, drift, |b, k, _| nu_dot[b.start + k], out);
     }
 
-    /// Accelerations of all pins and angles for accelerations of the user's coordinates.
-    pub fn spread_user(&self, m: &Mechanism, n: &Numbers<S>, u_dot: &[S]) -> Vec<Twist<S>> {
-        let own = |b: Branch, k: usize, carried: S| {
-            let reading = m.joints[b.joint].coordinates[k].reading(&n.slots);
+    /// Accelerations of all joint origins and angles for accelerations of the user's coordinates.
+    pub fn propagate_user_motion(&self, m: &Mechanism, n: &BoundValues<S>, u_dot: &[S]) -> Vec<Twist<S>> {
+        let own = |b: TreeJoint, k: usize, carried: S| {
+            let reading = m.joints[b.joint].coordinates[k].reading(&n.values);
             reading.to_joint(S::zero(), u_dot[b.start + k], S::zero(), carried).1
         };
         let mut out = vec![Twist::zero(); m.bodies.len()];
-        self.carry(m, true, own, &mut out);
+        self.propagate(m, true, own, &mut out);
         out
     }
 
-    /// Goes through the tree; `own` tells the joint acceleration of a coordinate of a branch, given the angular one of the
-    /// body that carries it.
-    fn carry(&self, m: &Mechanism, drift: bool, own: impl Fn(Branch, usize, S) -> S, out: &mut [Twist<S>]) {
+    /// Goes through the tree; `own` tells the joint acceleration of a coordinate of a branch, given the angular one of
+    /// the body that carries it.
+    fn propagate(&self, m: &Mechanism, drift: bool, own: impl Fn(TreeJoint, usize, S) -> S, out: &mut [Twist<S>]) {
         out[0] = Twist::zero();
         for (i, body) in m.bodies.iter().enumerate() {
-            let Some(b) = body.branch else { continue };
+            let Some(b) = body.tree_joint else { continue };
             let base = out[b.parent];
             let mut motion = Twist { v: base.at(self.arm[i]), w: if body.particle { S::zero() } else { base.w } };
             if drift {
-                motion = motion + self.drift[i];
+                motion = motion + self.bias_acceleration[i];
             }
             for k in 0..b.freedom {
-                motion = motion + self.columns[i][k] * own(b, k, base.w);
+                motion = motion + self.motion_subspace[i][k] * own(b, k, base.w);
             }
             out[i] = motion;
         }
@@ -171,10 +180,10 @@ impl<S: Scalar> Kinematics<S> {
 }
 
 /// The columns that no state changes: those of plain hinges.
-fn still_columns<S: Scalar>(body: &Body) -> [Twist<S>; 3] {
+fn constant_subspace<S: Scalar>(body: &Body) -> [Twist<S>; 3] {
     let mut columns = [Twist::zero(); 3];
-    if let Some(branch) = body.branch.filter(|b| b.hinge && b.freedom == 1) {
-        columns[0].w = if branch.reversed { -S::one() } else { S::one() };
+    if let Some(tree_joint) = body.tree_joint.filter(|b| b.hinge && b.freedom == 1) {
+        columns[0].w = if tree_joint.reversed { -S::one() } else { S::one() };
     }
     columns
 }
@@ -182,13 +191,13 @@ fn still_columns<S: Scalar>(body: &Body) -> [Twist<S>; 3] {
 /// A joint's relative pose with its derivatives, seen from the body nearer to ground.
 struct JointMotion<S> {
     at: Relative<S>,
-    columns: [[S; 3]; 3],
+    motion_subspace: [[S; 3]; 3],
     rate: [S; 3],
-    drift: [S; 3],
+    bias_acceleration: [S; 3],
 }
 
 impl<S: Scalar> JointMotion<S> {
-    fn of(m: &Mechanism, n: &Numbers<S>, joint: &Joint, reversed: bool, at: &[S], rate: &[S]) -> Self {
+    fn of(m: &Mechanism, n: &BoundValues<S>, joint: &Joint, reversed: bool, at: &[S], rate: &[S]) -> Self {
         let still: [Dual<3, S>; 3] = std::array::from_fn(|i| Dual::variable(*at.get(i).unwrap_or(&S::zero()), i));
         let seeded = JointView::new(m, n, joint, Dual::constant).pose(&still[..at.len()], reversed);
         let zero = S::zero();
@@ -199,9 +208,9 @@ impl<S: Scalar> JointMotion<S> {
         let moving = JointView::new(m, n, joint, Jet::constant).pose(&going[..at.len()], reversed);
         JointMotion {
             at: Relative { x: seeded.x.re, y: seeded.y.re, angle: seeded.angle.re },
-            columns: std::array::from_fn(|k| [seeded.x.du[k], seeded.y.du[k], seeded.angle.du[k]]),
+            motion_subspace: std::array::from_fn(|k| [seeded.x.du[k], seeded.y.du[k], seeded.angle.du[k]]),
             rate: [moving.x.d1, moving.y.d1, moving.angle.d1],
-            drift: [moving.x.d2, moving.y.d2, moving.angle.d2],
+            bias_acceleration: [moving.x.d2, moving.y.d2, moving.angle.d2],
         }
     }
 }

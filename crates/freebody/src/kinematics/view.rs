@@ -1,21 +1,21 @@
 //! One state of a mechanism: with plain numbers, moving, or seeded on one body.
 
 use super::{JointView, Kinematics};
+use crate::bound_values::BoundValues;
 use crate::joints::{Joint as _, Relative};
 use crate::mechanism::{Drive, Force, Joint, Mechanism, Part};
 use crate::mode::Mode;
-use crate::numbers::Numbers;
 use crate::plane::{Pose, Turn, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
 
 /// Where all bodies are, as scalars `T`.
 pub trait Poses<T: Scalar> {
-    /// The pose of a body at its pin.
+    /// The pose of a body at its joint origin.
     fn pose(&self, body: usize) -> Pose<T>;
-    /// The place of a site from its body's pin, in the body's axes.
+    /// The place of a site from its body's joint origin, in the body's axes.
     fn arm(&self, site: usize) -> Vec2<T>;
     /// A number of the model.
-    fn slot(&self, slot: usize) -> T;
+    fn value(&self, id: usize) -> T;
     /// A parameter.
     fn parameter(&self, i: usize) -> T;
     /// Time.
@@ -31,11 +31,11 @@ pub trait Poses<T: Scalar> {
 
 /// One state of a mechanism, as everything that measures sees it.
 #[derive(Clone, Copy)]
-pub struct Placed<'a, S = f64> {
+pub struct StateView<'a, S = f64> {
     /// The mechanism.
     pub m: &'a Mechanism,
     /// Its numbers.
-    pub n: &'a Numbers<S>,
+    pub n: &'a BoundValues<S>,
     /// Where its bodies are and how they move.
     pub k: &'a Kinematics<S>,
     /// Coordinates of the tree.
@@ -48,15 +48,15 @@ pub struct Placed<'a, S = f64> {
     pub mode: &'a Mode,
 }
 
-impl<S: Scalar> Poses<S> for Placed<'_, S> {
+impl<S: Scalar> Poses<S> for StateView<'_, S> {
     fn pose(&self, body: usize) -> Pose<S> {
         self.k.pose[body]
     }
     fn arm(&self, site: usize) -> Vec2<S> {
         self.n.arms[site]
     }
-    fn slot(&self, slot: usize) -> S {
-        self.n.slots[slot]
+    fn value(&self, id: usize) -> S {
+        self.n.values[id]
     }
     fn parameter(&self, i: usize) -> S {
         self.n.p[i]
@@ -73,14 +73,14 @@ impl<S: Scalar> Poses<S> for Placed<'_, S> {
     /// Along the tree, so that what both sites have in common cancels before it is rounded.
     fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<S> {
         let [a, b] = [from, to].map(|site| m.body_of(site));
-        let meeting = m.common_carrier(a, b);
+        let meeting = m.common_ancestor(a, b);
         let [(near_a, far_a), (near_b, far_b)] =
             [(from, a), (to, b)].map(|(site, body)| self.reach(site, body, meeting));
         (near_b - near_a) + (far_b - far_a)
     }
 }
 
-impl<'a, S: Scalar> Placed<'a, S> {
+impl<'a, S: Scalar> StateView<'a, S> {
     /// The joints in place, with their numbers.
     pub fn joints(&self) -> impl Iterator<Item = (usize, &'a Joint)> {
         let mode = self.mode;
@@ -96,7 +96,7 @@ impl<'a, S: Scalar> Placed<'a, S> {
         let mode = self.mode;
         self.m.forces.iter().enumerate().filter(|(f, _)| mode.has(Part::Force(*f)))
     }
-    /// From the pin of a body to its mass centre, fixed axes.
+    /// From the joint origin of a body to its mass centre, fixed axes.
     pub fn centre_arm(&self, body: usize) -> Vec2<S> {
         self.k.pose[body].turn.apply(self.n.centre[body])
     }
@@ -109,14 +109,15 @@ impl<'a, S: Scalar> Placed<'a, S> {
         let j = &self.m.joints[joint];
         let c = &j.coordinates[k];
         let told = self.m.place_in_q(joint, k).filter(|_| j.kind.unsigned(c.card));
-        let below = told.is_some_and(|i| self.n.slots[c.zero].value() + c.sense * self.q[i].value() < 0.0);
+        let below = told.is_some_and(|i| self.n.values[c.zero].value() + c.sense * self.q[i].value() < 0.0);
         if below {
             -1.0
         } else {
             1.0
         }
     }
-    /// The way from the pin of `carrier` to a site on `body`: its first part, on the carrier itself, and the rest.
+    /// The way from the joint origin of `carrier` to a site on `body`: its first part, on the carrier itself, and the
+    /// rest.
     fn reach(&self, site: usize, body: usize, carrier: usize) -> (Vec2<S>, Vec2<S>) {
         let own = self.k.pose[body].turn.apply(self.n.arms[site]);
         if body == carrier {
@@ -124,7 +125,7 @@ impl<'a, S: Scalar> Placed<'a, S> {
         }
         let (mut body, mut rest) = (body, own);
         loop {
-            let parent = self.m.bodies[body].branch.expect("a body that hangs on the carrier").parent;
+            let parent = self.m.bodies[body].tree_joint.expect("a body that hangs on the carrier").parent;
             if parent == carrier {
                 return (self.k.arm[body], rest);
             }
@@ -135,16 +136,16 @@ impl<'a, S: Scalar> Placed<'a, S> {
 }
 
 /// The state in motion: every measure comes with its rate and its acceleration.
-pub struct Moving<'a, S> {
+pub struct MotionView<'a, S> {
     /// The state.
-    pub at: Placed<'a, S>,
-    /// Accelerations of pins and angles of all bodies; 0 when not given.
+    pub at: StateView<'a, S>,
+    /// Accelerations of joint origins and angles of all bodies; 0 when not given.
     pub bodies: Option<&'a [Twist<S>]>,
     /// Accelerations of the coordinates, if they are known.
     pub accelerations: Option<&'a [S]>,
 }
 
-impl<S: Scalar> Poses<Jet<S>> for Moving<'_, S> {
+impl<S: Scalar> Poses<Jet<S>> for MotionView<'_, S> {
     fn pose(&self, body: usize) -> Pose<Jet<S>> {
         let (pose, twist) = (self.at.k.pose[body], self.at.k.twist[body]);
         let acc = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]);
@@ -163,8 +164,8 @@ impl<S: Scalar> Poses<Jet<S>> for Moving<'_, S> {
         let arm = self.at.n.arms[site];
         Vec2 { x: Jet::constant(arm.x), y: Jet::constant(arm.y) }
     }
-    fn slot(&self, slot: usize) -> Jet<S> {
-        Jet::constant(self.at.n.slots[slot])
+    fn value(&self, id: usize) -> Jet<S> {
+        Jet::constant(self.at.n.values[id])
     }
     fn parameter(&self, i: usize) -> Jet<S> {
         Jet::constant(self.at.n.p[i])
@@ -186,7 +187,7 @@ impl<S: Scalar> Poses<Jet<S>> for Moving<'_, S> {
     }
 }
 
-impl<S: Scalar> Moving<'_, S> {
+impl<S: Scalar> MotionView<'_, S> {
     /// A coordinate by way of the bodies: right for any accelerations of the bodies.
     fn along_bodies(&self, joint: usize, k: usize) -> Jet<S> {
         let (m, n) = (self.at.m, self.at.n);
@@ -209,7 +210,7 @@ impl<S: Scalar> Moving<'_, S> {
         }
         let start = m.place_in_q(index, k).expect("a joint along a curve is in the tree");
         let (q, u) = (self.at.q[start], self.at.u[start]);
-        let unit = [Jet::new(n.slots[c.zero] + q.scale(c.sense), S::one(), S::zero()), Jet::constant(S::zero())];
+        let unit = [Jet::new(n.values[c.zero] + q.scale(c.sense), S::one(), S::zero()), Jet::constant(S::zero())];
         let run = JointView::new(m, n, joint, Jet::constant).pose(&unit[..joint.size], false);
         let slope = Vec2 { x: run.x.d1, y: run.y.d1 };
         let rest = Vec2 { x: place.x.d2 - run.x.d2 * u * u, y: place.y.d2 - run.y.d2 * u * u };
@@ -217,15 +218,15 @@ impl<S: Scalar> Moving<'_, S> {
     }
 }
 
-/// The state with the pose of one body seeded: measures come with their gradient by (x, y, angle) of its pin.
-pub struct Seeded<'a, S> {
+/// The state with the pose of one body seeded: measures come with their gradient by (x, y, angle) of its joint origin.
+pub struct SeededView<'a, S> {
     /// The state.
-    pub at: Placed<'a, S>,
+    pub at: StateView<'a, S>,
     /// The seeded body.
     pub body: usize,
 }
 
-impl<S: Scalar> Poses<Dual<3, S>> for Seeded<'_, S> {
+impl<S: Scalar> Poses<Dual<3, S>> for SeededView<'_, S> {
     fn pose(&self, body: usize) -> Pose<Dual<3, S>> {
         let pose = self.at.k.pose[body];
         let (x, y, turn) = (pose.at.x, pose.at.y, pose.turn);
@@ -248,8 +249,8 @@ impl<S: Scalar> Poses<Dual<3, S>> for Seeded<'_, S> {
         let arm = self.at.n.arms[site];
         Vec2 { x: Dual::constant(arm.x), y: Dual::constant(arm.y) }
     }
-    fn slot(&self, slot: usize) -> Dual<3, S> {
-        Dual::constant(self.at.n.slots[slot])
+    fn value(&self, id: usize) -> Dual<3, S> {
+        Dual::constant(self.at.n.values[id])
     }
     fn parameter(&self, i: usize) -> Dual<3, S> {
         Dual::constant(self.at.n.p[i])
@@ -267,9 +268,9 @@ impl<S: Scalar> Poses<Dual<3, S>> for Seeded<'_, S> {
     }
 }
 
-impl<S: Scalar> Seeded<'_, S> {
-    /// The gradient of a coordinate of a joint on a curve: a couple for the turn; for the place a force along the curve at
-    /// the second body's point, which does no work on the turn.
+impl<S: Scalar> SeededView<'_, S> {
+    /// The gradient of a coordinate of a joint on a curve: a couple for the turn; for the place a force along the curve
+    /// at the second body's point, which does no work on the turn.
     fn along_curve(&self, index: usize, k: usize) -> [S; 3] {
         let (m, kin) = (self.at.m, self.at.k);
         let joint = &m.joints[index];
@@ -280,7 +281,7 @@ impl<S: Scalar> Seeded<'_, S> {
         let load = if c.dimension == "rad" {
             Wrench { f: Vec2::zero(), m: S::of(c.sense) }
         } else {
-            let along = kin.columns[child][k].v;
+            let along = kin.motion_subspace[child][k].v;
             let sense = if child == second { c.sense } else { -c.sense };
             Wrench { f: along * (S::of(sense) / along.dot(along)), m: S::zero() }
         };
@@ -296,7 +297,7 @@ impl<S: Scalar> Seeded<'_, S> {
 /// A coordinate of a joint read off the bodies.
 fn measured<S: Scalar, T: Scalar>(
     m: &Mechanism,
-    n: &Numbers<S>,
+    n: &BoundValues<S>,
     poses: &impl Poses<T>,
     joint: usize,
     k: usize,
@@ -308,16 +309,16 @@ fn measured<S: Scalar, T: Scalar>(
     let view = JointView::new(m, n, joint, to);
     let own = view.measure(&place).expect("a coordinate that can be read off")[c.card];
     let reading = if c.absolute { own + axes.turn.angle } else { own };
-    (reading - poses.slot(c.zero)).scale(c.sense)
+    (reading - poses.value(c.zero)).scale(c.sense)
 }
 
 /// The place of a joint's second marker as seen from its first, with the pose of the first marker.
 pub fn relative<T: Scalar>(joint: &Joint, m: &Mechanism, poses: &impl Poses<T>) -> (Pose<T>, Relative<T>) {
     let [a, b] = m.ends(joint);
     let (first, second) = (poses.pose(a), poses.pose(b));
-    let axes = Turn::by(first.turn.angle + poses.slot(joint.first.angle));
+    let axes = Turn::by(first.turn.angle + poses.value(joint.first.angle));
     let from = first.place(poses.arm(joint.first.site));
     let at = axes.undo(poses.span(joint.first.site, joint.second.site, m));
-    let angle = second.turn.angle + poses.slot(joint.second.angle) - axes.angle;
+    let angle = second.turn.angle + poses.value(joint.second.angle) - axes.angle;
     (Pose { at: from, turn: axes }, Relative { x: at.x, y: at.y, angle })
 }

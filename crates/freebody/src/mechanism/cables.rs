@@ -1,24 +1,24 @@
 //! Strings: where they end and what they pass.
 
-use super::Slot;
+use super::ValueId;
 
-/// A string between two ends: without mass, of a length that does not change, pulling only, without friction where it is
-/// bent.
+/// A string between two ends: without mass, of a length that does not change, pulling only, without friction where it
+/// is bent.
 ///
-/// Its slack is its length less that of the shortest way along what it passes: straight stretches, arcs on pulleys, and what
-/// is wound on drums. A pulley it never leaves: the angle through which it turns there is taken between −90° and 270°.
-/// Where an end is pushed into its drum or a pulley, the stretch to it has no length.
+/// Its slack is its length less that of the shortest way along what it passes: straight segments, arcs on pulleys, and
+/// what is wound on drums. A pulley it never leaves: the angle through which it turns there is taken between −90° and
+/// 270°. Where an end is pushed into its drum or a pulley, the segment to it has no length.
 ///
-/// A drum may turn, and be gone round by the string, any number of times: bodies' angles are never wrapped, and how often the
-/// string has swung round is part of the piece.
+/// A drum may turn, and be gone round by the string, any number of times: bodies' angles are never wrapped, and how
+/// often the string has swung round is part of the feature.
 #[derive(Clone, Debug)]
-pub struct Cord {
+pub struct Cable {
     /// Its ends.
     pub ends: [End; 2],
     /// What it passes, from the first end to the second; without friction.
     pub over: Vec<Guide>,
-    /// Its length, m; None where it is just taut at the start, and the phase of the piece tells the length.
-    pub length: Option<Slot>,
+    /// Its length, m; None where it is just taut at the start, and the phase of the feature tells the length.
+    pub length: Option<ValueId>,
 }
 
 /// Where a string ends.
@@ -31,14 +31,14 @@ pub enum End {
         /// Site of the drum's centre.
         centre: usize,
         /// Its radius.
-        radius: Slot,
+        radius: ValueId,
         /// +1 where the string, followed from its attachment, goes round the drum counter-clockwise.
         sense: f64,
         /// Direction of the attachment from the centre, in the body's frame; None where the length wound at the start
-        /// is given instead, and the phase of the piece tells the direction.
-        attached: Option<Slot>,
+        /// is given instead, and the phase of the feature tells the direction.
+        attached: Option<ValueId>,
         /// Length on the drum at the start, m, if that is given.
-        wound: Option<Slot>,
+        wound: Option<ValueId>,
     },
 }
 
@@ -52,7 +52,7 @@ pub enum Guide {
         /// Site of its centre.
         centre: usize,
         /// Its radius.
-        radius: Slot,
+        radius: ValueId,
         /// +1 where the string goes round it counter-clockwise.
         sense: f64,
     },

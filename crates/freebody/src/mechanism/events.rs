@@ -2,15 +2,15 @@
 
 use super::Part;
 use crate::expr::Condition;
-use crate::gauges::{Law, Leaf};
+use crate::gauges::{ModelExpr, ModelVariable};
 
 /// A place where a law or a curve is not smooth: the zero of a function of the state.
 #[derive(Clone, Debug)]
-pub enum Kink {
-    /// A switch of a law, by its identifier; its arm is frozen between the kinks.
-    Switch(usize, Law),
-    /// The argument of a table of straight pieces at one of its points.
-    Knot(Law, f64),
+pub enum Discontinuity {
+    /// A switch of a law, by its identifier; its arm is frozen between the discontinuities.
+    Switch(usize, ModelExpr),
+    /// The argument of a table of straight features at one of its points.
+    Knot(ModelExpr, f64),
     /// A switch in the description of the curve of a joint.
     Bend(usize, usize),
 }
@@ -21,26 +21,26 @@ pub struct Event {
     /// Name.
     pub name: String,
     /// Its zero is the event.
-    pub when: Law,
+    pub when: ModelExpr,
     /// +1, −1 or 0.
     pub direction: i8,
     /// Armed only while this holds.
-    pub condition: Option<Condition<Leaf>>,
+    pub condition: Option<Condition<ModelVariable>>,
     /// It happens at the start, before anything moves.
     pub opening: bool,
     /// A value below 0 is the event, too, where the motion starts or starts afresh.
     pub guard: bool,
     /// What happens then, besides being recorded.
-    pub then: Vec<Deed>,
+    pub then: Vec<EventAction>,
 }
 
 /// What an event does.
 #[derive(Clone, Debug)]
-pub enum Deed {
+pub enum EventAction {
     /// End the run.
     Stop,
     /// Give a parameter the value of an expression.
-    Set(usize, Law),
+    Set(usize, ModelExpr),
     /// Take a part away.
     Release(Part),
     /// Put a part in place; what does not fit at once comes together with a plastic impact.
@@ -50,8 +50,8 @@ pub enum Deed {
         /// The gauge in its user's words.
         gauge: String,
         /// The gauge.
-        of: Law,
+        of: ModelExpr,
         /// Its rate.
-        rate: Law,
+        rate: ModelExpr,
     },
 }

@@ -1,6 +1,6 @@
 //! Forces as compiled: laws on gauges and loads in a direction.
 
-use crate::gauges::Law;
+use crate::gauges::ModelExpr;
 use crate::joints::LoadCard;
 
 /// A force, compiled.
@@ -11,44 +11,50 @@ pub struct Force {
     /// Its word in the list.
     pub word: &'static str,
     /// Laws on gauges.
-    pub pulls: Vec<Pull>,
+    pub gauge_forces: Vec<GaugeForce>,
     /// Loads in a direction.
-    pub pushes: Vec<Push>,
+    pub point_forces: Vec<PointForce>,
     /// The potential energy of its conservative pulls, J; the work of all else is accounted for.
-    pub potential: Option<Law>,
+    pub potential: Option<ModelExpr>,
     /// What each of its pulls and pushes is, in this order.
     pub cards: Vec<LoadCard>,
 }
 
 impl Force {
     /// A law on a gauge.
-    pub fn pulling(gauge: Law, value: Law, potential: Option<Law>) -> Self {
+    pub fn along_gauge(gauge: ModelExpr, value: ModelExpr, potential: Option<ModelExpr>) -> Self {
         let conservative = potential.is_some();
-        Force { pulls: vec![Pull { gauge, value, bodies: vec![], conservative }], potential, ..Force::default() }
+        Force {
+            gauge_forces: vec![GaugeForce { gauge, value, bodies: vec![], conservative }],
+            potential,
+            ..Force::default()
+        }
     }
     /// The laws that it evaluates.
-    pub fn laws(&self) -> impl Iterator<Item = &Law> {
-        let pulls = self.pulls.iter().flat_map(|p| [&p.gauge, &p.value]);
-        pulls.chain(self.pushes.iter().flat_map(|p| [&p.x, &p.y])).chain(&self.potential)
+    pub fn laws(&self) -> impl Iterator<Item = &ModelExpr> {
+        let gauge_forces = self.gauge_forces.iter().flat_map(|p| [&p.gauge, &p.value]);
+        gauge_forces.chain(self.point_forces.iter().flat_map(|p| [&p.x, &p.y])).chain(&self.potential)
     }
     /// Whether its potential accounts for all its work.
     pub fn is_conservative(&self) -> bool {
-        self.pushes.is_empty() && self.pulls.iter().all(|pull| pull.conservative)
+        self.point_forces.is_empty() && self.gauge_forces.iter().all(|pull| pull.conservative)
     }
     /// Whether its law has cases, like `max` or `if`.
     pub fn has_cases(&self) -> bool {
-        let pulls = self.pulls.iter().map(|pull| &pull.value);
-        pulls.chain(self.pushes.iter().flat_map(|push| [&push.x, &push.y])).any(|law| law.kinks().next().is_some())
+        let gauge_forces = self.gauge_forces.iter().map(|pull| &pull.value);
+        gauge_forces
+            .chain(self.point_forces.iter().flat_map(|push| [&push.x, &push.y]))
+            .any(|law| law.discontinuities().next().is_some())
     }
 }
 
 /// A force that acts to increase a gauge.
 #[derive(Clone, Debug)]
-pub struct Pull {
+pub struct GaugeForce {
     /// The gauge.
-    pub gauge: Law,
+    pub gauge: ModelExpr,
     /// How strongly, N for a length and N·m for an angle.
-    pub value: Law,
+    pub value: ModelExpr,
     /// The bodies on which the gauge depends.
     pub bodies: Vec<usize>,
     /// Whether the potential of its force accounts for its work.
@@ -57,13 +63,13 @@ pub struct Pull {
 
 /// A force at a point.
 #[derive(Clone, Debug)]
-pub struct Push {
+pub struct PointForce {
     /// The site at which it acts.
     pub site: usize,
     /// Component along x, N.
-    pub x: Law,
+    pub x: ModelExpr,
     /// Component along y, N.
-    pub y: Law,
+    pub y: ModelExpr,
     /// Whether x and y are the body's axes.
     pub with_body: bool,
 }

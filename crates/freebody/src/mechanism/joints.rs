@@ -1,6 +1,6 @@
 //! Joints as compiled, their coordinates and their friction.
 
-use super::{Marker, Slot};
+use super::{Marker, ValueId};
 use crate::joints::Kind;
 
 /// A joint.
@@ -15,7 +15,7 @@ pub struct Joint {
     /// Marker on the second body.
     pub second: Marker,
     /// Its numbers.
-    pub numbers: Vec<Slot>,
+    pub numbers: Vec<ValueId>,
     /// Its curve.
     pub curve: Option<usize>,
     /// Number of coordinates on its card.
@@ -25,7 +25,7 @@ pub struct Joint {
     /// Its rows as a constraint, those that a particle does not have left out: index among the card's rows.
     pub rows: Vec<usize>,
     /// Of each row of the card, whether only its change counts.
-    pub phased: Vec<bool>,
+    pub is_relative: Vec<bool>,
     /// Whether its reaction can have a couple about its point.
     pub couple: bool,
     /// The body that hangs on it, if it is in the tree.
@@ -54,7 +54,7 @@ pub struct Coordinate {
     /// `m`, `rad` or nothing.
     pub dimension: &'static str,
     /// Reading of the joint's measure where the coordinate is 0.
-    pub zero: Slot,
+    pub zero: ValueId,
     /// +1 or −1.
     pub sense: f64,
     /// Measured from the fixed x axis instead of from the first body.
@@ -63,37 +63,37 @@ pub struct Coordinate {
 
 /// Coulomb friction that is known once the force that presses is: at most a coefficient times its size.
 #[derive(Clone, Debug)]
-pub struct Rub {
-    /// What rubs.
-    pub of: Rubbing,
+pub struct JointFriction {
+    /// What has friction.
+    pub of: FrictionSource,
     /// Coefficient at rest.
-    pub fixed: Slot,
+    pub fixed: ValueId,
     /// Coefficient of sliding.
-    pub kinetic: Slot,
+    pub kinetic: ValueId,
 }
 
-/// What rubs.
+/// What has friction.
 #[derive(Clone, Copy, Debug)]
-pub enum Rubbing {
+pub enum FrictionSource {
     /// A joint, by the force that it carries (times the radius of its bearing).
     Joint {
         /// The joint.
         joint: usize,
-        /// Radius of the bearing of a hinge, which rubs as it turns; all else rubs along its line or curve.
-        radius: Option<Slot>,
+        /// Radius of the bearing of a hinge, whose friction is a couple; all else has it along its line or curve.
+        radius: Option<ValueId>,
     },
-    /// A limit for which a spring stands, by the force of the spring and its damper.
+    /// A unilateral constraint for which a spring stands, by the force of the spring and its damper.
     Limit(usize),
 }
 
-/// A massless particle that runs on a curve and carries a pin, in place of a joint along the curve that can be released:
-/// then the pin is, and the particle is held where it is.
+/// A massless particle that runs on a curve and carries a pin, in place of a joint along the curve that can be
+/// released: then the pin is, and the particle is held where it is.
 #[derive(Clone, Copy, Debug)]
-pub struct Runner {
+pub struct CurveFollower {
     /// The joint along the curve, which carries the particle.
     pub joint: usize,
     /// The joint by which the particle carries the second body.
-    pub pin: usize,
+    pub released_joint: usize,
     /// The row that holds the particle.
     pub hold: usize,
 }

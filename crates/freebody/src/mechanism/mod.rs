@@ -1,28 +1,28 @@
 //! The compiled mechanism: topology, immutable and without numbers.
 //!
-//! Every number of the model is a *slot*: an expression of the parameters `p`, evaluated once by
+//! Every number of the model is a *value*: an expression of the parameters `p`, evaluated once by
 //! [`Mechanism::bind`]. Bodies are numbered in the order of the tree, parents first; body 0 is ground.
 
 mod cables;
 mod events;
 mod forces;
 mod joints;
-mod limits;
 mod surfaces;
+mod unilateral;
 
-pub use cables::{Cord, End, Guide};
-pub use events::{Deed, Event, Kink};
-pub use forces::{Force, Pull, Push};
-pub use joints::{Coordinate, Joint, Rub, Rubbing, Runner};
-pub use limits::{Friction, Gap, Group, Limit, FRICTION};
-pub use surfaces::{Arc, Chain, Disk, Profile, Stretch, Touch, Track};
+pub use cables::{Cable, End, Guide};
+pub use events::{Discontinuity, Event, EventAction};
+pub use forces::{Force, GaugeForce, PointForce};
+pub use joints::{Coordinate, CurveFollower, FrictionSource, Joint, JointFriction};
+pub use surfaces::{Arc, Chain, ContactPair, Disk, Profile, Stretch, Track};
+pub use unilateral::{Friction, Gap, Group, UnilateralConstraint, FRICTION};
 
 use crate::expr::Table;
-use crate::gauges::{Law, Leaf};
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::Joint as _;
 
 /// Index of a number of the model.
-pub type Slot = usize;
+pub type ValueId = usize;
 
 /// A mechanism without numbers.
 pub struct Mechanism {
@@ -33,13 +33,13 @@ pub struct Mechanism {
     /// An order in which every parameter comes after those it uses.
     pub parameter_order: Vec<usize>,
     /// Every number of the model.
-    pub slots: Vec<Law>,
+    pub values: Vec<ModelExpr>,
     /// Functions given by points.
     pub tables: Vec<Table>,
     /// Their names.
     pub table_names: Vec<String>,
     /// Acceleration of gravity.
-    pub gravity: [Slot; 2],
+    pub gravity: [ValueId; 2],
     /// Ground, then the bodies in tree order.
     pub bodies: Vec<Body>,
     /// Places on bodies.
@@ -51,7 +51,7 @@ pub struct Mechanism {
     /// Curves of bodies.
     pub curves: Vec<Curve>,
     /// Named gauges.
-    pub gauges: Vec<(String, Law)>,
+    pub gauges: Vec<(String, ModelExpr)>,
     /// All joints: those of the model in its order, then those added while compiling.
     pub joints: Vec<Joint>,
     /// Joints that close loops.
@@ -63,19 +63,19 @@ pub struct Mechanism {
     /// The forces, gravity apart.
     pub forces: Vec<Force>,
     /// Gauges that cannot fall below zero: contacts, stops, strings.
-    pub limits: Vec<Limit>,
+    pub unilateral: Vec<UnilateralConstraint>,
     /// The contacts, stops and strings of the model.
     pub groups: Vec<Group>,
-    /// Joints that rub.
-    pub rubs: Vec<Rub>,
+    /// Joints with friction.
+    pub joint_friction: Vec<JointFriction>,
     /// Joints along curves that can be released.
-    pub runners: Vec<Runner>,
+    pub curve_followers: Vec<CurveFollower>,
     /// Parts that are not in place at the start.
-    pub idle: Vec<Part>,
+    pub initially_absent: Vec<Part>,
     /// What to watch for.
     pub events: Vec<Event>,
     /// Where laws and curves are not smooth: the integrator must not step over these.
-    pub kinks: Vec<Kink>,
+    pub discontinuities: Vec<Discontinuity>,
     /// Number of switches in the model.
     pub switches: usize,
     /// What was assumed while compiling, in sentences.
@@ -90,7 +90,7 @@ pub struct Parameter {
     /// Unit for display.
     pub unit: String,
     /// Its value, an expression of other parameters.
-    pub value: Law,
+    pub value: ModelExpr,
 }
 
 /// A body.
@@ -102,17 +102,17 @@ pub struct Body {
     pub listed: Option<usize>,
     /// A particle has no rotation.
     pub particle: bool,
-    /// Its pieces.
-    pub pieces: Vec<Piece>,
+    /// Its features.
+    pub mass_elements: Vec<MassElement>,
     /// How it hangs in the tree; ground hangs on nothing.
-    pub branch: Option<Branch>,
+    pub tree_joint: Option<TreeJoint>,
     /// Its reference point: the marker of its joint in the tree.
-    pub pin: usize,
+    pub joint_origin: usize,
 }
 
 /// How a body hangs in the tree.
 #[derive(Clone, Copy, Debug)]
-pub struct Branch {
+pub struct TreeJoint {
     /// The body nearer to ground.
     pub parent: usize,
     /// The joint between them.
@@ -129,19 +129,19 @@ pub struct Branch {
 
 /// A piece of a body.
 #[derive(Clone, Debug)]
-pub struct Piece {
+pub struct MassElement {
     /// Its shape.
     pub shape: crate::shapes::Shape,
     /// Mass.
-    pub mass: Slot,
+    pub mass: ValueId,
     /// Origin of the shape in the body's frame.
-    pub at: [Slot; 2],
+    pub at: [ValueId; 2],
     /// Turn of the shape's axes in the body's frame.
-    pub angle: Slot,
+    pub angle: ValueId,
     /// Inertia about the mass centre, when it is given.
-    pub inertia: Option<Slot>,
+    pub inertia: Option<ValueId>,
     /// Sizes or corners of the shape.
-    pub sizes: Vec<Slot>,
+    pub sizes: Vec<ValueId>,
 }
 
 /// A place on a body.
@@ -150,14 +150,14 @@ pub struct Site {
     /// The body.
     pub body: usize,
     /// Where on the body.
-    pub at: Spot,
+    pub at: PointLocation,
 }
 
 /// Where a site is, in its body's frame.
 #[derive(Clone, Copy, Debug)]
-pub enum Spot {
+pub enum PointLocation {
     /// At coordinates.
-    At([Slot; 2]),
+    At([ValueId; 2]),
     /// At the mass centre.
     MassCentre,
 }
@@ -168,7 +168,7 @@ pub struct Marker {
     /// The site.
     pub site: usize,
     /// Direction in the body's frame.
-    pub angle: Slot,
+    pub angle: ValueId,
 }
 
 /// A curve of a body, in the body's frame.
@@ -179,9 +179,9 @@ pub struct Curve {
     /// The body.
     pub body: usize,
     /// x as a function of the curve's parameter.
-    pub x: Law,
+    pub x: ModelExpr,
     /// y as a function of the curve's parameter.
-    pub y: Law,
+    pub y: ModelExpr,
 }
 
 /// At which level a motion is given.
@@ -203,13 +203,13 @@ pub struct Drive {
     /// Whether it is a coupling (a joint of the model) rather than a motion.
     pub coupling: bool,
     /// The gauge whose motion is given.
-    pub of: Law,
+    pub of: ModelExpr,
     /// What it is given to be.
-    pub law: Law,
+    pub law: ModelExpr,
     /// At which level.
     pub level: Level,
     /// The gauge along which the force acts, when it is another one.
-    pub by: Option<Law>,
+    pub by: Option<ModelExpr>,
     /// Whether the law reads the state.
     pub feedback: bool,
 }
@@ -234,7 +234,7 @@ impl Mechanism {
             name: name.to_string(),
             parameters: vec![],
             parameter_order: vec![],
-            slots: vec![],
+            values: vec![],
             tables: vec![],
             table_names: vec![],
             gravity: [0; 2],
@@ -249,48 +249,51 @@ impl Mechanism {
             coordinates: vec![],
             drives: vec![],
             forces: vec![],
-            limits: vec![],
+            unilateral: vec![],
             groups: vec![],
-            rubs: vec![],
-            runners: vec![],
-            idle: vec![],
+            joint_friction: vec![],
+            curve_followers: vec![],
+            initially_absent: vec![],
             events: vec![],
-            kinks: vec![],
+            discontinuities: vec![],
             switches: 0,
             notes: vec![],
         }
     }
-    /// Whether what holds it can change during a motion: limits, friction, or parts that are released and engaged.
-    pub fn changes(&self) -> bool {
-        let switches = |deed: &Deed| matches!(deed, Deed::Release(_) | Deed::Engage(_));
-        !(self.limits.is_empty() && self.rubs.is_empty() && self.idle.is_empty())
+    /// Whether what holds it can change during a motion: unilateral constraints, friction, or parts that are released
+    /// and engaged.
+    pub fn is_hybrid(&self) -> bool {
+        let switches = |action: &EventAction| matches!(action, EventAction::Release(_) | EventAction::Engage(_));
+        !(self.unilateral.is_empty() && self.joint_friction.is_empty() && self.initially_absent.is_empty())
             || self.events.iter().any(|e| e.then.iter().any(switches))
     }
     /// The row that holds what runs on a curve once its pin, a part, is released.
     pub fn held_without(&self, part: Part) -> Option<Part> {
-        let runner = self.runners.iter().find(|runner| part == Part::Joint(runner.pin))?;
-        Some(Part::Drive(runner.hold))
+        let follower = self.curve_followers.iter().find(|follower| part == Part::Joint(follower.released_joint))?;
+        Some(Part::Drive(follower.hold))
     }
     /// What is released where a joint is.
     pub fn part_of(&self, joint: usize) -> Part {
-        let runner = self.runners.iter().find(|runner| runner.joint == joint);
-        Part::Joint(runner.map_or(joint, |runner| runner.pin))
+        let follower = self.curve_followers.iter().find(|follower| follower.joint == joint);
+        Part::Joint(follower.map_or(joint, |follower| follower.released_joint))
     }
-    /// The friction of a limit for which a spring stands.
-    pub fn rub_of(&self, limit: usize) -> Option<usize> {
-        self.rubs.iter().position(|rub| matches!(rub.of, Rubbing::Limit(l) if l == limit))
+    /// The friction of a unilateral constraint for which a spring stands.
+    pub fn joint_friction_of(&self, constraint: usize) -> Option<usize> {
+        self.joint_friction
+            .iter()
+            .position(|friction| matches!(friction.of, FrictionSource::Limit(l) if l == constraint))
     }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {
         self.coordinates.len()
     }
     /// The last body on the way from ground to both of two bodies.
-    pub fn common_carrier(&self, a: usize, b: usize) -> usize {
+    pub fn common_ancestor(&self, a: usize, b: usize) -> usize {
         let (mut a, mut b) = (a, b);
         while a != b {
             // Parents come first: the later of the two cannot carry the other.
             let later = if a > b { &mut a } else { &mut b };
-            *later = self.bodies[*later].branch.map_or(0, |branch| branch.parent);
+            *later = self.bodies[*later].tree_joint.map_or(0, |branch| branch.parent);
         }
         a
     }
@@ -316,32 +319,33 @@ impl Mechanism {
     /// Index in `q` of coordinate `k` of a joint, if the joint is in the tree.
     pub fn place_in_q(&self, joint: usize, k: usize) -> Option<usize> {
         let child = self.joints[joint].child?;
-        self.bodies[child].branch.map(|b| b.start + k)
+        self.bodies[child].tree_joint.map(|b| b.start + k)
     }
     /// The bodies on which a law depends, ground left out, each once.
-    pub fn bodies_of(&self, law: &Law) -> Vec<usize> {
-        let mut bodies: Vec<usize> = law.leaves().flat_map(|leaf| self.leaf_bodies(leaf)).filter(|&b| b > 0).collect();
+    pub fn bodies_of(&self, law: &ModelExpr) -> Vec<usize> {
+        let mut bodies: Vec<usize> =
+            law.variables().flat_map(|variable| self.variable_bodies(variable)).filter(|&b| b > 0).collect();
         bodies.sort_unstable();
         bodies.dedup();
         bodies
     }
     /// Whether all that a law reads of the configuration are turns of bodies: what acts along it is a couple.
-    pub fn turns(&self, law: &Law) -> bool {
-        let mut read = law.leaves().filter(|leaf| !self.leaf_bodies(leaf).is_empty()).peekable();
-        let turn = |leaf: &Leaf| match leaf {
-            Leaf::Coordinate(joint, k) => {
+    pub fn turns(&self, law: &ModelExpr) -> bool {
+        let mut read = law.variables().filter(|variable| !self.variable_bodies(variable).is_empty()).peekable();
+        let turn = |variable: &ModelVariable| match variable {
+            ModelVariable::Coordinate(joint, k) => {
                 let joint = &self.joints[*joint];
                 joint.kind.card().coordinates[joint.coordinates[*k].card].turn
             }
-            leaf => matches!(leaf, Leaf::Angle(_)),
+            variable => matches!(variable, ModelVariable::Angle(_)),
         };
         read.peek().is_some() && read.all(turn)
     }
-    fn leaf_bodies(&self, leaf: &Leaf) -> Vec<usize> {
-        match leaf {
-            Leaf::X(site) | Leaf::Y(site) => vec![self.body_of(*site)],
-            Leaf::Angle(body) => vec![*body],
-            Leaf::Coordinate(joint, _) => self.ends(&self.joints[*joint]).to_vec(),
+    fn variable_bodies(&self, variable: &ModelVariable) -> Vec<usize> {
+        match variable {
+            ModelVariable::X(site) | ModelVariable::Y(site) => vec![self.body_of(*site)],
+            ModelVariable::Angle(body) => vec![*body],
+            ModelVariable::Coordinate(joint, _) => self.ends(&self.joints[*joint]).to_vec(),
             _ => vec![],
         }
     }

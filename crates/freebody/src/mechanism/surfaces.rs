@@ -1,11 +1,11 @@
 //! A disk, or a point, and the surfaces that it can touch.
 
-use super::{Marker, Slot};
+use super::{Marker, ValueId};
 
 /// A disk against a surface. Every contact of the plane is made of these: polygons meet with the corners of one against
 /// the sides of the other.
 #[derive(Clone, Debug)]
-pub struct Touch {
+pub struct ContactPair {
     /// The disk.
     pub disk: Disk,
     /// The surface.
@@ -18,7 +18,7 @@ pub struct Disk {
     /// Site of its centre.
     pub centre: usize,
     /// Radius; None for a point.
-    pub radius: Option<Slot>,
+    pub radius: Option<ValueId>,
     /// Sites of the corners before and after it, where it is the corner of a polygon.
     pub beside: Option<[usize; 2]>,
 }
@@ -33,7 +33,7 @@ pub enum Profile {
         /// Site of its centre.
         centre: usize,
         /// Radius.
-        radius: Slot,
+        radius: ValueId,
         /// Whether the free side is inside.
         hollow: bool,
     },
@@ -41,42 +41,42 @@ pub enum Profile {
     Arc(Arc),
     /// Straight sides with convex corners.
     Chain(Chain),
-    /// Lines and arcs without a kink.
+    /// Lines and arcs with a continuous tangent.
     Track(Track),
 }
 
 /// Part of a circle of a body, counter-clockwise from one direction to another.
 ///
-/// Piece 0 is the arc, 1 and 2 its start and its end. A disk touches the ends as circles of radius 0. A point cannot: there
-/// the lines from the centre through the ends bound the solid, and the gap is the larger of the heights over the arc and over the
-/// line through the nearer end.
+/// Piece 0 is the arc, 1 and 2 its start and its end. A disk touches the ends as circles of radius 0. A point cannot:
+/// there the lines from the centre through the ends bound the solid, and the gap is the larger of the heights over the
+/// arc and over the line through the nearer end.
 #[derive(Clone, Debug)]
 pub struct Arc {
     /// Site of its centre.
     pub centre: usize,
     /// Radius.
-    pub radius: Slot,
+    pub radius: ValueId,
     /// Whether the free side is inside.
     pub hollow: bool,
     /// Directions of its ends from the centre, in the body's frame; the second less than a turn beyond the first.
-    pub ends: [Slot; 2],
+    pub ends: [ValueId; 2],
 }
 
-/// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their right.
-/// Each corner turns to the right, so a closed one has its corners clockwise.
+/// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their
+/// right. Each corner turns to the right, so a closed one has its corners clockwise.
 ///
-/// Piece 2i is side i, from corner i to the next; piece 2i + 1 the corner that ends it. The corner at which an open chain
-/// starts is the last number, twice the number of sides.
+/// Piece 2i is side i, from corner i to the next; piece 2i + 1 the corner that ends it. The corner at which an open
+/// chain starts is the last number, twice the number of sides.
 ///
-/// A disk touches corners as circles of radius 0, and its gap is the distance. A point cannot: its distance from a corner
-/// has no direction there. It has pieces for sides only, each prolonged until it meets the next, and its gap is the largest
-/// of its heights over them: 0 just on the sides, and outside a corner less than the distance. The ends of an open chain are
-/// then bounds of the solid too: along the side that follows in a concave corner, a little behind it, else straight back, or
-/// across to the other end where that would leave corners outside.
+/// A disk touches corners as circles of radius 0, and its gap is the distance. A point cannot: its distance from a
+/// corner has no direction there. It has features for sides only, each prolonged until it meets the next, and its gap
+/// is the largest of its heights over them: 0 just on the sides, and outside a corner less than the distance. The ends
+/// of an open chain are then bounds of the solid too: along the side that follows in a concave corner, a little behind
+/// it, else straight back, or across to the other end where that would leave corners outside.
 ///
-/// Where two corners meet, the sides of either polygon may keep them apart, and one side that does is enough. So the corner of
-/// a polygon that is lower over the sides here than the corners here are over a side of its own has a piece for that, the
-/// number 1: what closes is the other corner, on that side.
+/// Where two corners meet, the sides of either polygon may keep them apart, and one side that does is enough. So the
+/// corner of a polygon that is lower over the sides here than the corners here are over a side of its own has a piece
+/// for that, the number 1: what closes is the other corner, on that side.
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// Sites of its corners.
@@ -88,14 +88,15 @@ pub struct Chain {
     pub beyond: [Option<usize>; 2],
 }
 
-/// A way of straight and round stretches on one body, without a kink; the free side is on its left.
+/// A way of straight and round segments on one body, with a continuous tangent; the free side is on its left.
 ///
-/// Pieces 0 to n − 1 are the stretches in order, n is the start and n + 1 the end. A disk touches the two ends as circles of radius
-/// 0, a point cannot; behind the track there is nothing. While the gap is closed, the piece goes from a stretch to the next
-/// by what is past their common point, so a track may cross itself, as a loop does. A disk touches it at one place at a time.
+/// Features 0 to n − 1 are the segments in order, n is the start and n + 1 the end. A disk touches the two ends as
+/// circles of radius 0, a point cannot; behind the track there is nothing. While the gap is closed, the piece goes from
+/// a segment to the next by what is past their common point, so a track may cross itself, as a loop does. A disk
+/// touches it at one place at a time.
 #[derive(Clone, Debug)]
 pub struct Track {
-    /// Its stretches.
+    /// Its segments.
     pub stretches: Vec<Stretch>,
 }
 

@@ -81,8 +81,8 @@ impl Trajectory {
     ///
     /// Where an event made the state jump, this is the state after the jump.
     pub fn at(&self, t: f64, y: &mut [f64]) -> bool {
-        let passed = self.segments.partition_point(|s| (t - s.t0) * (s.t1 - s.t0) >= 0.0);
-        match self.segments[..passed].last() {
+        let joint_wrenches = self.segments.partition_point(|s| (t - s.t0) * (s.t1 - s.t0) >= 0.0);
+        match self.segments[..joint_wrenches].last() {
             Some(segment) if segment.spans(t) => {
                 segment.at(t, y);
                 true

@@ -12,7 +12,7 @@ pub(super) const METHOD: Method = Method {
     estimate_order: Some(8),
     symplectic: false,
     growth_threshold: 1.0,
-    blind_spot: 0.466,
+    stage_gap: 0.466,
     stepper: |n| Explicit::boxed(&TABLE, n),
 };
 

@@ -76,21 +76,21 @@ impl Memory {
 ///
 /// A zero where the run starts does not count: the first value clearly away from zero tells on
 /// which side the function is. Nor does a zero where an event has just acted.
-pub(super) struct Watcher {
+pub(super) struct EventDetector {
     memory: Vec<Memory>,
     points: [f64; SAMPLES],
 }
 
-impl Watcher {
+impl EventDetector {
     pub fn new(system: &dyn System) -> Self {
         let memory = |i| {
-            let watch = system.switch(i);
+            let spec = system.switch(i);
             Memory {
-                side: i8::from(watch.is_positive),
+                side: i8::from(spec.is_positive),
                 side_ahead: 0,
-                size: watch.scale,
+                size: spec.scale,
                 is_spent: false,
-                is_guard: watch.role == Role::Guard,
+                is_guard: spec.role == Role::Guard,
                 last_touch: f64::NAN,
             }
         };
@@ -138,8 +138,8 @@ impl Watcher {
             let t = probe.time(x);
             nodes.push(Node { t, value: probe.one(i, t)?, is_extremum: true });
         }
-        let (t0, ahead) = (probe.segment.t0, probe.ahead());
-        nodes.sort_by(|a, b| (ahead * (a.t - t0)).total_cmp(&(ahead * (b.t - t0))));
+        let (t0, later) = (probe.segment.t0, probe.ahead());
+        nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
         let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
         let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
         if tail <= CONVERGED * swing || tail <= CLEAR * nearest {
@@ -148,8 +148,8 @@ impl Watcher {
         self.between(i, &nodes, values, probe)
     }
 
-    /// The nodes with further ones wherever the function may reach zero between two and come back. The distance of things
-    /// that pass each other is a V, which no polynomial follows; but it changes no faster than they move.
+    /// The nodes with further ones wherever the function may reach zero between two and come back. The distance of
+    /// things that pass each other is a V, which no polynomial follows; but it changes no faster than they move.
     fn between(
         &self,
         i: usize,
@@ -165,8 +165,8 @@ impl Watcher {
         let mut patience = PATIENCE;
         let mut found = vec![nodes[0]];
         for &node in &nodes[1..] {
-            let mut ahead = vec![node];
-            while let Some(&b) = ahead.last() {
+            let mut later = vec![node];
+            while let Some(&b) = later.last() {
                 let a = found[found.len() - 1];
                 let same = a.value * b.value > 0.0 && a.value.abs().min(b.value.abs()) > clear;
                 let t = 0.5 * (a.t + b.t);
@@ -174,10 +174,10 @@ impl Watcher {
                 // It was heading for the other side where it acted.
                 let back = memory.is_spent && found.len() == 1 && b.value * f64::from(memory.side) < 0.0;
                 if !(near || back) || patience == 0 || t == a.t || t == b.t {
-                    found.extend(ahead.pop());
+                    found.extend(later.pop());
                 } else {
                     patience -= 1;
-                    ahead.push(Node { t, value: probe.one(i, t)?, is_extremum: false });
+                    later.push(Node { t, value: probe.one(i, t)?, is_extremum: false });
                 }
             }
         }
@@ -224,12 +224,12 @@ impl Watcher {
         }
     }
 
-    /// Functions that are zero where the run is, and about to change their sign, with the side that they go to; `ahead`:
-    /// their values a little later.
-    pub fn crossing_here<'a>(&'a self, values: &'a [f64], ahead: &'a [f64]) -> impl Iterator<Item = (usize, i8)> + 'a {
+    /// Functions that are zero where the run is, and about to change their sign, with the side that they go to;
+    /// `ahead`: their values a little later.
+    pub fn crossing_here<'a>(&'a self, values: &'a [f64], later: &'a [f64]) -> impl Iterator<Item = (usize, i8)> + 'a {
         self.memory.iter().enumerate().filter_map(|(i, memory)| {
             let is_zero = !memory.is_spent && memory.sign(values[i]) == 0;
-            let goes_on = (ahead[i] - values[i]) * f64::from(memory.side) < 0.0;
+            let goes_on = (later[i] - values[i]) * f64::from(memory.side) < 0.0;
             (is_zero && goes_on).then_some((i, -memory.side))
         })
     }
@@ -306,7 +306,8 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within the
+    /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within
+    /// the
     /// `noise` there, it leaves the noise.
     fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, Trouble> {
         let is_bracket = |shift: f64| a.value + shift != 0.0 && (a.value + shift < 0.0) != (b.value + shift < 0.0);

@@ -15,7 +15,7 @@ pub(super) const METHOD: Method = Method {
     estimate_order: None,
     symplectic: true,
     growth_threshold: 1.0,
-    blind_spot: 0.3,
+    stage_gap: 0.3,
     stepper: |n| Box::new(Gauss6::new(n)),
 };
 

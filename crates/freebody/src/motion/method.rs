@@ -22,7 +22,7 @@ pub struct Method {
     /// The step is kept unless it may grow by more than this factor.
     pub(super) growth_threshold: f64,
     /// The fraction of a step farthest from where the rate is evaluated.
-    pub(super) blind_spot: f64,
+    pub(super) stage_gap: f64,
     pub(super) stepper: fn(usize) -> Box<dyn Stepper>,
 }
 
@@ -60,8 +60,8 @@ pub(super) enum Failure {
 }
 
 impl From<Trouble> for Failure {
-    fn from(trouble: Trouble) -> Self {
-        Failure::Trouble(trouble)
+    fn from(error: Trouble) -> Self {
+        Failure::Trouble(error)
     }
 }
 

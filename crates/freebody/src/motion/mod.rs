@@ -5,19 +5,19 @@
 
 mod dense;
 mod dop853;
+mod event_location;
 mod events;
 mod explicit;
 mod gauss6;
-mod landing;
 mod linear;
 mod method;
 mod norm;
 mod outcome;
-mod pace;
 mod radau;
 mod rk4;
 mod roots;
 mod run;
+mod step_control;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -26,6 +26,6 @@ mod tsit5;
 pub use dense::{Segment, Trajectory};
 pub use events::Kind;
 pub use method::{method, Method, METHODS};
-pub use outcome::{Happening, Outcome, Run};
+pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options};
-pub use system::{After, Canonical, Role, System, Trouble, Watch};
+pub use system::{After, Canonical, EventSpec, Role, System, Trouble};

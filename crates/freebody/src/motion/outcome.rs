@@ -61,7 +61,7 @@ impl Outcome {
             Self::ToleranceTooTight { .. } => "ToleranceTooTight",
             Self::StiffSuspected => "StiffSuspected",
             Self::Interrupted => "Interrupted",
-            Self::Trouble(trouble) => trouble.name,
+            Self::Trouble(error) => error.name,
             Self::Unsupported { .. } => "Unsupported",
             Self::Chatter { .. } => "Chatter",
         }
@@ -70,7 +70,7 @@ impl Outcome {
     /// The item of the model that it is about, e.g. `joints.pivot`, or nothing.
     pub fn path(&self) -> &str {
         match self {
-            Self::Trouble(trouble) => trouble.path.as_deref().unwrap_or(""),
+            Self::Trouble(error) => error.path.as_deref().unwrap_or(""),
             _ => "",
         }
     }
@@ -101,7 +101,7 @@ impl fmt::Display for Outcome {
                 write!(out, "the system looks stiff and the steps allowed do not suffice; use the method radau")
             }
             Self::Interrupted => write!(out, "the run was interrupted"),
-            Self::Trouble(trouble) => write!(out, "{}", trouble.sentence),
+            Self::Trouble(error) => write!(out, "{}", error.sentence),
             Self::Unsupported { method, reason } => {
                 write!(out, "{method} cannot do this because {reason}")
             }
@@ -115,7 +115,7 @@ impl fmt::Display for Outcome {
 
 /// Something that happened on the way.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Happening {
+pub struct EventRecord {
     /// When.
     pub t: f64,
     /// The state then, before the event acted.
@@ -133,8 +133,8 @@ pub struct Happening {
 pub struct Run {
     /// The motion at all times that were passed.
     pub trajectory: Trajectory,
-    /// What happened on the way, in order; kinks are only counted.
-    pub events: Vec<Happening>,
+    /// What happened on the way, in order; discontinuities are only counted.
+    pub events: Vec<EventRecord>,
     /// How it ended.
     pub outcome: Outcome,
     /// Last good time.
@@ -147,8 +147,8 @@ pub struct Run {
     pub rejected: usize,
     /// Number of evaluations of the rate.
     pub evaluations: usize,
-    /// Number of kinks passed.
-    pub kinks: usize,
+    /// Number of discontinuities passed.
+    pub discontinuities: usize,
     /// Largest correction that [`super::System::project`] reported.
     pub largest_correction: f64,
     /// Time at which the system first looked stiff to an explicit method.

@@ -16,7 +16,7 @@ pub(super) const METHOD: Method = Method {
     estimate_order: Some(4),
     symplectic: false,
     growth_threshold: 1.2,
-    blind_spot: 0.4,
+    stage_gap: 0.4,
     stepper: |n| Box::new(Radau::new(n)),
 };
 

@@ -12,7 +12,7 @@ pub(super) const METHOD: Method = Method {
     estimate_order: None,
     symplectic: false,
     growth_threshold: 1.0,
-    blind_spot: 0.25,
+    stage_gap: 0.25,
     stepper: |n| Explicit::boxed(&TABLE, n),
 };
 

@@ -1,12 +1,12 @@
 //! The run: step, project, look for events, act, go on.
 
 use super::dense::Segment;
-use super::events::{Kind, Watcher};
-use super::landing::Chatter;
+use super::event_location::Chatter;
+use super::events::{EventDetector, Kind};
 use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
 use super::norm::{first_step, Norm};
 use super::outcome::{Outcome, Run};
-use super::pace::Pace;
+use super::step_control::StepController;
 use super::system::System;
 
 /// The tightest relative tolerance that is accepted.
@@ -48,27 +48,27 @@ pub fn run(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Run {
     assert_eq!(y0.len(), system.dim(), "y0 must have one value per component of the system");
-    let mut runner = Runner::new(system, method, (t0, y0), t_end, options);
-    let outcome = match runner.start(method, options) {
+    let mut follower = Runner::new(system, method, (t0, y0), t_end, options);
+    let outcome = match follower.start(method, options) {
         Err(outcome) => outcome,
         Ok(()) => loop {
-            if let Err(outcome) = runner.advance(options, progress) {
+            if let Err(outcome) = follower.advance(options, progress) {
                 break outcome;
             }
         },
     };
-    runner.finish(outcome)
+    follower.finish(outcome)
 }
 
 pub(super) struct Runner<'a> {
     pub system: Counted<'a>,
     pub stepper: Box<dyn Stepper>,
-    pub watcher: Watcher,
+    pub detector: EventDetector,
     pub norm: Norm,
-    pub pace: Pace,
+    pub steps: StepController,
     estimate_order: Option<u32>,
     /// Where a step may hold a blind spot of the system, and when the next one comes.
-    blind: (f64, Option<f64>),
+    singular_stage: (f64, Option<f64>),
     pub now: Point,
     /// End of the step being made.
     pub next: Point,
@@ -88,11 +88,11 @@ impl<'a> Runner<'a> {
         let now = Point::new(t0, y0);
         Self {
             stepper: (method.stepper)(y0.len()),
-            watcher: Watcher::new(system),
+            detector: EventDetector::new(system),
             norm: Norm::new(system, options.rtol),
-            pace: Pace::new(method.estimate_order, method.growth_threshold, options.max_step),
+            steps: StepController::new(method.estimate_order, method.growth_threshold, options.max_step),
             estimate_order: method.estimate_order,
-            blind: (method.blind_spot, None),
+            singular_stage: (method.stage_gap, None),
             next: now.clone(),
             t_end,
             run: Run::new(&now),
@@ -106,8 +106,8 @@ impl<'a> Runner<'a> {
         self.refuse(method, options)?;
         self.system.rate_of(&mut self.now).map_err(ending)?;
         match options.first_step {
-            Some(h) => self.pace.restart(h.abs() * self.sign()),
-            None => self.restart_pace(),
+            Some(h) => self.steps.restart(h.abs() * self.sign()),
+            None => self.restart_steps(),
         }
         Ok(())
     }
@@ -118,7 +118,7 @@ impl<'a> Runner<'a> {
         if method.symplectic && self.system.system.canonical().is_none() {
             return refused("the system has no canonical form");
         }
-        if self.pace.is_fixed() && options.first_step.is_none() {
+        if self.steps.is_fixed() && options.first_step.is_none() {
             return refused("its step is fixed and first_step is not given");
         }
         if self.t_end.is_nan() || options.first_step.is_some_and(|h| h == 0.0 || !h.is_finite()) {
@@ -128,7 +128,7 @@ impl<'a> Runner<'a> {
             return refused("the longest step allowed is not positive");
         }
         let is_too_tight = options.rtol.is_nan() || options.rtol < TIGHTEST;
-        if !self.pace.is_fixed() && is_too_tight {
+        if !self.steps.is_fixed() && is_too_tight {
             return Err(Outcome::ToleranceTooTight { rtol: options.rtol });
         }
         all_finite(&self.now.y).map_err(ending)
@@ -139,13 +139,13 @@ impl<'a> Runner<'a> {
     }
 
     /// Chooses the step anew, as at the start.
-    pub fn restart_pace(&mut self) {
+    pub fn restart_steps(&mut self) {
         let (Some(order), sign) = (self.estimate_order, self.sign()) else { return };
         let system = &mut self.system;
         let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
         // Where even the trial fails, the first steps are rejected until they fit.
         let most = self.system.system.horizon();
-        self.pace.restart(h.unwrap_or(sign * 1e-6).clamp(-most, most));
+        self.steps.restart(h.unwrap_or(sign * 1e-6).clamp(-most, most));
     }
 
     /// One accepted step, or the part of it up to an event.
@@ -156,11 +156,11 @@ impl<'a> Runner<'a> {
         }
         let error = self.accept(options)?;
         let natural = self.natural_step();
-        self.settle()?;
+        self.project()?;
         let segment = self.segment()?;
         let marks = self.search(&segment)?;
         if natural {
-            self.pace.accepted(error);
+            self.steps.accepted(error);
         }
         if marks.iter().any(|mark| mark.kind == Kind::Crossing) {
             self.go_to_event(segment, &marks)?;
@@ -168,7 +168,7 @@ impl<'a> Runner<'a> {
             self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::Trouble)?;
             self.note_touches(&segment, &marks, segment.t1);
             self.push(segment);
-            self.watcher.pass();
+            self.detector.pass();
         }
         match progress(self.now.t) {
             true => Ok(()),
@@ -190,13 +190,13 @@ impl<'a> Runner<'a> {
                 Ok(error) if error <= 1.0 => return Ok(error),
                 Ok(error) if error.is_finite() => {
                     cause = Outcome::StepUnderflow;
-                    self.pace.rejected(h, error);
+                    self.steps.rejected(h, error);
                 }
-                Ok(_) => self.pace.failed(h),
-                Err(failure) if self.pace.is_fixed() => return Err(ending(failure)),
+                Ok(_) => self.steps.failed(h),
+                Err(failure) if self.steps.is_fixed() => return Err(ending(failure)),
                 Err(failure) => {
                     cause = ending(failure);
-                    self.pace.failed(h);
+                    self.steps.failed(h);
                 }
             }
             self.run.rejected += 1;
@@ -205,30 +205,31 @@ impl<'a> Runner<'a> {
 
     /// End of the next step: the end of the run when it is in reach.
     fn target(&self) -> f64 {
-        let h = self.astride();
+        let h = self.step_across();
         match (self.t_end - self.now.t).abs() <= (1.0 + 1e-6) * h.abs() {
             true => self.t_end,
             false => self.now.t + h,
         }
     }
 
-    /// The step that the pace asks for, or where a blind spot comes near one that takes it, or the next step, into its gap.
-    fn astride(&self) -> f64 {
-        let (gap, Some(spot)) = self.blind else { return self.pace.h };
-        let (h, ahead) = (self.pace.h, spot - self.now.t);
-        if self.pace.is_fixed() || ahead * h <= 0.0 || ahead.abs() > 1.5 * h.abs() {
+    /// The step that the pace asks for, or where a blind spot comes near one that takes it, or the next step, into its
+    /// gap.
+    fn step_across(&self) -> f64 {
+        let (gap, Some(spot)) = self.singular_stage else { return self.steps.h };
+        let (h, later) = (self.steps.h, spot - self.now.t);
+        if self.steps.is_fixed() || later * h <= 0.0 || later.abs() > 1.5 * h.abs() {
             return h;
         }
         // Less than the least shortening after a rejection, lest the same step be tried again.
-        match ahead.abs() <= 1.05 * gap * h.abs() {
-            true => ahead / gap,
-            false => ahead - gap * h,
+        match later.abs() <= 1.05 * gap * h.abs() {
+            true => later / gap,
+            false => later - gap * h,
         }
     }
 
     /// Whether the step just made was as long as the pace asked for.
     fn natural_step(&self) -> bool {
-        (self.next.t - self.now.t).abs() > 0.5 * self.pace.h.abs()
+        (self.next.t - self.now.t).abs() > 0.5 * self.steps.h.abs()
     }
 
     /// Ends the run when it has, or will have, too many steps.
@@ -236,7 +237,7 @@ impl<'a> Runner<'a> {
         let left = allowed.saturating_sub(self.run.accepted + self.run.rejected);
         if self.stepper.is_stiff() {
             self.run.stiff_since.get_or_insert(self.now.t);
-            if (self.t_end - self.now.t).abs() > left as f64 * self.pace.h.abs() {
+            if (self.t_end - self.now.t).abs() > left as f64 * self.steps.h.abs() {
                 return Err(Outcome::StiffSuspected);
             }
         }
@@ -247,7 +248,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Projects the end of the step onto the invariants.
-    pub fn settle(&mut self) -> Result<(), Outcome> {
+    pub fn project(&mut self) -> Result<(), Outcome> {
         let before = self.next.y.clone();
         let system = &mut *self.system.system;
         let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::Trouble)?;
@@ -268,7 +269,7 @@ impl<'a> Runner<'a> {
         self.run.accepted += 1;
         std::mem::swap(&mut self.now, &mut self.next);
         self.norm.noise = self.system.system.noise();
-        self.blind.1 = self.system.system.blind_spot(self.now.t, &self.now.y);
+        self.singular_stage.1 = self.system.system.singular_stage_gap(self.now.t, &self.now.y);
     }
 
     fn finish(self, outcome: Outcome) -> Run {
@@ -287,7 +288,7 @@ impl Run {
             accepted: 0,
             rejected: 0,
             evaluations: 0,
-            kinks: 0,
+            discontinuities: 0,
             largest_correction: 0.0,
             stiff_since: None,
         }
@@ -297,7 +298,7 @@ impl Run {
 /// The outcome of a failure that a shorter step does not cure.
 pub(super) fn ending(failure: Failure) -> Outcome {
     match failure {
-        Failure::Trouble(trouble) => Outcome::Trouble(trouble),
+        Failure::Trouble(error) => Outcome::Trouble(error),
         Failure::NotFinite => Outcome::Overflow,
         Failure::NoConvergence => Outcome::StepUnderflow,
     }

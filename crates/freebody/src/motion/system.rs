@@ -4,7 +4,7 @@ pub use crate::error::Trouble;
 
 /// How a switching function is watched.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Watch {
+pub struct EventSpec {
     /// +1: only when rising through zero as time grows; −1: only when falling; 0: either.
     pub direction: i8,
     /// What its zero is.
@@ -21,25 +21,25 @@ pub struct Watch {
 pub enum Role {
     /// An event: reported, and acted on.
     Event,
-    /// A kink of a force law: always acted on and followed by a restart, never reported.
-    Kink,
-    /// Positive as long as the law in force holds: a value below zero, also at once after a restart, makes it act. Never
-    /// reported.
+    /// A discontinuity of a force law: always acted on and followed by a restart, never reported.
+    Discontinuity,
+    /// Positive as long as the law in force holds: a value below zero, also at once after a restart, makes it act.
+    /// Never reported.
     Guard,
 }
 
-impl Watch {
+impl EventSpec {
     /// An event that counts in a direction.
     pub fn event(direction: i8) -> Self {
-        Watch { direction, role: Role::Event, is_positive: false, scale: 0.0 }
+        EventSpec { direction, role: Role::Event, is_positive: false, scale: 0.0 }
     }
-    /// A kink.
-    pub fn kink() -> Self {
-        Watch { direction: 0, role: Role::Kink, is_positive: false, scale: 0.0 }
+    /// A discontinuity.
+    pub fn discontinuity() -> Self {
+        EventSpec { direction: 0, role: Role::Discontinuity, is_positive: false, scale: 0.0 }
     }
     /// A guard of given physical size.
     pub fn guard(scale: f64) -> Self {
-        Watch { direction: -1, role: Role::Guard, is_positive: true, scale }
+        EventSpec { direction: -1, role: Role::Guard, is_positive: true, scale }
     }
 }
 
@@ -82,12 +82,12 @@ pub trait System {
 
     /// The time at which the motion, as it goes at (t, y), passes a place where the rate is smooth but cannot be
     /// evaluated accurately, if it goes there. An adaptive method then steps across it.
-    fn blind_spot(&mut self, _t: f64, _y: &[f64]) -> Option<f64> {
+    fn singular_stage_gap(&mut self, _t: f64, _y: &[f64]) -> Option<f64> {
         None
     }
 
-    /// The longest step after a restart that does not pass over a zero of a switching function which starts at zero, and
-    /// soon comes back to it.
+    /// The longest step after a restart that does not pass over a zero of a switching function which starts at zero,
+    /// and soon comes back to it.
     fn horizon(&mut self) -> f64 {
         f64::INFINITY
     }
@@ -97,7 +97,7 @@ pub trait System {
         out.fill(1.0);
     }
 
-    /// Number of switching functions, events and kinks together.
+    /// Number of switching functions, events and discontinuities together.
     fn switches(&self) -> usize {
         0
     }
@@ -118,7 +118,8 @@ pub trait System {
         Ok(None)
     }
 
-    /// Refuses a state that no switching function lets the motion come to; called at the end of each step that passes no zero.
+    /// Refuses a state that no switching function lets the motion come to; called at the end of each step that passes
+    /// no zero.
     ///
     /// # Errors
     /// A named failure; the run ends with it, before that step.
@@ -127,8 +128,8 @@ pub trait System {
     }
 
     /// How switching function `i` is watched.
-    fn switch(&self, _i: usize) -> Watch {
-        Watch::event(0)
+    fn switch(&self, _i: usize) -> EventSpec {
+        EventSpec::event(0)
     }
 
     /// Whether event `i` counts at (t, y).

@@ -13,7 +13,7 @@ pub(super) const METHOD: Method = Method {
     estimate_order: Some(5),
     symplectic: false,
     growth_threshold: 1.0,
-    blind_spot: 0.61,
+    stage_gap: 0.61,
     stepper: |n| Explicit::boxed(&TABLE, n),
 };
 

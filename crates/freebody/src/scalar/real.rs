@@ -1,5 +1,6 @@
 //! Elementary functions of `f64`, the same bits on every machine: each kind of number is built on them. Sine and cosine
-//! are our own; the others are those of the crate `libm` (after FreeBSD's msun), where the platform's differ in the last place.
+//! are our own; the others are those of the crate `libm` (after FreeBSD's msun), where the platform's differ in the
+//! last place.
 
 /// Up to here the quadrant is below 2²⁰, so its products with the 33-bit parts of π/2 are exact.
 const CAREFUL_ABOVE: f64 = 1.0e6;

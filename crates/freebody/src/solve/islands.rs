@@ -71,8 +71,8 @@ impl Islands {
     }
 
     /// The rank of B.
-    pub fn authority(&self) -> usize {
-        self.islands.iter().map(|island| island.saddle.authority()).sum()
+    pub fn actuation_rank(&self) -> usize {
+        self.islands.iter().map(|island| island.saddle.actuation_rank()).sum()
     }
 
     /// Degrees of freedom: n − rank G.
@@ -171,7 +171,7 @@ fn gather(of: &[f64], at: &[usize]) -> Vec<f64> {
     at.iter().map(|&i| of[i]).collect()
 }
 
-/// An error of a group, its direction told for all n unknowns.
+/// An error of a group, its direction expressed for all n unknowns.
 fn spread_out(error: SaddleError, unknowns: &[usize], n: usize) -> SaddleError {
     let all = |part: Vec<f64>| {
         let mut direction = vec![0.0; n];
@@ -180,7 +180,9 @@ fn spread_out(error: SaddleError, unknowns: &[usize], n: usize) -> SaddleError {
     };
     match error {
         SaddleError::ZeroInertia { direction } => SaddleError::ZeroInertia { direction: all(direction) },
-        SaddleError::NoAuthority { direction } => SaddleError::NoAuthority { direction: all(direction) },
+        SaddleError::InsufficientActuation { direction } => {
+            SaddleError::InsufficientActuation { direction: all(direction) }
+        }
         mismatch @ SaddleError::RankMismatch { .. } => mismatch,
     }
 }

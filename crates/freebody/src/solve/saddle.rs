@@ -52,7 +52,7 @@ pub enum SaddleError {
         direction: Vec<f64>,
     },
     /// A motion that G prescribes, or forbids, is out of reach of the forces Bᵀ λ.
-    NoAuthority {
+    InsufficientActuation {
         /// A free motion, n, whose inertia force is balanced by Bᵀ λ alone.
         direction: Vec<f64>,
     },
@@ -69,7 +69,7 @@ impl fmt::Display for SaddleError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SaddleError::ZeroInertia { .. } => write!(f, "a free motion has no inertia"),
-            SaddleError::NoAuthority { .. } => {
+            SaddleError::InsufficientActuation { .. } => {
                 write!(f, "the actuators cannot produce the prescribed motion")
             }
             SaddleError::RankMismatch { motion, force } => {
@@ -167,7 +167,7 @@ impl Saddle {
         if momentum <= 1e-9 * max_abs(self.mass.data()) {
             SaddleError::ZeroInertia { direction }
         } else {
-            SaddleError::NoAuthority { direction }
+            SaddleError::InsufficientActuation { direction }
         }
     }
 
@@ -177,7 +177,7 @@ impl Saddle {
     }
 
     /// The rank of B.
-    pub fn authority(&self) -> usize {
+    pub fn actuation_rank(&self) -> usize {
         self.force().rank().rank
     }
 

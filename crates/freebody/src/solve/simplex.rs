@@ -7,15 +7,16 @@ const PIVOT: f64 = 1e-10;
 
 /// The x for which the least of all (A x + b)ᵢ is greatest, and that least; no more than `most` is asked for.
 ///
-/// The simplex method from x = 0 by Bland's rule, on which no basis comes twice (Chvátal, *Linear Programming*, 1983, ch. 3).
+/// The simplex method from x = 0 by Bland's rule, on which no basis comes twice (Chvátal, *Linear Programming*, 1983,
+/// ch. 3).
 pub fn keep_above(a: &Matrix, b: &[f64], most: f64) -> (Vec<f64>, f64) {
     let (m, n) = (a.rows(), a.cols());
     let least = b.iter().copied().fold(f64::INFINITY, f64::min);
     if m == 0 || n == 0 || least >= most {
         return (vec![0.0; n], least);
     }
-    // Columns: the rise s of the least, x from below with one common shift down, slacks, right-hand side. Rows: s − (A x)ᵢ ≤
-    // bᵢ − least; s ≤ most − least; and last what is to be made great, s.
+    // Columns: the rise s of the least, x from below with one common shift down, slacks, right-hand side. Rows: s − (A
+    // x)ᵢ ≤ bᵢ − least; s ≤ most − least; and last what is to be made great, s.
     let (slack, right) = (n + 2, n + m + 3);
     let entry = |i: usize, j: usize| match j {
         _ if j == right && i == m => most - least,

@@ -3,9 +3,9 @@
 //! Everything is explicit: repetitions are expanded, sub-mechanisms inlined, units converted to SI
 //! and radians. A number is a literal or an expression of the parameters; see [`crate::expr`].
 
-mod limits;
+mod unilateral;
 
-pub use limits::{Contact, Cord, CordEnd, Guide, Stop, Stretch, Surface};
+pub use unilateral::{Cable, CableEnd, Contact, Guide, Stop, Stretch, Surface};
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -51,7 +51,7 @@ pub struct Spec {
     /// Surfaces that can push each other.
     pub contacts: Vec<Contact>,
     /// Strings.
-    pub strings: Vec<Cord>,
+    pub strings: Vec<Cable>,
     /// Ends of the way of gauges.
     pub stops: Vec<Stop>,
     /// What to watch for during a motion.

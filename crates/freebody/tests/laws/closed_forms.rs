@@ -2,10 +2,10 @@
 
 use crate::model::*;
 use crate::rng::Rng;
-use freebody::balance::{Balance, Instant, Route};
 use freebody::compile::Compiled;
+use freebody::dynamics::{Instant, Route, Workspace};
+use freebody::hybrid::{simulate, Settings, Start, Trajectory};
 use freebody::motion::{Options, METHODS};
-use freebody::simulation::{simulate, Settings, Start, Trajectory};
 
 const G: f64 = 9.81;
 
@@ -13,9 +13,9 @@ const G: f64 = 9.81;
 const K_HALF: f64 = 1.854_074_677_301_372;
 
 fn instant(compiled: &Compiled, q: &[f64], u: &[f64]) -> Instant {
-    let mut balance = Balance::new(&compiled.mechanism, &[]);
-    balance.place(0.0, q, u);
-    balance.instant(Route::Minimal).expect("a mechanism that moves")
+    let mut workspace = Workspace::new(&compiled.mechanism, &[]);
+    workspace.place(0.0, q, u);
+    workspace.instant(Route::Minimal).expect("a mechanism that moves")
 }
 
 fn run(compiled: &Compiled, q: &[f64], u: &[f64], until: f64, method: &str, options: Options) -> Trajectory {
@@ -23,8 +23,8 @@ fn run(compiled: &Compiled, q: &[f64], u: &[f64], until: f64, method: &str, opti
         method: method.into(),
         options,
         route: None,
-        impacts: freebody::simulation::Rule::Stop,
-        jams_strike: false,
+        impacts: freebody::hybrid::Rule::Stop,
+        jam_by_impact: false,
     };
     let run =
         simulate(&compiled.mechanism, &Start { p: &[], t: 0.0, q, u, mode: None }, until, &settings, &mut |_| true);
@@ -33,8 +33,8 @@ fn run(compiled: &Compiled, q: &[f64], u: &[f64], until: f64, method: &str, opti
     run
 }
 
-fn near(told: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{told}: {found}, not {expected}");
+fn near(label: &str, found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{label}: {found}, not {expected}");
 }
 
 /// A point mass on a massless rod of length 1, measured from the downward vertical.
@@ -93,7 +93,8 @@ fn wheels(kind: &str, fields: &[(&str, freebody::spec::Value)], distance: f64, t
 }
 
 /// Ratios of wheels, and the force between them: for gears it lies along the line of action, which stands at the
-/// pressure angle to the common tangent and touches both base circles (Shigley, *Mechanical Engineering Design*, ch. 13).
+/// pressure angle to the common tangent and touches both base circles (Shigley, *Mechanical Engineering Design*, ch.
+/// 13).
 #[test]
 fn gears_and_belts_keep_their_ratio() {
     let (r1, r2, phi, torque) = (0.3, 0.5, 0.35, 2.0);
@@ -112,20 +113,20 @@ fn gears_and_belts_keep_their_ratio() {
     for (kind, fields, distance, sense, lever) in cases {
         let compiled = wheels(kind, fields, distance, torque);
         let now = instant(&compiled, &[0.4, -0.3], &[1.0, sense * r1 / r2]);
-        let told = format!("{kind} {sense}");
+        let label = format!("{kind} {sense}");
         // Reduced to the first wheel: I₁ + (r₁/r₂)² I₂.
         let alpha = torque / (0.2 + (r1 / r2).powi(2) * 0.9);
-        near(&told, now.accelerations[0], alpha, 1e-13);
-        near(&told, now.accelerations[1], sense * r1 / r2 * alpha, 1e-13);
+        near(&label, now.accelerations[0], alpha, 1e-13);
+        near(&label, now.accelerations[1], sense * r1 / r2 * alpha, 1e-13);
         let mesh = joint_named(&compiled.mechanism, "mesh");
         let force = now.joints[mesh].force;
-        near(&told, force.norm(), (torque - 0.2 * alpha) / lever, 1e-12);
+        near(&label, force.norm(), (torque - 0.2 * alpha) / lever, 1e-12);
         if kind == "gear" {
             // On the second wheel: teeth push apart, whichever way the torque is.
             for torque in [torque, -torque] {
                 let compiled = wheels(kind, fields, distance, torque);
                 let force = instant(&compiled, &[0.4, -0.3], &[1.0, sense * r1 / r2]).joints[mesh].force;
-                near(&told, force.x / force.norm(), -sense * phi.sin(), 1e-13);
+                near(&label, force.x / force.norm(), -sense * phi.sin(), 1e-13);
             }
         }
     }
@@ -181,9 +182,9 @@ fn a_four_bar_has_the_ratio_of_its_instant_centre() {
     model = model.joint("D", "hinge", &[("of", points(&["rocker.Q", "ground.D"]))], &[]);
     let compiled = model.compile();
     let q = ends.map(|(_, p, q)| bar(p, q).1);
-    let mut balance = Balance::new(&compiled.mechanism, &[]);
+    let mut workspace = Workspace::new(&compiled.mechanism, &[]);
     let mut u = vec![1.0, 0.0, 0.0];
-    balance.align(0.0, &q, &mut u).expect("closed");
+    workspace.project_velocities(0.0, &q, &mut u).expect("closed");
     let centre = b[0] - b[1] * (c[0] - b[0]) / (c[1] - b[1]);
     near("ratio", u[2] / u[0], (centre - a[0]) / (centre - d[0]), 1e-13);
 }
@@ -212,7 +213,8 @@ fn a_bead_on_a_parabola() {
     }
 }
 
-/// Over some 800 swings a symplectic method keeps the energy of a conservative motion within a band that does not widen.
+/// Over some 800 swings a symplectic method keeps the energy of a conservative motion within a band that does not
+/// widen.
 #[test]
 fn a_symplectic_method_does_not_drift() {
     let mut model = Model::new().gravity(0.0, -G);

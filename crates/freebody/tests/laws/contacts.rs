@@ -2,10 +2,10 @@
 
 use crate::model::*;
 use crate::rng::Rng;
-use freebody::balance::Balance;
 use freebody::compile::Compiled;
-use freebody::mechanism::{Friction, Gap, Mechanism, Touch};
-use freebody::mode::Hold;
+use freebody::dynamics::Workspace;
+use freebody::mechanism::{ContactPair, Friction, Gap, Mechanism};
+use freebody::mode::ContactMode;
 use freebody::plane::{vec2, Vec2};
 use freebody::spec::{Contact, Number, Stop, Surface};
 use std::f64::consts::{PI, TAU};
@@ -112,17 +112,17 @@ fn every_pair_becomes_its_touches_in_either_order() {
     ];
     for (a, b, count) in cases {
         for of in [[a.clone(), b.clone()], [b.clone(), a.clone()]] {
-            let told = format!("{of:?}");
-            let compiled = compiled(|m| m.0.contacts.push(contact("c", of))).unwrap_or_else(|e| panic!("{told}: {e}"));
+            let label = format!("{of:?}");
+            let compiled = compiled(|m| m.0.contacts.push(contact("c", of))).unwrap_or_else(|e| panic!("{label}: {e}"));
             let m = &compiled.mechanism;
-            assert_eq!((m.limits.len(), m.groups[0].limits.clone()), (count, 0..count), "{told}");
+            assert_eq!((m.unilateral.len(), m.groups[0].constraints.clone()), (count, 0..count), "{label}");
             let ends = m.groups[0].ends;
-            for limit in &m.limits {
-                let Gap::Touch(touch) = &limit.gap else { panic!("{told}: a gauge") };
+            for limit in &m.unilateral {
+                let Gap::ContactPair(touch) = &limit.gap else { panic!("{label}: a gauge") };
                 let bodies = touch.bodies(m);
-                assert!(bodies == ends || bodies == [ends[1], ends[0]], "{told}");
+                assert!(bodies == ends || bodies == [ends[1], ends[0]], "{label}");
                 let moving: Vec<usize> = bodies.into_iter().filter(|b| *b > 0).collect();
-                assert!(limit.bodies == moving && limit.friction.is_none() && limit.group == 0, "{told}");
+                assert!(limit.bodies == moving && limit.friction.is_none() && limit.group == 0, "{label}");
             }
         }
     }
@@ -180,8 +180,8 @@ fn friction_and_stops_are_read_as_given() {
         let mut c = contact("c", [point("box.A"), round("ground.O", 1.0, false)]);
         (c.friction, c.static_friction, c.rough) = (friction, fixed, rough);
         let m = compiled(|m| m.0.contacts.push(c)).expect("compiles").mechanism;
-        let slots = m.bind::<f64>(&[]).slots;
-        m.limits[0].friction.map(|f| match f {
+        let slots = m.bind::<f64>(&[]).values;
+        m.unilateral[0].friction.map(|f| match f {
             Friction::Rough => [f64::INFINITY; 2],
             Friction::Coulomb { fixed, kinetic } => [slots[fixed], slots[kinetic]],
         })
@@ -194,7 +194,9 @@ fn friction_and_stops_are_read_as_given() {
 
     let m = compiled(|m| m.0.stops.push(stop("s", "abs(x_box) - y_wheel"))).expect("compiles").mechanism;
     let group = &m.groups[0];
-    assert!((group.word, group.engaged, m.limits[0].bodies.len(), m.kinks.len()) == ("stop", false, 2, 1));
+    assert!(
+        (group.word, group.engaged, m.unilateral[0].bodies.len(), m.discontinuities.len()) == ("stop", false, 2, 1)
+    );
 }
 
 /// The touches of a point that moves over ground, with what they tell of it at a place.
@@ -218,19 +220,19 @@ impl Probe {
 
     /// All gaps, each with its normal and the distance to its nearest border.
     fn all(&self, p: Vec2) -> Vec<(f64, Vec2, f64)> {
-        let mut balance = Balance::new(&self.m, &[]);
-        balance.place(0.0, &[p.x, p.y], &[0.0; 2]);
-        let at = balance.at();
-        let touches = self.m.limits.iter().filter_map(|limit| match &limit.gap {
-            Gap::Touch(touch) => Some(touch),
+        let mut workspace = Workspace::new(&self.m, &[]);
+        workspace.place(0.0, &[p.x, p.y], &[0.0; 2]);
+        let at = workspace.at();
+        let touches = self.m.unilateral.iter().filter_map(|limit| match &limit.gap {
+            Gap::ContactPair(touch) => Some(touch),
             _ => None,
         });
-        let told = |touch: &Touch| {
-            let piece = touch.piece(&self.m, &at);
-            let border = touch.borders(&self.m, &at, piece).iter().fold(f64::INFINITY, |least, b| least.min(b.value));
-            (touch.signed_gap(&self.m, &at), touch.contact(&self.m, &at, piece).normal, border)
+        let label = |touch: &ContactPair| {
+            let feature = touch.feature(&self.m, &at);
+            let border = touch.borders(&self.m, &at, feature).iter().fold(f64::INFINITY, |least, b| least.min(b.value));
+            (touch.signed_gap(&self.m, &at), touch.contact(&self.m, &at, feature).normal, border)
         };
-        touches.map(told).collect()
+        touches.map(label).collect()
     }
 
     /// The least gap, and its normal.
@@ -239,8 +241,9 @@ impl Probe {
     }
 }
 
-/// Over a landscape of hills and valleys, a point touches it just where it is: each side with its own normal up to its very
-/// ends, and nothing in front of it. A point that slides down to a concave corner meets the side beyond with its normal, too.
+/// Over a landscape of hills and valleys, a point touches it just where it is: each side with its own normal up to its
+/// very ends, and nothing in front of it. A point that slides down to a concave corner meets the side beyond with its
+/// normal, too.
 #[test]
 fn a_point_touches_a_polyline_just_where_it_is() {
     for seed in 0..300 {
@@ -257,10 +260,13 @@ fn a_point_touches_a_polyline_just_where_it_is() {
         for ((a, b), &normal) in landscape.iter().zip(&landscape[1..]).zip(&normals) {
             for s in [1e-6, rng.within(0.0, 1.0), 1.0 - 1e-6] {
                 let foot = *a + (*b - *a) * s;
-                let (gap, told, _) = probe.at(foot);
-                assert!(gap.abs() < 1e-14 && (told - normal).norm() < 1e-12, "seed {seed}: {gap} {told:?} {normal:?}");
-                for (_, told, _) in probe.all(foot).iter().filter(|(gap, ..)| *gap < 1e-5) {
-                    assert!(normals.iter().any(|n| (*n - *told).norm() < 1e-12), "seed {seed}: {told:?}");
+                let (gap, label, _) = probe.at(foot);
+                assert!(
+                    gap.abs() < 1e-14 && (label - normal).norm() < 1e-12,
+                    "seed {seed}: {gap} {label:?} {normal:?}"
+                );
+                for (_, label, _) in probe.all(foot).iter().filter(|(gap, ..)| *gap < 1e-5) {
+                    assert!(normals.iter().any(|n| (*n - *label).norm() < 1e-12), "seed {seed}: {label:?}");
                 }
                 let above = probe.at(foot + vec2(0.0, rng.within(1e-9, 2.0))).0;
                 assert!(above > 0.0, "seed {seed}: {above}");
@@ -279,10 +285,10 @@ fn a_point_rests_in_a_valley() {
         let valley = vec2(rng.about(1.0), rng.about(1.0));
         let outline = [valley + vec2(-1.0, -slopes[0]), valley, valley + vec2(1.0, slopes[1])];
         let probe = Probe::over(&outline, polyline);
-        for (told, slope) in probe.all(valley).iter().zip(slopes) {
+        for (label, slope) in probe.all(valley).iter().zip(slopes) {
             let normal = vec2(-slope, 1.0) * (1.0 / slope.hypot(1.0));
-            let right = told.0.abs() < 1e-15 && (told.1 - normal).norm() < 1e-12 && told.2 > 1e-3;
-            assert!(right, "seed {seed}: {told:?} {normal:?}");
+            let right = label.0.abs() < 1e-15 && (label.1 - normal).norm() < 1e-12 && label.2 > 1e-3;
+            assert!(right, "seed {seed}: {label:?} {normal:?}");
         }
     }
 }
@@ -305,8 +311,8 @@ fn a_polyline_that_goes_round_has_an_inside() {
     assert!(tent.at(vec2(1.0, 0.499)).0 > 0.0 && tent.at(vec2(1.0, 0.501)).0 < 0.0 && tent.at(vec2(1.9, 0.9)).0 > 0.0);
 }
 
-/// Over the sides of both, the largest height of the other polygon over one, below 0 where they overlap; and the normal, towards
-/// the first.
+/// Over the sides of both, the largest height of the other polygon over one, below 0 where they overlap; and the
+/// normal, towards the first.
 fn parted(a: &[Vec2], b: &[Vec2]) -> (f64, Vec2) {
     let over = |of: &[Vec2], other: &[Vec2], sense: f64| -> Vec<(f64, Vec2)> {
         let ends = of.iter().zip(of.iter().cycle().skip(1));
@@ -317,8 +323,8 @@ fn parted(a: &[Vec2], b: &[Vec2]) -> (f64, Vec2) {
     all.max_by(|x, y| x.0.total_cmp(&y.0)).expect("a side")
 }
 
-/// However near to corners two polygons meet, none of their corners is in the way where a side keeps them apart, and where they
-/// touch one of the gaps that can close is closed.
+/// However near to corners two polygons meet, none of their corners is in the way where a side keeps them apart, and
+/// where they touch one of the gaps that can close is closed.
 #[test]
 fn polygons_that_meet_with_corners_touch_just_where_they_are() {
     let mut met = 0;
@@ -357,17 +363,17 @@ fn polygons_that_meet_with_corners_touch_just_where_they_are() {
             let (height, normal) = parted(&placed(at), &fixed);
             at -= normal * height;
         }
-        let mut balance = Balance::new(&m, &[]);
-        balance.place(0.0, &[at.x, at.y, angle], &[0.0; 3]);
-        let closing = (0..m.limits.len()).filter_map(|l| balance.closing_gap(l));
+        let mut workspace = Workspace::new(&m, &[]);
+        workspace.place(0.0, &[at.x, at.y, angle], &[0.0; 3]);
+        let closing = (0..m.unilateral.len()).filter_map(|l| workspace.closing_gap(l));
         let least = closing.fold(f64::INFINITY, f64::min);
         assert!(least.abs() < 1e-14, "seed {seed}, {apart:e} from corner to corner: {least:e}");
     }
     assert!(met > 500, "{met}");
 }
 
-/// A block that slides between two walls may be pinched by any amount, and the pinch brakes it: that is told, of these walls and
-/// not of the floor on which another slides.
+/// A block that slides between two walls may be pinched by any amount, and the pinch brakes it: that is told, of these
+/// walls and not of the floor on which another slides.
 #[test]
 fn how_hard_walls_pinch_what_slides_is_not_decided() {
     let mut model = Model::new().body("block", 1.0, 1.0, [0.0; 2]).body("other", 1.0, 1.0, [0.0; 2]);
@@ -383,15 +389,15 @@ fn how_hard_walls_pinch_what_slides_is_not_decided() {
         model.0.contacts.push(Contact { friction: literal(0.3), ..touch });
     }
     let m = model.compile().mechanism;
-    let mut balance = Balance::new(&m, &[]);
-    balance.place(0.0, &[0.0; 6], &[1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    let mut workspace = Workspace::new(&m, &[]);
+    workspace.place(0.0, &[0.0; 6], &[1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
     // The normal of the upper wall is turned round, and so is its tangent.
     for (l, sense) in [1.0, -1.0, 1.0].into_iter().enumerate() {
-        balance.mode.limits[l].hold = Hold::Sliding(sense);
+        workspace.mode.contacts[l].mode = ContactMode::Slip(sense);
     }
-    let trouble = balance.solve().expect_err("any pinch");
+    let trouble = workspace.solve().expect_err("any pinch");
     assert_eq!(trouble.name, "painleve_indeterminate");
     assert!(trouble.sentence.starts_with("`low` and `high` slide"), "{}", trouble.sentence);
-    balance.mode.limits[1].hold = Hold::Idle;
-    balance.solve().expect("one wall less");
+    workspace.mode.contacts[1].mode = ContactMode::ClosedUnloaded;
+    workspace.solve().expect("one wall less");
 }

@@ -27,21 +27,21 @@ fn size(load: &Value) -> f64 {
 fn every_diagram(mut visit: impl FnMut(&Value, &str)) {
     for seed in 0..MECHANISMS {
         let bench = Bench::new(&recipe(seed).draw(seed, HOME));
-        let mut balance = bench.balance();
+        let mut workspace = bench.balance();
         let mut rng = Rng::new(seed);
         for _ in 0..5 {
-            let state = bench.state(&mut balance, &mut rng, 0.3).expect("a state");
-            balance.place(state.t, &state.q, &state.u);
-            visit(&free_bodies(&mut balance).expect("a solution"), &bench.told());
+            let state = bench.state(&mut workspace, &mut rng, 0.3).expect("a state");
+            workspace.place(state.t, &state.q, &state.u);
+            visit(&free_bodies(&mut workspace).expect("a solution"), &bench.told());
         }
     }
 }
 
 #[test]
 fn the_loads_on_every_body_are_its_rate_of_momentum() {
-    every_diagram(|told, name| {
-        let loads = told["loads"].as_array().unwrap();
-        for body in told["bodies"].as_array().unwrap() {
+    every_diagram(|label, name| {
+        let loads = label["loads"].as_array().unwrap();
+        for body in label["bodies"].as_array().unwrap() {
             let (centre, mass) = (pair(&body["G"]), body["mass"].as_f64().unwrap());
             let a = pair(&body["a"]);
             let inertia = body["inertia"].as_f64().unwrap() * body["alpha"].as_f64().unwrap();
@@ -55,16 +55,16 @@ fn the_loads_on_every_body_are_its_rate_of_momentum() {
                     }
                 }
             }
-            let told = if body["particle"].as_bool().unwrap() { &left[..2] } else { &left[..] };
-            assert!(told.iter().all(|x| x.abs() < ROUND_OFF * largest), "{} of {name}: {left:?}", body["name"]);
+            let label = if body["particle"].as_bool().unwrap() { &left[..2] } else { &left[..] };
+            assert!(label.iter().all(|x| x.abs() < ROUND_OFF * largest), "{} of {name}: {left:?}", body["name"]);
         }
     });
 }
 
 #[test]
 fn what_joins_two_bodies_acts_on_both_in_opposite_ways() {
-    every_diagram(|told, name| {
-        for load in told["loads"].as_array().unwrap().iter().filter(|l| l["kind"] == "joint") {
+    every_diagram(|label, name| {
+        for load in label["loads"].as_array().unwrap().iter().filter(|l| l["kind"] == "joint") {
             let on = load["on"].as_array().unwrap();
             assert_eq!(on.len(), 2, "{name}: {load}");
             let [a, b] = [&on[0], &on[1]].map(|part| wrench(part, 1.0, [0.3, -0.7]));

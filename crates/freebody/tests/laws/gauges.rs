@@ -2,18 +2,18 @@
 
 use crate::model::*;
 use crate::random::*;
+use crate::random_motions::*;
 use crate::rng::Rng;
-use crate::thrown::*;
-use freebody::balance::{add_force, force_power, Balance};
 use freebody::builder::{Reach, Scope};
 use freebody::compile::Compiled;
+use freebody::dynamics::{add_force, force_power, Workspace};
 use freebody::expr::Env;
 use freebody::forces;
-use freebody::gauges::{Law, Leaf};
+use freebody::gauges::{ModelExpr, ModelVariable};
+use freebody::hybrid::{simulate, Settings, Start};
 use freebody::joints::Kind;
-use freebody::kinematics::{gradient, jet, Config, Kinematics, Moving, Placed};
+use freebody::kinematics::{gradient, jet, Config, Kinematics, MotionView, StateView};
 use freebody::plane::{vec2, Pose, Turn, Twist, Vec2, Wrench};
-use freebody::simulation::{simulate, Settings, Start};
 use freebody::spec::{Line, Spec};
 
 /// A mechanism with every joint of the list that can be in a tree, a particle, and a named line.
@@ -41,7 +41,7 @@ fn zoo(seed: u64) -> Thrown {
 }
 
 /// Every function that a gauge may call, with arguments that it takes; and every coordinate.
-fn gauges(spec: &Spec, compiled: &mut Compiled) -> Vec<(String, Law)> {
+fn gauges(spec: &Spec, compiled: &mut Compiled) -> Vec<(String, ModelExpr)> {
     let point = |i: usize| spec.points.iter().rev().nth(i).expect("points were thrown").name.clone();
     let arguments = [
         format!("({})", point(0)),
@@ -59,7 +59,7 @@ fn gauges(spec: &Spec, compiled: &mut Compiled) -> Vec<(String, Law)> {
         let mut scope =
             Scope { names: &compiled.names, reach: Reach::Configuration, switches: &mut compiled.mechanism.switches };
         let law = scope.law(text).ok()?;
-        let measures = law.leaves().any(|leaf| !matches!(leaf, Leaf::Parameter(_)));
+        let measures = law.variables().any(|leaf| !matches!(leaf, ModelVariable::Parameter(_)));
         measures.then(|| (text.clone(), law))
     };
     texts.iter().filter_map(&mut read).collect()
@@ -72,30 +72,30 @@ fn words(compiled: &mut Compiled) -> Vec<String> {
         .functions()
 }
 
-fn read(at: Placed<'_>, law: &Law) -> f64 {
+fn read(at: StateView<'_>, law: &ModelExpr) -> f64 {
     let env = Config { poses: &at, m: at.m, mode: at.mode };
-    law.eval::<f64, dyn Env<f64, Leaf>>(&env)
+    law.eval::<f64, dyn Env<f64, ModelVariable>>(&env)
 }
 
 /// A random state of a zoo, with everything that can be measured in it.
-fn every_zoo(mut visit: impl FnMut(&Bench, &mut Balance, &[(String, Law)], &str, &mut Rng)) {
+fn every_zoo(mut visit: impl FnMut(&Bench, &mut Workspace, &[(String, ModelExpr)], &str, &mut Rng)) {
     for seed in 0..6 {
         let thrown = zoo(seed);
         let mut bench = Bench::new(&thrown);
         let list = gauges(&thrown.model.0, &mut bench.compiled);
         let mut rng = Rng::new(100 + seed);
         let u = rng.vector(bench.q.len(), 1.5);
-        let mut balance = bench.balance();
-        balance.place(0.3, &bench.q, &u);
-        visit(&bench, &mut balance, &list, &format!("seed {seed}"), &mut rng);
+        let mut workspace = bench.balance();
+        workspace.place(0.3, &bench.q, &u);
+        visit(&bench, &mut workspace, &list, &format!("seed {seed}"), &mut rng);
     }
 }
 
 #[test]
 fn every_function_of_the_configuration_is_measured() {
-    every_zoo(|_, _, list, told, _| {
+    every_zoo(|_, _, list, label, _| {
         for word in ["x", "y", "angle", "distance", "direction", "along", "across"] {
-            assert!(list.iter().any(|(text, _)| text.starts_with(&format!("{word}("))), "{told}: {word} is missing");
+            assert!(list.iter().any(|(text, _)| text.starts_with(&format!("{word}("))), "{label}: {word} is missing");
         }
     });
 }
@@ -108,28 +108,30 @@ const DIFFERENCE: f64 = 1e-6;
 /// The loads of a unit force along a gauge are its derivative: along any motion of the bodies, tree or no tree.
 #[test]
 fn the_loads_of_a_gauge_are_its_gradient() {
-    every_zoo(|bench, balance, list, told, rng| {
+    every_zoo(|bench, workspace, list, label, rng| {
         let m = &bench.compiled.mechanism;
-        let at = balance.at();
+        let at = workspace.at();
         let mut random = || Twist { v: vec2(rng.about(1.0), rng.about(1.0)), w: rng.about(1.0) };
         let mut moves: Vec<Twist> = m.bodies.iter().map(|_| random()).collect();
         for (i, body) in m.bodies.iter().enumerate() {
             let keep = if body.particle || i == 0 { 0.0 } else { 1.0 };
             moves[i] = Twist { v: if i == 0 { Vec2::zero() } else { moves[i].v }, w: moves[i].w * keep };
         }
-        for (text, law) in list.iter().filter(|(_, law)| !law.leaves().any(|l| matches!(l, Leaf::Coordinate(..)))) {
+        for (text, law) in
+            list.iter().filter(|(_, law)| !law.variables().any(|l| matches!(l, ModelVariable::Coordinate(..))))
+        {
             let moved = |by: f64| {
                 let mut k: Kinematics = at.k.clone();
                 for (pose, v) in k.pose.iter_mut().zip(&moves) {
                     *pose = Pose { at: pose.at + v.v * by, turn: Turn::by(pose.turn.angle + v.w * by) };
                 }
-                read(Placed { k: &k, ..at }, law)
+                read(StateView { k: &k, ..at }, law)
             };
             let difference = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
             let power: f64 = m.bodies_of(law).into_iter().map(|b| gradient(at, law, b).power(moves[b])).sum();
             assert!(
                 (power - difference).abs() < DIFFERENCE * (1.0 + power.abs()),
-                "{told}: {text}: {power} {difference}"
+                "{label}: {text}: {power} {difference}"
             );
         }
     });
@@ -138,24 +140,27 @@ fn the_loads_of_a_gauge_are_its_gradient() {
 /// A gauge's rate is the power of a unit force along it, and the difference along the motion of the tree.
 #[test]
 fn the_rate_of_a_gauge_is_the_power_along_it() {
-    every_zoo(|bench, balance, list, told, _| {
+    every_zoo(|bench, workspace, list, label, _| {
         let m = &bench.compiled.mechanism;
-        let (q, u) = (balance.at().q.to_vec(), balance.at().u.to_vec());
+        let (q, u) = (workspace.at().q.to_vec(), workspace.at().u.to_vec());
         for (text, law) in list {
-            balance.place(0.3, &q, &u);
-            let at = balance.at();
-            let rate = jet(&Moving { at, bodies: None, accelerations: None }, law).d1;
+            workspace.place(0.3, &q, &u);
+            let at = workspace.at();
+            let rate = jet(&MotionView { at, bodies: None, accelerations: None }, law).d1;
             let powers: Vec<f64> =
                 m.bodies_of(law).into_iter().map(|b| gradient(at, law, b).power(at.k.twist[b])).collect();
             let size = powers.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
-            assert!((rate - powers.iter().sum::<f64>()).abs() < 1e-12 * size, "{told}: {text}: {rate} {powers:?}");
+            assert!((rate - powers.iter().sum::<f64>()).abs() < 1e-12 * size, "{label}: {text}: {rate} {powers:?}");
             let mut moved = |by: f64| {
                 let q: Vec<f64> = q.iter().zip(&u).map(|(q, u)| q + u * by).collect();
-                balance.place(0.3, &q, &u);
-                read(balance.at(), law)
+                workspace.place(0.3, &q, &u);
+                read(workspace.at(), law)
             };
             let difference = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
-            assert!((rate - difference).abs() < DIFFERENCE * (1.0 + rate.abs()), "{told}: {text}: {rate} {difference}");
+            assert!(
+                (rate - difference).abs() < DIFFERENCE * (1.0 + rate.abs()),
+                "{label}: {text}: {rate} {difference}"
+            );
         }
     });
 }
@@ -180,8 +185,8 @@ fn rates_and_accelerations_are_those_of_the_motion() {
             method: "dop853".into(),
             options,
             route: None,
-            impacts: freebody::simulation::Rule::Stop,
-            jams_strike: false,
+            impacts: freebody::hybrid::Rule::Stop,
+            jam_by_impact: false,
         };
         let start = Start { p: &bench.p, t: 0.0, q: &bench.q, u: &u, mode: None };
         let run = simulate(m, &start, 0.1, &settings, &mut |_| true).expect("starts");
@@ -189,7 +194,7 @@ fn rates_and_accelerations_are_those_of_the_motion() {
         // Central differences of step h and 2h, combined (Richardson): h⁴/30 of fifth derivatives.
         let (t, h) = (0.05, 2e-3);
         let times = [t - 2.0 * h, t - h, t, t + h, t + 2.0 * h];
-        let flat: Vec<&Law> = laws.iter().flatten().collect();
+        let flat: Vec<&ModelExpr> = laws.iter().flatten().collect();
         let rows = run.evaluate(m, &flat, &times).expect("inside the run");
         for (i, (text, _)) in list.iter().enumerate() {
             let at = |row: usize, order: usize| rows[row][3 * i + order];
@@ -197,11 +202,11 @@ fn rates_and_accelerations_are_those_of_the_motion() {
                 let narrow = (at(3, order) - at(1, order)) / (2.0 * h);
                 let wide = (at(4, order) - at(0, order)) / (4.0 * h);
                 let difference = (4.0 * narrow - wide) / 3.0;
-                let told = at(2, order + 1);
-                let size = told.abs().max(1.0);
+                let label = at(2, order + 1);
+                let size = label.abs().max(1.0);
                 // The two differences tell how far the motion is from a parabola.
                 let close = 1e-8 * size + 0.1 * (narrow - wide).abs();
-                assert!((told - difference).abs() < close, "seed {seed}: {text}, order {order}: {told} {difference}");
+                assert!((label - difference).abs() < close, "seed {seed}: {text}, order {order}: {label} {difference}");
             }
         }
     }
@@ -220,36 +225,36 @@ fn forces_do_the_work_that_their_potential_loses() {
         thrown.model.0.forces.push(force);
         let bench = Bench::new(&thrown);
         let m = &bench.compiled.mechanism;
-        let told = format!("{} at seed {seed}", kind.card().word);
-        let mut balance = bench.balance();
-        let loads = |at: Placed<'_>| {
+        let label = format!("{} at seed {seed}", kind.card().word);
+        let mut workspace = bench.balance();
+        let loads = |at: StateView<'_>| {
             let mut on = vec![Wrench::zero(); m.bodies.len()];
             add_force(at, &m.forces[0], &mut on);
             on
         };
         let u = rng.vector(bench.q.len(), 1.5);
-        balance.place(0.3, &bench.q, &u);
-        let at = balance.at();
+        workspace.place(0.3, &bench.q, &u);
+        let at = workspace.at();
         let on = loads(at);
         let power: f64 = on.iter().zip(&at.k.twist).map(|(w, v)| w.power(*v)).sum();
         let size = on.iter().zip(&at.k.twist).fold(1e-3, |m: f64, (w, v)| m.max(w.power(*v).abs()));
-        assert!((power - force_power(at, 0)).abs() < 1e-12 * size, "{told}");
+        assert!((power - force_power(at, 0)).abs() < 1e-12 * size, "{label}");
         let Some(potential) = &m.forces[0].potential else { continue };
         conservative += 1;
         // At rest: a damper beside a spring does nothing.
-        balance.place(0.3, &bench.q, &vec![0.0; u.len()]);
-        let at = balance.at();
+        workspace.place(0.3, &bench.q, &vec![0.0; u.len()]);
+        let at = workspace.at();
         let most = loads(at).iter().fold(1e-300, |m: f64, w| m.max(w.f.norm()).max(w.m.abs()));
         for (b, load) in loads(at).into_iter().enumerate().skip(1) {
             let left = (load + gradient(at, potential, b)).parts();
-            assert!(left.iter().all(|x| x.abs() < 1e-12 * most), "{told}: {left:?} of {most} on {}", m.bodies[b].name);
+            assert!(left.iter().all(|x| x.abs() < 1e-12 * most), "{label}: {left:?} of {most} on {}", m.bodies[b].name);
         }
     }
     assert!(conservative >= 60);
 }
 
-/// A body that flies through the pole of its polar coordinates: beyond it the distance is below 0, and a force along the
-/// distance, its rate and its acceleration still say the same.
+/// A body that flies through the pole of its polar coordinates: beyond it the distance is below 0, and a force along
+/// the distance, its rate and its acceleration still say the same.
 #[test]
 fn a_distance_below_0_is_a_gauge_like_any_other() {
     let model = Model::new()
@@ -262,18 +267,18 @@ fn a_distance_below_0_is_a_gauge_like_any_other() {
     let mut compiled = model.compile();
     let law = compiled.observable("r").expect("a coordinate");
     let m = &compiled.mechanism;
-    let mut balance = Balance::new(m, &[]);
+    let mut workspace = Workspace::new(m, &[]);
     // The same state told from either side of the pole.
     let mut solved = |r: f64, phi: f64, rate: f64| {
-        balance.place(0.0, &[r, phi, 0.7], &[rate, 0.5, -0.8]);
-        let going = Moving { at: balance.at(), bodies: None, accelerations: None };
+        workspace.place(0.0, &[r, phi, 0.7], &[rate, 0.5, -0.8]);
+        let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
         let read = jet(&going, &law);
         assert!((read.d0 - r).abs() < 1e-15 && (read.d1 - rate).abs() < 1e-14, "{read:?}");
-        balance.instant(freebody::balance::Route::Minimal).expect("it flies freely")
+        workspace.instant(freebody::dynamics::Route::Minimal).expect("it flies freely")
     };
-    let (ahead, behind) = (solved(0.6, 0.2, 1.1), solved(-0.6, 0.2 + std::f64::consts::PI, -1.1));
+    let (later, behind) = (solved(0.6, 0.2, 1.1), solved(-0.6, 0.2 + std::f64::consts::PI, -1.1));
     // What drives it away from the pole in the one telling draws it there in the other.
-    for (a, sense) in [(&ahead, 1.0), (&behind, -1.0)] {
+    for (a, sense) in [(&later, 1.0), (&behind, -1.0)] {
         let free = [a.bodies[0][0] - 0.4, a.bodies[0][1] + 9.81];
         let (sin, cos) = 0.2_f64.sin_cos();
         let off = (2.0 * free[0] - sense * 3.0 * cos).hypot(2.0 * free[1] - sense * 3.0 * sin);

@@ -1,9 +1,9 @@
 //! The contract of a joint, for every joint of the list.
 
+use crate::random_motions::*;
 use crate::rng::Rng;
-use crate::thrown::*;
 use freebody::joints::{Card, Joint, Kind, Numbers, Relative};
-use freebody::plane::Few;
+use freebody::plane::Rows3;
 use freebody::scalar::Dual;
 use std::f64::consts::TAU;
 
@@ -26,7 +26,7 @@ impl Drawn {
     fn pose(&self, q: &[f64]) -> Relative<f64> {
         self.kind.pose(&self.of(), q).expect("has a pose")
     }
-    fn residual(&self, r: [f64; 3]) -> Option<Few<f64>> {
+    fn residual(&self, r: [f64; 3]) -> Option<Rows3<f64>> {
         self.kind.residual(&self.of(), &Relative { x: r[0], y: r[1], angle: r[2] })
     }
     /// Columns of the pose: x, y and angle by each coordinate.
@@ -56,8 +56,8 @@ fn every_joint(mut visit: impl FnMut(Drawn, &mut Rng)) {
         for seed in 0..DRAWS {
             let mut rng = Rng::new(seed);
             let (numbers, wave) = (numbers_for(&card, &mut rng), Wave::thrown(&mut rng));
-            let (q, told) = (coordinates_for(&card, &mut rng), format!("{} at seed {seed}", card.word));
-            visit(Drawn { kind, card: card.clone(), numbers, wave, q, told }, &mut rng);
+            let (q, label) = (coordinates_for(&card, &mut rng), format!("{} at seed {seed}", card.word));
+            visit(Drawn { kind, card: card.clone(), numbers, wave, q, told: label }, &mut rng);
         }
     }
 }
@@ -140,9 +140,9 @@ fn duals_agree_with_central_differences() {
                 q[k] += by;
                 parts(joint.pose(&q))
             };
-            let (ahead, back) = (moved(h), moved(-h));
+            let (later, back) = (moved(h), moved(-h));
             for i in 0..3 {
-                let difference = (ahead[i] - back[i]) / (2.0 * h);
+                let difference = (later[i] - back[i]) / (2.0 * h);
                 assert!((difference - column[i]).abs() < close, "{}: column {k}", joint.told);
             }
         }
@@ -156,9 +156,9 @@ fn duals_agree_with_central_differences() {
                 at[k] += by;
                 joint.residual(at).expect("has rows")
             };
-            let (ahead, back) = (moved(h), moved(-h));
+            let (later, back) = (moved(h), moved(-h));
             for (i, gradient) in gradients.iter().enumerate() {
-                let difference = (ahead[i] - back[i]) / (2.0 * h);
+                let difference = (later[i] - back[i]) / (2.0 * h);
                 assert!((difference - gradient[k]).abs() < close, "{}: row {i} by {k}", joint.told);
             }
         }

@@ -7,23 +7,23 @@
 )]
 
 mod arrows;
+mod cables;
 mod closed_forms;
+mod contact_geometry;
 mod contacts;
-mod cords;
 mod free_bodies;
 mod gauges;
 mod joints;
-mod letters;
 mod metamorphic;
 mod model;
 mod piles;
 mod random;
+mod random_cables;
 mod random_mechanisms;
+mod random_motions;
 mod redundancy;
 mod rng;
 mod scenes;
-mod strung;
-mod thrown;
-mod touches;
+mod symbolic;
 mod tree_choice;
 mod two_tellings;

@@ -4,15 +4,15 @@ use crate::model::*;
 use crate::random::*;
 use crate::random_mechanisms::{loads, motion, recipe, HOME, MECHANISMS};
 use crate::rng::Rng;
-use freebody::balance::{Instant, Route};
+use freebody::dynamics::{Instant, Route};
 use freebody::joints::{Joint, Kind};
 use freebody::spec::{Element, Number, Place, Spec, Value};
 
 /// Two solutions whose numbers all differ by round-off, through masses that differ by 1e4.
 const AGREE: f64 = 1e-9;
 
-/// Without actuators, which read the place of things in the world; and without particles in loops, from which a body may
-/// come to hang: an angle measured from a particle is measured from the world.
+/// Without actuators, which read the place of things in the world; and without particles in loops, from which a body
+/// may come to hang: an angle measured from a particle is measured from the world.
 fn ideal(seed: u64) -> Recipe {
     let recipe = recipe(seed);
     let particles = if recipe.loops > 0 { 0 } else { recipe.particles };
@@ -22,8 +22,9 @@ fn ideal(seed: u64) -> Recipe {
 /// A state of the mechanism at home.
 fn state(seed: u64) -> (Bench, State) {
     let bench = Bench::new(&ideal(seed).draw(seed, HOME));
-    let mut balance = bench.balance();
-    let found = bench.state(&mut balance, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
+    let mut workspace = bench.balance();
+    let found =
+        bench.state(&mut workspace, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
     (bench, found)
 }
 
@@ -31,12 +32,12 @@ fn state(seed: u64) -> (Bench, State) {
 fn solved(seed: u64, base: Base, own: &[[f64; 2]], s: &State) -> Instant {
     let bench = Bench::new(&ideal(seed).draw(seed, base));
     let join = |at: usize, rest: &[f64]| own.iter().map(|x| x[at]).chain(rest.iter().copied()).collect::<Vec<_>>();
-    let mut balance = bench.balance();
-    balance.place(s.t, &join(0, &s.q), &join(1, &s.u));
-    balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}, {base:?}: {e:?}"))
+    let mut workspace = bench.balance();
+    workspace.place(s.t, &join(0, &s.q), &join(1, &s.u));
+    workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}, {base:?}: {e:?}"))
 }
 
-/// Forces and accelerations told in axes turned by `angle`.
+/// Forces and accelerations expressed in axes turned by `angle`.
 fn turned_back(now: &Instant, angle: f64) -> (Vec<f64>, Vec<f64>) {
     let back = |x: f64, y: f64| turned(freebody::plane::vec2(x, y), -angle);
     let bodies = now.bodies.iter().flat_map(|b| [back(b[0], b[1]).x, back(b[0], b[1]).y, b[2]]);
@@ -71,11 +72,11 @@ fn a_moving_base_cannot_be_felt() {
         // Forces that read absolute rates, and joints to ground, would feel the motion; all here are between bodies.
         let home = solved(seed, HOME, &[], &s);
         let boosted = solved(seed, Base::Sliding(0.0), &[[0.7, 5.0]], &s);
-        let told = bench.told();
+        let label = bench.told();
         let joints = 3..3 * bench.compiled.mechanism.joints.len();
         let known = |now: &Instant| loads(now)[joints.clone()].to_vec();
         let (a, f) = (apart(&motion_of(&home), &motion_of(&boosted), 1.0), apart(&known(&home), &known(&boosted), 1.0));
-        assert!(a < AGREE && f < AGREE, "seed {seed}: accelerations {a:e}, reactions {f:e}; {told}");
+        assert!(a < AGREE && f < AGREE, "seed {seed}: accelerations {a:e}, reactions {f:e}; {label}");
 
         let push = 3.0;
         let pushed = solved(seed, Base::Sliding(push), &[[0.7, 5.0]], &s);
@@ -84,12 +85,12 @@ fn a_moving_base_cannot_be_felt() {
         let freebody::spec::Number::Literal(x) = gx else { panic!("gravity is drawn as a number") };
         *gx = literal(*x - push);
         let falling = Bench::new(&falling);
-        let mut balance = falling.balance();
-        balance.place(s.t, &s.q, &s.u);
-        let tilted = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        let mut workspace = falling.balance();
+        workspace.place(s.t, &s.q, &s.u);
+        let tilted = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
         let relative: Vec<f64> = motion_of(&pushed).chunks(3).flat_map(|b| [b[0] - push, b[1], b[2]]).collect();
         let (a, f) = (apart(&motion_of(&tilted), &relative, 1.0), apart(&known(&tilted), &known(&pushed), 1.0));
-        assert!(a < AGREE && f < AGREE, "seed {seed}, accelerated: accelerations {a:e}, reactions {f:e}; {told}");
+        assert!(a < AGREE && f < AGREE, "seed {seed}, accelerated: accelerations {a:e}, reactions {f:e}; {label}");
     }
 }
 
@@ -103,26 +104,26 @@ fn a_power_of_two_in_the_masses_changes_no_bit_of_the_motion() {
     for seed in 0..MECHANISMS {
         let (bench, s) = state(seed);
         let scale = bench.compiled.names.parameters["scale"];
-        let mut balance = bench.balance();
+        let mut workspace = bench.balance();
         let mut solved = |factor: f64| {
             let mut p = bench.p.clone();
             p[scale] = factor;
-            balance.rebind(&p);
-            balance.place(s.t, &s.q, &s.u);
-            balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"))
+            workspace.rebind(&p);
+            workspace.place(s.t, &s.q, &s.u);
+            workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"))
         };
         let one = solved(1.0);
         for factor in [2.0, 0.25] {
             let other = solved(factor);
             assert_eq!(motion(&one), motion(&other), "seed {seed}, factor {factor}; {}", bench.told());
-            let told: Vec<f64> = loads(&one).iter().map(|x| x * factor).collect();
-            assert_eq!(told, loads(&other), "seed {seed}, factor {factor}; {}", bench.told());
+            let label: Vec<f64> = loads(&one).iter().map(|x| x * factor).collect();
+            assert_eq!(label, loads(&other), "seed {seed}, factor {factor}; {}", bench.told());
         }
     }
 }
 
-/// The same world seen in a mirror, y → −y. In body frames as in the fixed axes y changes sign, and angles with it; lines
-/// and curves that have something on their left run the other way.
+/// The same world seen in a mirror, y → −y. In body frames as in the fixed axes y changes sign, and angles with it;
+/// lines and curves that have something on their left run the other way.
 fn mirrored(mut spec: Spec) -> Spec {
     let minus = |x: &mut Number| {
         *x = match x {
@@ -175,16 +176,16 @@ fn the_world_in_a_mirror_is_as_good() {
     for seed in 0..3 * MECHANISMS {
         let thrown = ideal(seed).draw(seed, HOME);
         let bench = Bench::new(&thrown);
-        let mut balance = bench.balance();
-        let told = bench.told();
+        let mut workspace = bench.balance();
+        let label = bench.told();
         // The angle of a wheel is counted from the way of its line, which the mirror turns round.
         if bench.compiled.mechanism.joints.iter().any(|j| j.kind == Kind::Rolling && j.child.is_some()) {
             continue;
         }
         seen_there += 1;
-        let s = bench.state(&mut balance, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("no state: {told}"));
-        balance.place(s.t, &s.q, &s.u);
-        let here = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}"));
+        let s = bench.state(&mut workspace, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("no state: {label}"));
+        workspace.place(s.t, &s.q, &s.u);
+        let here = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
 
         let there = Model(mirrored(thrown.model.0)).compile();
         let m = &there.mechanism;
@@ -197,16 +198,16 @@ fn the_world_in_a_mirror_is_as_good() {
                 (q[i], u[i]) = (-q[i], -u[i]);
             }
         }
-        let mut balance = freebody::balance::Balance::new(m, &bench.p);
-        balance.place(s.t, &q, &u);
-        let there = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}, mirrored: {e:?}"));
+        let mut workspace = freebody::dynamics::Workspace::new(m, &bench.p);
+        workspace.place(s.t, &q, &u);
+        let there = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}, mirrored: {e:?}"));
         let seen = |x: Vec<f64>| x.chunks(3).flat_map(|b| [b[0], -b[1], -b[2]]).collect::<Vec<_>>();
         let (a, f) = (
             apart(&motion_of(&here), &seen(motion_of(&there)), 1.0),
             apart(&loads(&here), &seen(loads(&there)), 1e-300),
         );
-        assert!(a < AGREE && f < AGREE, "seed {seed}: accelerations {a:e}, reactions {f:e}; {told}");
-        assert_eq!(here.determinate, there.determinate, "{told}");
+        assert!(a < AGREE && f < AGREE, "seed {seed}: accelerations {a:e}, reactions {f:e}; {label}");
+        assert_eq!(here.determinate, there.determinate, "{label}");
     }
     assert!(seen_there > MECHANISMS, "only {seen_there} mechanisms have a mirror image");
 }

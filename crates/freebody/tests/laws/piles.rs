@@ -3,9 +3,9 @@
 
 mod pile;
 
-use freebody::contact::complementarity::Law;
+use freebody::contact::complementarity::ImpactLaw;
+use freebody::hybrid::{simulate, Rule, Settings, Start, Trajectory};
 use freebody::motion::Options;
-use freebody::simulation::{simulate, Rule, Settings, Start, Trajectory};
 use pile::Pile;
 use std::time::Instant;
 
@@ -58,8 +58,8 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
         method: "dop853".into(),
         options: Options { max_steps: 200_000, ..Options::default() },
         route: None,
-        impacts: Rule::Law(Law::Newton),
-        jams_strike: true,
+        impacts: Rule::Law(ImpactLaw::Newton),
+        jam_by_impact: true,
     };
     let clock = Instant::now();
     let start = Start { p: &[], t: 0.0, q: &q, u: &u, mode: None };
@@ -94,7 +94,7 @@ fn judge(seed: u64, pile: &Pile, run: &Trajectory, wall: f64) -> Told {
     }
     let (outcome, sentence) = (run.outcome.name().to_string(), run.outcome.to_string());
     let steps = [run.counts[0], run.counts[1]];
-    let (end, bodies, changes) = (ends[ends.len() - 1], pile.blocks.len(), run.changes.len());
+    let (end, bodies, changes) = (ends[ends.len() - 1], pile.blocks.len(), run.mode_changes.len());
     Told { seed, bodies, outcome, sentence, end, steps, changes, deepest, rise, left, wall }
 }
 
@@ -102,8 +102,8 @@ fn judge(seed: u64, pile: &Pile, run: &Trajectory, wall: f64) -> Told {
 #[test]
 fn nothing_goes_through_anything_and_no_energy_comes_from_nowhere() {
     for seed in 0..6 {
-        let told = throw(seed, 0.5, f64::INFINITY);
-        assert!(told.outcome == "Completed" && told.is_sound(), "{}\n{}", told.line(), told.sentence);
+        let label = throw(seed, 0.5, f64::INFINITY);
+        assert!(label.outcome == "Completed" && label.is_sound(), "{}\n{}", label.line(), label.sentence);
     }
 }
 
@@ -111,8 +111,8 @@ fn nothing_goes_through_anything_and_no_energy_comes_from_nowhere() {
 #[test]
 fn small_piles_come_to_rest() {
     for seed in [5, 12, 16, 18, 24, 33, 42, 81] {
-        let told = throw(seed, 5.0, f64::INFINITY);
-        assert!(told.outcome == "Completed" && told.is_sound(), "{}\n{}", told.line(), told.sentence);
+        let label = throw(seed, 5.0, f64::INFINITY);
+        assert!(label.outcome == "Completed" && label.is_sound(), "{}\n{}", label.line(), label.sentence);
     }
 }
 
@@ -129,12 +129,12 @@ fn a_hundred_piles_come_to_rest() {
     println!("{HEAD}");
     let mut all = vec![];
     for seed in seeds {
-        let told = throw(seed, 5.0, patience);
-        println!("{}", told.line());
-        if told.outcome != "Completed" || !told.is_sound() {
-            println!("      {} | deepest at {}, rise at {}", told.sentence, told.deepest.1, told.rise.1);
+        let label = throw(seed, 5.0, patience);
+        println!("{}", label.line());
+        if label.outcome != "Completed" || !label.is_sound() {
+            println!("      {} | deepest at {}, rise at {}", label.sentence, label.deepest.1, label.rise.1);
         }
-        all.push(told);
+        all.push(label);
     }
     let completed = all.iter().filter(|t| t.outcome == "Completed").count();
     let mut walls: Vec<f64> = all.iter().map(|t| t.wall).collect();

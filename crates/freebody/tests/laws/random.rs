@@ -1,10 +1,10 @@
 //! Random mechanisms, and random states of them.
 
 use crate::model::*;
+use crate::random_motions::*;
 use crate::rng::Rng;
-use crate::thrown::*;
-use freebody::balance::{Balance, Route};
 use freebody::compile::Compiled;
+use freebody::dynamics::{Route, Workspace};
 use freebody::forces;
 use freebody::joints::{FieldKind, Joint, Kind};
 use freebody::spec::*;
@@ -35,8 +35,8 @@ pub enum Base {
 }
 
 impl Recipe {
-    /// A mechanism drawn from a seed: masses from 1e-2 to 1e2 kg, lengths of a metre, forces of some newtons. All masses
-    /// and all force laws have the parameter `scale` as a factor.
+    /// A mechanism drawn from a seed: masses from 1e-2 to 1e2 kg, lengths of a metre, forces of some newtons. All
+    /// masses and all force laws have the parameter `scale` as a factor.
     pub fn draw(&self, seed: u64, base: Base) -> Thrown {
         let mut rng = Rng::new(seed);
         let rng = &mut rng;
@@ -148,9 +148,10 @@ impl Recipe {
         thrown.model = before.clone().motion(name, &gauge, &law, level, by.as_deref());
         // A motion that loops and other motions exclude, or already give, is taken back.
         let bench = Bench::new(thrown);
-        let mut balance = bench.balance();
-        balance.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
-        let possible = balance.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate.iter().all(|&sure| sure));
+        let mut workspace = bench.balance();
+        workspace.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+        let possible =
+            workspace.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate.iter().all(|&sure| sure));
         if !possible {
             thrown.model = before;
         }
@@ -292,8 +293,8 @@ impl Bench {
         Bench::new(&thrown)
     }
 
-    pub fn balance(&self) -> Balance<'_> {
-        Balance::new(&self.compiled.mechanism, &self.p)
+    pub fn balance(&self) -> Workspace<'_> {
+        Workspace::new(&self.compiled.mechanism, &self.p)
     }
 
     /// The mechanism in a few words, for whoever reads a failure.
@@ -316,23 +317,24 @@ impl Bench {
         m.coordinates.iter().zip(q).all(|(&(joint, k), q)| {
             let c = &m.joints[joint].coordinates[k];
             let word = m.joints[joint].kind.card().coordinates[c.card].name;
-            word != "r" || n.slots[c.zero] + c.sense * q > 0.1
+            word != "r" || n.values[c.zero] + c.sense * q > 0.1
         })
     }
 
-    /// A random state on the closed loops within `reach` of the pose thrown, or nearer where loops close nowhere else; None
-    /// where no state was found.
-    pub fn state(&self, balance: &mut Balance, rng: &mut Rng, reach: f64) -> Option<State> {
+    /// A random state on the closed loops within `reach` of the pose thrown, or nearer where loops close nowhere else;
+    /// None where no state was found.
+    pub fn state(&self, workspace: &mut Workspace, rng: &mut Rng, reach: f64) -> Option<State> {
         let n = self.q.len();
         let still = vec![0.0; n];
-        balance.place(0.0, &self.q, &still);
-        balance.take_phases();
+        workspace.place(0.0, &self.q, &still);
+        workspace.take_row_offsets();
         for i in 0..200 {
             let reach = reach * 0.97_f64.powi(i);
             let t = rng.within(0.0, 1.0);
             let mut q: Vec<f64> = self.q.iter().map(|q| q + rng.about(reach)).collect();
             let mut u = rng.vector(n, 2.0);
-            let closed = balance.close(t, &mut q, &still).is_ok() && balance.align(t, &q, &mut u).is_ok();
+            let closed = workspace.project_positions(t, &mut q, &still).is_ok()
+                && workspace.project_velocities(t, &q, &mut u).is_ok();
             // Loops may close far off, at a place where the mechanism is all but singular.
             let near = q.iter().zip(&self.q).all(|(a, b)| (a - b).abs() < 2.0) && u.iter().all(|u| u.abs() < 20.0);
             if closed && near && self.off_the_pole(&q) {

@@ -3,7 +3,7 @@
 use crate::model::*;
 use crate::random::*;
 use crate::rng::Rng;
-use freebody::balance::{force_power, force_value, unaccounted_power, Balance, Instant, JointLoad, Route};
+use freebody::dynamics::{force_power, force_value, unaccounted_power, Instant, JointLoad, Route, Workspace};
 use freebody::kinematics::gradient;
 
 pub const MECHANISMS: u64 = 30;
@@ -35,17 +35,17 @@ pub fn recipe(seed: u64) -> Recipe {
 fn every_state(
     recipe: impl Fn(u64) -> Recipe,
     states: usize,
-    mut visit: impl FnMut(&Bench, &mut Balance, &State, &str, &mut Rng),
+    mut visit: impl FnMut(&Bench, &mut Workspace, &State, &str, &mut Rng),
 ) {
     for seed in 0..MECHANISMS {
         let bench = Bench::new(&recipe(seed).draw(seed, HOME));
-        let mut balance = bench.balance();
+        let mut workspace = bench.balance();
         let mut rng = Rng::new(seed);
         for i in 0..states {
-            let told = format!("seed {seed}, state {i}, {}", bench.told());
-            let state = bench.state(&mut balance, &mut rng, REACH).unwrap_or_else(|| panic!("no state: {told}"));
-            balance.place(state.t, &state.q, &state.u);
-            visit(&bench, &mut balance, &state, &told, &mut rng);
+            let label = format!("seed {seed}, state {i}, {}", bench.told());
+            let state = bench.state(&mut workspace, &mut rng, REACH).unwrap_or_else(|| panic!("no state: {label}"));
+            workspace.place(state.t, &state.q, &state.u);
+            visit(&bench, &mut workspace, &state, &label, &mut rng);
         }
     }
 }
@@ -76,11 +76,11 @@ fn every_joint_holds_at_the_pose_thrown() {
     for seed in 0..MECHANISMS {
         let thrown = recipe(seed).draw(seed, HOME);
         let bench = Bench::new(&thrown);
-        let mut balance = bench.balance();
-        balance.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+        let mut workspace = bench.balance();
+        workspace.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
         for body in bench.compiled.mechanism.listed_bodies() {
             let name = &bench.compiled.mechanism.bodies[body].name;
-            let off = apart(&balance.frame(body), &thrown.pose[name], 1.0);
+            let off = apart(&workspace.frame(body), &thrown.pose[name], 1.0);
             assert!(off < 1e-13, "seed {seed}: {name} is {off:e} off; {}", bench.told());
         }
     }
@@ -89,15 +89,15 @@ fn every_joint_holds_at_the_pose_thrown() {
 #[test]
 fn the_three_routes_agree_and_every_body_balances() {
     let mut states = 0;
-    every_state(recipe, STATES, |_, balance, _, told, _| {
-        let minimal = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}"));
+    every_state(recipe, STATES, |_, workspace, _, label, _| {
+        let minimal = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         for (word, route) in Route::ALL {
-            let now = balance.instant(*route).unwrap_or_else(|e| panic!("{told}: {word}: {e:?}"));
+            let now = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));
             // Accelerations below 1 m/s² are nothing against gravity.
             let (a, f) = (apart(&motion(&minimal), &motion(&now), 1.0), apart(&loads(&minimal), &loads(&now), 1e-300));
-            assert!(a < AGREE && f < AGREE, "{told}: {word}: accelerations {a:e}, reactions {f:e} apart");
-            assert!(now.residual < 1e-12, "{told}: {word}: residual {:e}", now.residual);
-            assert_eq!(now.determinate, minimal.determinate, "{told}: {word}");
+            assert!(a < AGREE && f < AGREE, "{label}: {word}: accelerations {a:e}, reactions {f:e} apart");
+            assert!(now.residual < 1e-12, "{label}: {word}: residual {:e}", now.residual);
+            assert_eq!(now.determinate, minimal.determinate, "{label}: {word}");
         }
         states += 1;
     });
@@ -125,11 +125,11 @@ fn light_links_between_heavy_ones_keep_their_digits() {
         }
         model = model.point("ground.E", [at.x, at.y]);
         let compiled = model.joint("close", "hinge", &[("of", points(&[&before, "ground.E"]))], &[]).compile();
-        let mut balance = Balance::new(&compiled.mechanism, &[]);
+        let mut workspace = Workspace::new(&compiled.mechanism, &[]);
         let mut u = rng.vector(bars, 1.0);
-        balance.align(0.0, &q, &mut u).expect("closed as drawn");
-        balance.place(0.0, &q, &u);
-        let found: Vec<Instant> = Route::ALL.iter().map(|r| balance.instant(r.1).expect("moves")).collect();
+        workspace.project_velocities(0.0, &q, &mut u).expect("closed as drawn");
+        workspace.place(0.0, &q, &u);
+        let found: Vec<Instant> = Route::ALL.iter().map(|r| workspace.instant(r.1).expect("moves")).collect();
         for now in &found {
             let off = apart(&motion(&found[0]), &motion(now), 1.0);
             assert!(off < AGREE, "draw {i}: accelerations {off:e} apart");
@@ -140,26 +140,26 @@ fn light_links_between_heavy_ones_keep_their_digits() {
 /// d(kinetic + potential)/dt is the power of what has no potential, actuators included.
 #[test]
 fn energy_changes_by_the_power_put_in() {
-    every_state(recipe, 8, |bench, balance, _, told, _| {
-        balance.solve().unwrap_or_else(|e| panic!("{told}: {e:?}"));
+    every_state(recipe, 8, |bench, workspace, _, label, _| {
+        workspace.solve().unwrap_or_else(|e| panic!("{label}: {e:?}"));
         let m = &bench.compiled.mechanism;
-        let (at, n) = (balance.at(), &balance.n);
+        let (at, n) = (workspace.at(), &workspace.n);
         let mut terms = vec![];
         for b in 1..m.bodies.len() {
-            let (v, w) = (balance.centre(b).1, at.k.twist[b].w);
-            terms.push(n.mass[b] * v.dot(balance.centre_acceleration(b) - n.gravity));
-            terms.push(n.inertia[b] * w * balance.solved().bodies[b].w);
+            let (v, w) = (workspace.centre(b).1, at.k.twist[b].w);
+            terms.push(n.mass[b] * v.dot(workspace.centre_acceleration(b) - n.gravity));
+            terms.push(n.inertia[b] * w * workspace.solved().bodies[b].w);
         }
         terms.extend((0..m.forces.len()).map(|force| -unaccounted_power(at, force)));
         for potential in at.forces().filter_map(|(_, force)| force.potential.as_ref()) {
             terms.extend(m.bodies_of(potential).into_iter().map(|b| gradient(at, potential, b).power(at.k.twist[b])));
         }
-        terms.extend(balance.drive_powers().iter().map(|p| -p));
+        terms.extend(workspace.drive_powers().iter().map(|p| -p));
         // Ideal joints transmit any power; what they take in at one body they give out at the other.
         let left: f64 = terms.iter().sum();
-        let transmitted = balance.joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
+        let transmitted = workspace.joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
         let size = terms.iter().fold(transmitted, |m: f64, x| m.max(x.abs()));
-        assert!(left.abs() < AGREE * size, "{told}: {left:e} of {size:e} W is unaccounted for");
+        assert!(left.abs() < AGREE * size, "{label}: {left:e} of {size:e} W is unaccounted for");
     });
 }
 
@@ -173,18 +173,18 @@ fn what_is_not_in_place_does_nothing() {
         let (mut with, mut without) = (whole.balance(), bare.balance());
         let state = bare.state(&mut without, &mut Rng::new(seed), REACH).expect("a state");
         with.place(0.0, &whole.q, &vec![0.0; whole.q.len()]);
-        with.take_phases();
-        for balance in [&mut with, &mut without] {
-            balance.place(state.t, &state.q, &state.u);
+        with.take_row_offsets();
+        for workspace in [&mut with, &mut without] {
+            workspace.place(state.t, &state.q, &state.u);
         }
-        let told = format!("seed {seed}, {}", whole.told());
+        let label = format!("seed {seed}, {}", whole.told());
         let [a, b] = [&mut with, &mut without]
-            .map(|balance| balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}")));
-        assert!(apart(&motion(&a), &motion(&b), 1.0) < AGREE, "{told}");
-        let named = |balance: &Balance, joints: bool, now: &Instant| -> Vec<(String, [f64; 3])> {
+            .map(|workspace| workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}")));
+        assert!(apart(&motion(&a), &motion(&b), 1.0) < AGREE, "{label}");
+        let named = |workspace: &Workspace, joints: bool, now: &Instant| -> Vec<(String, [f64; 3])> {
             let joint =
-                |(j, l): (usize, &JointLoad)| (balance.m.joints[j].name.clone(), [l.force.x, l.force.y, l.couple]);
-            let drive = |(d, f): (usize, &f64)| (balance.m.drives[d].name.clone(), [*f, 0.0, 0.0]);
+                |(j, l): (usize, &JointLoad)| (workspace.m.joints[j].name.clone(), [l.force.x, l.force.y, l.couple]);
+            let drive = |(d, f): (usize, &f64)| (workspace.m.drives[d].name.clone(), [*f, 0.0, 0.0]);
             let all = now.joints.iter().enumerate().map(joint).take(if joints { usize::MAX } else { 0 });
             all.chain(now.drives.iter().enumerate().map(drive)).collect()
         };
@@ -193,19 +193,19 @@ fn what_is_not_in_place_does_nothing() {
         let most = theirs.iter().flat_map(|(_, load)| load).fold(1.0_f64, |most, x| most.max(x.abs()));
         for (name, load) in mine {
             let other = theirs.iter().find(|(n, _)| *n == name).map_or([0.0; 3], |(_, load)| *load);
-            assert!((0..3).all(|i| (load[i] - other[i]).abs() < AGREE * most), "{told}: {name}: {load:?} {other:?}");
+            assert!((0..3).all(|i| (load[i] - other[i]).abs() < AGREE * most), "{label}: {name}: {load:?} {other:?}");
         }
         for (what, x, y) in [
             ("kinetic", with.kinetic_energy(), without.kinetic_energy()),
             ("potential", with.potential_energy(), without.potential_energy()),
         ] {
-            assert!((x - y).abs() <= 1e-13 * x.abs().max(1.0), "{told}: {what} {x} {y}");
+            assert!((x - y).abs() <= 1e-13 * x.abs().max(1.0), "{label}: {what} {x} {y}");
         }
         for (f, force) in with.m.forces.iter().enumerate() {
             let there = thrown.model.0.forces.iter().any(|spec| spec.name == force.name && spec.engaged);
             idle += usize::from(!there);
             let powers = [force_power(with.at(), f), unaccounted_power(with.at(), f), force_value(with.at(), f)];
-            assert!(there || powers == [0.0; 3], "{told}: {}: {powers:?}", force.name);
+            assert!(there || powers == [0.0; 3], "{label}: {}: {powers:?}", force.name);
         }
     }
     assert!(idle > 50, "{idle}");
@@ -227,9 +227,9 @@ fn accelerations_are_reciprocal() {
             );
         }
         let bench = Bench::new(&thrown);
-        let mut balance = bench.balance();
+        let mut workspace = bench.balance();
         let mut rng = Rng::new(seed);
-        let state = bench.state(&mut balance, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
+        let state = bench.state(&mut workspace, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
         let n = names.len();
         let mut response = |loaded: Option<usize>| {
             let mut p = bench.p.clone();
@@ -237,11 +237,11 @@ fn accelerations_are_reciprocal() {
                 let load = bench.compiled.names.parameters[&format!("load{i}")];
                 p[load] = 1.0;
             }
-            balance.rebind(&p);
-            balance.place(state.t, &state.q, &state.u);
-            balance.solve().unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+            workspace.rebind(&p);
+            workspace.place(state.t, &state.q, &state.u);
+            workspace.solve().unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
             let mut a = vec![0.0; n];
-            balance.accelerations(&mut a);
+            workspace.accelerations(&mut a);
             a
         };
         let rest = response(None);
@@ -282,31 +282,31 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         pushed.model =
             pushed.model.force("push", "law", &[("along", text(format!("'{name}'"))), ("value", value(load))]);
         let pushed = Bench::new(&pushed);
-        let mut balance = pushed.balance();
+        let mut workspace = pushed.balance();
         let mut rng = Rng::new(seed);
-        let state = pushed.state(&mut balance, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
-        balance.place(state.t, &state.q, &state.u);
-        let forward = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        let state = pushed.state(&mut workspace, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
+        workspace.place(state.t, &state.q, &state.u);
+        let forward = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
         let i = index_of(&pushed.compiled.mechanism, &name);
         let law = format!("{:?}", forward.accelerations[i]);
         let mut driven = thrown.clone();
         driven.model = driven.model.motion("push", &format!("'{name}'"), &law, "acceleration", None);
         let driven = Bench::new(&driven);
-        let mut balance = driven.balance();
-        balance.place(state.t, &state.q, &state.u);
-        let inverse = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
-        let told = format!("seed {seed}, {name}, {}", driven.told());
+        let mut workspace = driven.balance();
+        workspace.place(state.t, &state.q, &state.u);
+        let inverse = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+        let label = format!("seed {seed}, {name}, {}", driven.told());
         let (a, f) = (
             apart(&motion(&forward), &motion(&inverse), 1.0),
             apart(&loads(&forward), &loads(&inverse)[..loads(&forward).len()], load),
         );
-        assert!(a < AGREE, "{told}: accelerations {a:e} apart");
+        assert!(a < AGREE, "{label}: accelerations {a:e} apart");
         if inverse.drives_determinate[0] {
             let mass = pushed.compiled.mechanism.bind(&pushed.p).mass.iter().sum::<f64>();
             let inertial = motion(&forward).iter().fold(0.0_f64, |m, x| m.max(x.abs())) * mass;
             let most = loads(&forward).iter().fold(inertial.max(load), |m, x| m.max(x.abs()));
-            assert!((inverse.drives[0] - load).abs() < AGREE * most, "{told}: {} N for {load} N", inverse.drives[0]);
-            assert!(f < AGREE, "{told}: reactions {f:e} apart");
+            assert!((inverse.drives[0] - load).abs() < AGREE * most, "{label}: {} N for {load} N", inverse.drives[0]);
+            assert!(f < AGREE, "{label}: reactions {f:e} apart");
         }
     }
 }
@@ -314,16 +314,16 @@ fn inverse_dynamics_undoes_forward_dynamics() {
 /// The power of every force is that of its loads on the bodies.
 #[test]
 fn power_is_load_times_velocity() {
-    every_state(recipe, 4, |bench, balance, _, told, _| {
+    every_state(recipe, 4, |bench, workspace, _, label, _| {
         let m = &bench.compiled.mechanism;
-        let at = balance.at();
+        let at = workspace.at();
         for (f, force) in at.forces() {
             let mut on = vec![freebody::plane::Wrench::zero(); m.bodies.len()];
-            freebody::balance::add_force(at, force, &mut on);
+            freebody::dynamics::add_force(at, force, &mut on);
             let terms: Vec<f64> = on.iter().zip(&at.k.twist).map(|(w, v)| w.power(*v)).collect();
             let size = terms.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
             let (power, told_by_law) = (terms.iter().sum::<f64>(), force_power(at, f));
-            assert!((power - told_by_law).abs() <= 1e-13 * size, "{told}: {}: {power} {told_by_law}", force.name);
+            assert!((power - told_by_law).abs() <= 1e-13 * size, "{label}: {}: {power} {told_by_law}", force.name);
         }
     });
 }

@@ -5,7 +5,7 @@ use crate::model::*;
 use crate::random::*;
 use crate::random_mechanisms::{motion, recipe, HOME, MECHANISMS};
 use crate::rng::Rng;
-use freebody::balance::{Balance, Instant, Route};
+use freebody::dynamics::{Instant, Route, Workspace};
 use freebody::joints::Kind;
 
 /// A link from a hinge's pin to another point of one of its bodies: its length cannot change, and it can be stressed
@@ -36,42 +36,42 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         let model = std::mem::take(&mut bound.model);
         bound.model = model.joint("planted", "link", &[("of", of), ("length", value(length))], &[]);
         let bound = Bench::new(&bound);
-        let mut balance = plain.balance();
+        let mut workspace = plain.balance();
         // Not where the mechanism is all but singular: there the sparse factorisation, which leans on a small shift of
         // redundant rows, keeps fewer digits (4 at accelerations of 1e5 m/s²) than the tolerance below.
         let mut rng = Rng::new(seed);
         let drawn = std::iter::repeat_with(|| {
-            let s = plain.state(&mut balance, &mut rng, 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
-            balance.place(s.t, &s.q, &s.u);
-            let now = balance.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
+            let s = plain.state(&mut workspace, &mut rng, 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
+            workspace.place(s.t, &s.q, &s.u);
+            let now = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
             (s, now)
         });
         let calm = |now: &Instant| motion(now).iter().all(|a| a.abs() < 1e4);
         let found = drawn.take(10).find(|(_, now)| calm(now));
         let Some((s, before)) = found else { continue };
         planted += 1;
-        let freedom = balance.freedom();
-        let mut balance = bound.balance();
-        balance.place(s.t, &s.q, &s.u);
-        let told = format!("seed {seed}: planted on {} of {a} and {b}; {}", hinge.name, bound.told());
+        let freedom = workspace.freedom();
+        let mut workspace = bound.balance();
+        workspace.place(s.t, &s.q, &s.u);
+        let label = format!("seed {seed}: planted on {} of {a} and {b}; {}", hinge.name, bound.told());
         for (word, route) in Route::ALL {
-            let after = balance.instant(*route).unwrap_or_else(|e| panic!("{told}: {word}: {e:?}"));
+            let after = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));
             let off = apart(&motion(&before), &motion(&after), 1.0);
-            assert!(off < 1e-9, "{told}: {word}: accelerations {off:e} apart");
-            assert!(after.residual < 1e-12, "{told}: {word}: residual {:e}", after.residual);
-            assert_eq!(after.self_stress.len(), before.self_stress.len() + 1, "{told}: {:?}", after.self_stress);
+            assert!(off < 1e-9, "{label}: {word}: accelerations {off:e} apart");
+            assert!(after.residual < 1e-12, "{label}: {word}: residual {:e}", after.residual);
+            assert_eq!(after.self_stress.len(), before.self_stress.len() + 1, "{label}: {:?}", after.self_stress);
             for (j, joint) in bound.compiled.mechanism.joints.iter().enumerate() {
                 // Its thrust has both components, except where it lies along an axis, which chance does not do.
                 let touched = joint.name == "planted" || joint.name == hinge.name;
                 let sure =
                     m.joints.iter().position(|k| k.name == joint.name).map_or([true; 3], |k| before.determinate[k]);
                 let expected = if touched { [false, false, sure[2]] } else { sure };
-                assert_eq!(after.determinate[j], expected, "{told}: {}", joint.name);
+                assert_eq!(after.determinate[j], expected, "{label}: {}", joint.name);
             }
         }
-        let now = balance.freedom();
-        assert_eq!((now.here, now.redundant), (freedom.here, freedom.redundant + 1), "{told}");
-        assert_eq!(now.count, freedom.count - 1, "{told}");
+        let now = workspace.freedom();
+        assert_eq!((now.here, now.redundant), (freedom.here, freedom.redundant + 1), "{label}");
+        assert_eq!(now.count, freedom.count - 1, "{label}");
     }
     assert!(planted > 5, "only {planted} hinges were found");
 }
@@ -101,12 +101,12 @@ fn a_parallelogram_with_spare_cranks() {
         let by = |x: f64| -> Vec<f64> {
             (0..m.freedom()).map(|i| if m.coordinate(i).name == "phi" { -x } else { x }).collect()
         };
-        let mut balance = Balance::new(m, &[]);
-        balance.place(0.0, &by(theta), &by(omega));
-        let now = balance.instant(Route::Minimal).expect("moves");
+        let mut workspace = Workspace::new(m, &[]);
+        workspace.place(0.0, &by(theta), &by(omega));
+        let now = workspace.instant(Route::Minimal).expect("moves");
         let sure: Vec<(String, [bool; 3])> =
             m.joints.iter().zip(&now.determinate).map(|(j, s)| (j.name.clone(), *s)).collect();
-        (now.bodies[body_named(m, "table") - 1], balance.freedom(), sure)
+        (now.bodies[body_named(m, "table") - 1], workspace.freedom(), sure)
     };
     let (_, two, sure) = solve(2);
     assert_eq!((two.count, two.here, two.redundant), (1, 1, 0));

@@ -2,11 +2,13 @@
 
 use crate::model::*;
 use crate::rng::Rng;
-use freebody::gauges::Law;
-use freebody::kinematics::{Kinematics, Moving, Placed};
-use freebody::mechanism::{Arc, Chain, Disk, Marker, Mechanism, Profile, Site, Spot, Stretch, Touch, Track};
+use freebody::bound_values::BoundValues;
+use freebody::gauges::ModelExpr;
+use freebody::kinematics::{Kinematics, MotionView, StateView};
+use freebody::mechanism::{
+    Arc, Chain, ContactPair, Disk, Marker, Mechanism, PointLocation, Profile, Site, Stretch, Track,
+};
 use freebody::mode::Mode;
-use freebody::numbers::Numbers;
 use freebody::plane::{vec2, Pose, Turn, Twist, Vec2};
 
 const SURFACES: [&str; 9] = ["line", "circle", "hollow", "polygon", "chain", "bent", "arc", "hollow arc", "track"];
@@ -14,7 +16,7 @@ const SURFACES: [&str; 9] = ["line", "circle", "hollow", "polygon", "chain", "be
 /// A touch of a disk and a surface, on bodies of every sort; the disk comes first.
 pub struct Scene {
     pub m: Mechanism,
-    pub touch: Touch,
+    pub touch: ContactPair,
     pub word: &'static str,
     pub told: String,
 }
@@ -22,7 +24,7 @@ pub struct Scene {
 /// Bodies wherever they are, and their motion.
 #[derive(Clone)]
 pub struct There {
-    pub n: Numbers,
+    pub n: BoundValues,
     pub k: Kinematics,
     pub acceleration: Vec<Twist>,
     pub mode: Mode,
@@ -40,7 +42,7 @@ impl Scene {
         let mut m = model.compile().mechanism;
         let [first, second] = *rng.of(&[["a", "b"], ["bead", "b"], ["a", "ground"], ["ground", "b"]]);
         let point = !rng.chance(0.5);
-        let told =
+        let label =
             format!("{} of {first} against {word} of {second}, seed {seed}", if point { "point" } else { "disk" });
         let [first, second] = [first, second].map(|name| body_named(&m, name));
         let reach = if m.bodies[first].particle { 0.0 } else { 1.0 };
@@ -69,7 +71,7 @@ impl Scene {
                 Profile::Chain(Chain { corners: sites, closed: word == "polygon", beyond: [None; 2] })
             }
         };
-        Scene { m, touch: Touch { disk: Disk { centre, radius, beside: None }, against }, word, told }
+        Scene { m, touch: ContactPair { disk: Disk { centre, radius, beside: None }, against }, word, told: label }
     }
 
     /// Bodies somewhere, in any motion, the disk near the surface or anywhere; a particle does not turn.
@@ -126,12 +128,12 @@ impl Scene {
     pub fn arc(&self, there: &There) -> Option<(Vec2, f64, [f64; 2])> {
         let Profile::Arc(arc) = &self.touch.against else { return None };
         let turn = there.k.pose[self.m.body_of(arc.centre)].turn.angle;
-        let ends = arc.ends.map(|slot| turn + there.n.slots[slot]);
-        Some((self.place(there, arc.centre), there.n.slots[arc.radius], ends))
+        let ends = arc.ends.map(|slot| turn + there.n.values[slot]);
+        Some((self.place(there, arc.centre), there.n.values[arc.radius], ends))
     }
 
     pub fn radius(&self, there: &There) -> f64 {
-        self.touch.disk.radius.map_or(0.0, |slot| there.n.slots[slot])
+        self.touch.disk.radius.map_or(0.0, |slot| there.n.values[slot])
     }
 
     pub fn place(&self, there: &There, site: usize) -> Vec2 {
@@ -149,11 +151,11 @@ impl Scene {
 }
 
 impl There {
-    pub fn at<'a>(&'a self, m: &'a Mechanism) -> Placed<'a> {
-        Placed { m, n: &self.n, k: &self.k, q: &[], u: &[], t: 0.0, mode: &self.mode }
+    pub fn at<'a>(&'a self, m: &'a Mechanism) -> StateView<'a> {
+        StateView { m, n: &self.n, k: &self.k, q: &[], u: &[], t: 0.0, mode: &self.mode }
     }
-    pub fn moving<'a>(&'a self, m: &'a Mechanism) -> Moving<'a, f64> {
-        Moving { at: self.at(m), bodies: Some(&self.acceleration), accelerations: None }
+    pub fn moving<'a>(&'a self, m: &'a Mechanism) -> MotionView<'a, f64> {
+        MotionView { at: self.at(m), bodies: Some(&self.acceleration), accelerations: None }
     }
     /// The bodies a time later, with the present accelerations.
     pub fn later(&self, t: f64) -> There {
@@ -169,12 +171,12 @@ impl There {
 }
 
 fn slot(m: &mut Mechanism, x: f64) -> usize {
-    m.slots.push(Law::constant(x));
-    m.slots.len() - 1
+    m.values.push(ModelExpr::constant(x));
+    m.values.len() - 1
 }
 
 fn site(m: &mut Mechanism, body: usize, at: Vec2) -> usize {
-    let at = Spot::At([slot(m, at.x), slot(m, at.y)]);
+    let at = PointLocation::At([slot(m, at.x), slot(m, at.y)]);
     m.sites.push(Site { body, at });
     m.sites.len() - 1
 }

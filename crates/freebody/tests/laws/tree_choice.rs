@@ -1,13 +1,14 @@
-//! A mechanism does not know where its loops were cut: whichever joints make the tree, bodies and reactions are the same.
+//! A mechanism does not know where its loops were cut: whichever joints make the tree, bodies and reactions are the
+//! same.
 
 use crate::model::*;
 use crate::random::*;
 use crate::random_mechanisms::{loads, HOME, MECHANISMS};
 use crate::rng::Rng;
-use freebody::balance::{Instant, Route};
-use freebody::gauges::{Law, Leaf};
+use freebody::dynamics::{Instant, Route};
+use freebody::gauges::{ModelExpr, ModelVariable};
 use freebody::joints::Joint;
-use freebody::kinematics::{jet, Moving};
+use freebody::kinematics::{jet, MotionView};
 use freebody::mechanism::Mechanism;
 use freebody::plane::Vec2;
 
@@ -15,25 +16,25 @@ use freebody::plane::Vec2;
 const AGREE: f64 = 1e-9;
 
 /// Accelerations by body and reactions by joint, determinate in both.
-fn compare(told: &str, [m, n]: [&Mechanism; 2], [a, b]: [&Instant; 2]) {
+fn compare(label: &str, [m, n]: [&Mechanism; 2], [a, b]: [&Instant; 2]) {
     let flat = |i: &Instant, m: &Mechanism| -> Vec<f64> {
         m.listed_bodies().into_iter().flat_map(|body| i.bodies[body - 1]).collect()
     };
     let off = apart(&flat(a, m), &flat(b, n), 1.0);
-    assert!(off < AGREE, "{told}: accelerations {off:e} apart");
+    assert!(off < AGREE, "{label}: accelerations {off:e} apart");
     let most = loads(a).iter().chain(&loads(b)).fold(1e-300, |m: f64, x| m.max(x.abs()));
     for (j, joint) in m.joints.iter().enumerate() {
         let Some(k) = n.joints.iter().position(|other| other.name == joint.name) else { continue };
-        let parts = |l: &freebody::balance::JointLoad| [l.force.x, l.force.y, l.couple];
+        let parts = |l: &freebody::dynamics::JointLoad| [l.force.x, l.force.y, l.couple];
         let curve = |m: &Mechanism, j: usize| m.bodies[m.ends(&m.joints[j])[1]].listed.is_none();
         if curve(m, j) || curve(n, k) {
             continue;
         }
         for axis in 0..3 {
-            assert_eq!(a.determinate[j][axis], b.determinate[k][axis], "{told}: {} {axis}", joint.name);
+            assert_eq!(a.determinate[j][axis], b.determinate[k][axis], "{label}: {} {axis}", joint.name);
             let (x, y) = (parts(&a.joints[j])[axis], parts(&b.joints[k])[axis]);
             let apart = (x - y).abs();
-            assert!(!a.determinate[j][axis] || apart < AGREE * most, "{told}: {} {axis}: {x} {y}", joint.name);
+            assert!(!a.determinate[j][axis] || apart < AGREE * most, "{label}: {} {axis}: {x} {y}", joint.name);
         }
     }
 }
@@ -64,27 +65,27 @@ fn the_tree_does_not_matter() {
         let (one, other) = (Bench::new(&thrown), Bench::new(&renamed));
         let [m, n] = [&one.compiled.mechanism, &other.compiled.mechanism];
         let cut = |m: &Mechanism| m.closures.iter().map(|&j| m.joints[j].name.clone()).collect::<Vec<_>>();
-        let told = format!("seed {seed}: cut at {:?} and {:?}; {}", cut(m), cut(n), one.told());
+        let label = format!("seed {seed}: cut at {:?} and {:?}; {}", cut(m), cut(n), one.told());
         let mut first = one.balance();
         first.place(0.0, &one.q, &vec![0.0; one.q.len()]);
-        first.take_phases();
+        first.take_row_offsets();
         let mut u = rng.vector(one.q.len(), 2.0);
-        first.align(0.0, &one.q, &mut u).unwrap_or_else(|e| panic!("{told}: {e:?}"));
+        first.project_velocities(0.0, &one.q, &mut u).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         first.place(0.0, &one.q, &u);
         // The rates of the other tree's coordinates, read off the first tree's bodies.
-        let going = Moving { at: first.at(), bodies: None, accelerations: None };
+        let going = MotionView { at: first.at(), bodies: None, accelerations: None };
         let rate = |&(joint, k): &(usize, usize)| {
             let here = joint_named(m, &n.joints[joint].name);
             let present = k < m.joints[here].coordinates.len();
-            present.then(|| jet(&going, &Law::leaf(Leaf::Coordinate(here, k))).d1)
+            present.then(|| jet(&going, &ModelExpr::variable(ModelVariable::Coordinate(here, k))).d1)
         };
         let Some(v) = n.coordinates.iter().map(rate).collect::<Option<Vec<f64>>>() else { continue };
         other_trees += usize::from(cut(m) != cut(n));
-        let a = first.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}"));
+        let a = first.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         let mut second = other.balance();
         second.place(0.0, &other.q, &v);
-        let b = second.instant(Route::Minimal).unwrap_or_else(|e| panic!("{told}: {e:?}"));
-        compare(&told, [m, n], [&a, &b]);
+        let b = second.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
+        compare(&label, [m, n], [&a, &b]);
     }
     assert!(other_trees > MECHANISMS as usize, "only {other_trees} mechanisms were cut elsewhere");
 }
@@ -120,23 +121,24 @@ fn a_massless_link_may_be_cut_loose() {
             let direction = |i: usize| (at[i + 1] - at[i]).y.atan2((at[i + 1] - at[i]).x);
             let angles = [0.0, direction(0), direction(1), direction(2), 0.0];
             let q: Vec<f64> = m.coordinates.iter().map(|&(j, _)| angles[j + 1] - angles[j]).collect();
-            let mut balance = freebody::balance::Balance::new(m, &[]);
-            balance.place(0.0, &q, &vec![0.0; q.len()]);
-            assert!(balance.worst_gap() < 1e-15);
+            let mut workspace = freebody::dynamics::Workspace::new(m, &[]);
+            workspace.place(0.0, &q, &vec![0.0; q.len()]);
+            assert!(workspace.worst_gap() < 1e-15);
             for (word, route) in Route::ALL {
-                found
-                    .push(balance.instant(*route).unwrap_or_else(|e| panic!("{massless} cut at {cut}: {word}: {e:?}")));
+                found.push(
+                    workspace.instant(*route).unwrap_or_else(|e| panic!("{massless} cut at {cut}: {word}: {e:?}")),
+                );
             }
         }
         for (i, now) in found.iter().enumerate() {
-            let told = format!("{massless} massless, cut at {}", i / 3);
-            compare(&told, [&mechanisms[0].1.mechanism, &mechanisms[i / 3].1.mechanism], [&found[0], now]);
+            let label = format!("{massless} massless, cut at {}", i / 3);
+            compare(&label, [&mechanisms[0].1.mechanism, &mechanisms[i / 3].1.mechanism], [&found[0], now]);
         }
     }
 }
 
-/// A particle passes no couple: what is welded to it is pinned, and a slider along a body's line is a slot. No tree that
-/// would hang the body on the particle is chosen where another will do.
+/// A particle passes no couple: what is welded to it is pinned, and a slider along a body's line is a slot. No tree
+/// that would hang the body on the particle is chosen where another will do.
 #[test]
 fn no_couple_goes_through_a_particle() {
     let bead = |m: Model| {
@@ -167,10 +169,10 @@ fn no_couple_goes_through_a_particle() {
         let [one, other] = [one.compile(), other.compile()];
         let [m, n] = [&one.mechanism, &other.mechanism];
         let solved = |m: &Mechanism| {
-            let mut balance = freebody::balance::Balance::new(m, &[]);
-            balance.place(0.0, &q, &vec![0.0; q.len()]);
-            assert!(balance.worst_gap() < 1e-15);
-            balance.instant(Route::Minimal).expect("nothing is singular here")
+            let mut workspace = freebody::dynamics::Workspace::new(m, &[]);
+            workspace.place(0.0, &q, &vec![0.0; q.len()]);
+            assert!(workspace.worst_gap() < 1e-15);
+            workspace.instant(Route::Minimal).expect("nothing is singular here")
         };
         compare("a particle", [m, n], [&solved(m), &solved(n)]);
     }

@@ -3,9 +3,9 @@
 
 use crate::model::*;
 use crate::random::Bench;
+use crate::random_motions::*;
 use crate::rng::Rng;
-use crate::thrown::*;
-use freebody::balance::{Balance, JointLoad, Route};
+use freebody::dynamics::{JointLoad, Route, Workspace};
 use freebody::joints::{FieldKind, Joint, Kind};
 use freebody::mechanism::Mechanism;
 use freebody::spec::Value;
@@ -50,9 +50,9 @@ fn pair(kind: Kind, seed: u64, reversed: bool, free: bool) -> Thrown {
     thrown
 }
 
-/// Rates of the same motion in another tree: of joints that both trees hold the same, of a free body the velocity of its
-/// point.
-fn rates(to: &Bench, from: &Bench, at: &Balance, u: &[f64]) -> Vec<f64> {
+/// Rates of the same motion in another tree: of joints that both trees hold the same, of a free body the velocity of
+/// its point.
+fn rates(to: &Bench, from: &Bench, at: &Workspace, u: &[f64]) -> Vec<f64> {
     let (m, tree) = (&to.compiled.mechanism, &from.compiled.mechanism);
     let mut there = to.balance();
     there.place(0.0, &to.q, &vec![0.0; to.q.len()]);
@@ -129,9 +129,9 @@ fn a_cam_is_a_slot_along_the_parallel_curve() {
         let solved: Vec<_> = [&cam, &slot]
             .iter()
             .map(|c| {
-                let mut balance = Balance::new(&c.mechanism, &[]);
-                balance.place(0.0, &q, &u);
-                let now = balance.instant(Route::Minimal).expect("a tree with inertia");
+                let mut workspace = Workspace::new(&c.mechanism, &[]);
+                workspace.place(0.0, &q, &u);
+                let now = workspace.instant(Route::Minimal).expect("a tree with inertia");
                 (now.accelerations.clone(), told(&now.joints[1]).to_vec())
             })
             .collect();

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// Up to this number of terms every letter is tried as what to collect by.
+/// Up to this number of terms every variable is tried as what to collect by.
 const FEW: usize = 12;
 
 /// A sum as Σ (Σ numbers · keys) · rest.
@@ -49,7 +49,7 @@ pub(super) struct Writer<'a> {
 impl Writer<'_> {
     pub(super) fn kind(&self, id: AtomId) -> Kind {
         match self.arena.atom(id) {
-            Atom::Letter(letter) if letter.dots > 0 => Kind::Rate,
+            Atom::Variable(variable) if variable.dots > 0 => Kind::Rate,
             Atom::Cos(_) | Atom::Sin(_) | Atom::Call(..) => Kind::Function,
             _ => Kind::Parameter,
         }
@@ -178,7 +178,8 @@ impl Writer<'_> {
         Product::of_sum(terms)
     }
 
-    /// n (a² + 2ab + b²) = n (a + b)², with any number of letters; n is such that the first square of what moves is bare.
+    /// n (a² + 2ab + b²) = n (a + b)², with any number of variables; n is such that the first square of what moves is
+    /// bare.
     fn square(&mut self, poly: &Poly) -> Option<Product> {
         let even = |term: &&(Vec<Factor>, Coefficient)| term.0.iter().all(|f| f.1.is_even());
         let moves = |term: &&(Vec<Factor>, Coefficient)| term.0.iter().map(|f| self.kind(f.0)).max();

@@ -31,21 +31,21 @@ impl Arena {
         Tree::sum(writer.written_terms(&whole.into_terms()))
     }
 
-    /// The tree of a sum as one term for each of the given letters that occurs linearly, then what holds
+    /// The tree of a sum as one term for each of the given variables that occurs linearly, then what holds
     /// rates, then the rest, with products of functions standing by themselves.
-    pub(crate) fn tree_by(&mut self, of: SumId, letters: &[AtomId]) -> Tree {
-        let (factors, rest) = self.linear(of, letters);
+    pub(crate) fn tree_by(&mut self, of: SumId, variables: &[AtomId]) -> Tree {
+        let (factors, rest) = self.linear(of, variables);
         let mut writer = Writer { arena: self };
         let mut terms = Vec::new();
-        for (&letter, with) in letters.iter().zip(factors).filter(|(_, with)| *with != SumId::ZERO) {
-            let one = Product { number: Coefficient::ONE, factors: vec![(Form::Atom(letter), Ratio::ONE)], cost: 1 };
+        for (&variable, with) in variables.iter().zip(factors).filter(|(_, with)| *with != SumId::ZERO) {
+            let one = Product { number: Coefficient::ONE, factors: vec![(Form::Atom(variable), Ratio::ONE)], cost: 1 };
             let term = (*writer.whole(with)).clone().times(one);
             terms.push(writer.written_product(&term));
         }
         for part in writer.by_rates(rest).into_iter().filter(|&part| part != SumId::ZERO) {
             let whole = (*writer.whole(part)).clone();
-            let spread: Vec<Product> = whole.into_terms().into_iter().flat_map(|term| writer.spread(term)).collect();
-            terms.extend(writer.written_terms(&spread));
+            let wrenches: Vec<Product> = whole.into_terms().into_iter().flat_map(|term| writer.spread(term)).collect();
+            terms.extend(writer.written_terms(&wrenches));
         }
         Tree::sum(terms)
     }
@@ -59,7 +59,7 @@ impl Writer<'_> {
         [with, without].map(|terms| self.arena.sorted_sum(terms))
     }
 
-    /// A product of letters and of a sum whose terms all hold functions, as separate terms.
+    /// A product of variables and of a sum whose terms all hold functions, as separate terms.
     fn spread(&self, product: Product) -> Vec<Product> {
         let sums: Vec<usize> =
             (0..product.factors.len()).filter(|&i| matches!(product.factors[i].0, Form::Sum(_))).collect();
@@ -109,6 +109,6 @@ impl Writer<'_> {
         Some(below.times((*self.whole(above)).clone()))
     }
     fn divides(&self, factor: &Factor) -> bool {
-        factor.1.signum() < 0 && !matches!(self.arena.atom(factor.0), Atom::Letter(_))
+        factor.1.signum() < 0 && !matches!(self.arena.atom(factor.0), Atom::Variable(_))
     }
 }

@@ -1,6 +1,6 @@
 //! The expression tree that is handed out.
 
-use super::super::atom::Letter;
+use super::super::atom::Variable;
 use super::super::coefficient::Coefficient;
 use super::super::ratio::Ratio;
 use crate::scalar::real;
@@ -26,7 +26,7 @@ pub enum Tree {
         /// Its value.
         num: Number,
     },
-    /// A letter; π is the letter `pi`.
+    /// A variable; π is the variable `pi`.
     Sym {
         /// The name.
         sym: String,
@@ -62,8 +62,8 @@ impl Tree {
     pub(super) fn number(c: Coefficient) -> Tree {
         Tree::Num { num: spelled(c) }
     }
-    /// A letter.
-    pub fn letter(name: &str, dots: u8) -> Tree {
+    /// A variable.
+    pub fn variable(name: &str, dots: u8) -> Tree {
         Tree::Sym { sym: name.into(), dots }
     }
     pub(super) fn call(name: &str, args: Vec<Tree>) -> Tree {
@@ -106,13 +106,13 @@ impl Tree {
         }
     }
 
-    /// The value for values of the letters (π is known) and of named functions.
-    pub fn evaluate(&self, letters: &dyn Fn(&Letter) -> f64, functions: &dyn Fn(&str, &[f64]) -> f64) -> f64 {
-        let value = |tree: &Tree| tree.evaluate(letters, functions);
+    /// The value for values of the variables (π is known) and of named functions.
+    pub fn evaluate(&self, variables: &dyn Fn(&Variable) -> f64, functions: &dyn Fn(&str, &[f64]) -> f64) -> f64 {
+        let value = |tree: &Tree| tree.evaluate(variables, functions);
         match self {
             Tree::Num { num } => num.value(),
             Tree::Sym { sym, dots: 0 } if sym == "pi" => std::f64::consts::PI,
-            Tree::Sym { sym, dots } => letters(&Letter::new(sym, *dots)),
+            Tree::Sym { sym, dots } => variables(&Variable::new(sym, *dots)),
             Tree::Add { add } => add.iter().map(value).sum(),
             Tree::Mul { mul } => mul.iter().map(value).product(),
             Tree::Pow { pow: (base, exponent) } => real::powf(value(base), fraction(exponent)),

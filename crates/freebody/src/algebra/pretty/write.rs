@@ -10,7 +10,7 @@ use super::tree::Tree;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Where a term stands in a sum: highest derivatives first, then letters as they were made.
+/// Where a term stands in a sum: highest derivatives first, then variables as they were made.
 type Place = (Reverse<i16>, Vec<AtomId>, Vec<AtomId>);
 
 impl Writer<'_> {
@@ -109,8 +109,8 @@ impl Writer<'_> {
     }
     fn written_atom(&mut self, id: AtomId) -> Tree {
         match self.arena.atom(id).clone() {
-            Atom::Letter(letter) => Tree::letter(&letter.name, letter.dots),
-            Atom::Pi => Tree::letter("pi", 0),
+            Atom::Variable(variable) => Tree::variable(&variable.name, variable.dots),
+            Atom::Pi => Tree::variable("pi", 0),
             Atom::Prime(p) => Tree::number(Coefficient::whole(p)),
             Atom::Group(of) => self.written(of),
             Atom::Cos(of) => Tree::call("cos", vec![self.written(of)]),
@@ -130,12 +130,12 @@ impl Writer<'_> {
     fn place(&self, product: &Product) -> Place {
         let mut atoms = BTreeSet::new();
         collect(product, &mut atoms);
-        let dots = |&id: &AtomId| self.arena.letter(id).map_or(-1, |letter| i16::from(letter.dots));
+        let dots = |&id: &AtomId| self.arena.variable(id).map_or(-1, |variable| i16::from(variable.dots));
         let highest = atoms.iter().map(dots).max().unwrap_or(-1);
         let first = atoms.iter().copied().filter(|id| highest >= 0 && dots(id) == highest).collect();
         (Reverse(highest), first, atoms.into_iter().collect())
     }
-    /// Sums of parameters before letters, sums with functions or rates among those.
+    /// Sums of parameters before variables, sums with functions or rates among those.
     fn factor_place(&self, terms: &[Product], e: Ratio) -> (u8, Vec<AtomId>) {
         let mut atoms = BTreeSet::new();
         terms.iter().for_each(|term| collect(term, &mut atoms));

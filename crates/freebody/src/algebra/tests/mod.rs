@@ -1,13 +1,13 @@
 mod writing;
 
-use super::{session, Letter, Symbol, Tree};
+use super::{session, Symbol, Tree, Variable};
 use crate::scalar::{Jet, Scalar};
 use proptest::prelude::*;
 
 const NAMES: [&str; 4] = ["a", "b", "u", "v"];
 
 fn letter(name: &str, value: f64) -> Symbol {
-    Symbol::letter(Letter::new(name, 0), value)
+    Symbol::variable(Variable::new(name, 0), value)
 }
 
 /// A random expression, to be built over any scalar.
@@ -32,14 +32,14 @@ enum Random {
 }
 
 impl Random {
-    fn build<S: Scalar>(&self, letters: &[S]) -> S {
-        self.nudged(letters, 0.0)
+    fn build<S: Scalar>(&self, variables: &[S]) -> S {
+        self.nudged(variables, 0.0)
     }
     /// The same with every constant changed by a small part of itself.
-    fn nudged<S: Scalar>(&self, letters: &[S], by: f64) -> S {
-        let of = |x: &Random| x.nudged(letters, by);
+    fn nudged<S: Scalar>(&self, variables: &[S], by: f64) -> S {
+        let of = |x: &Random| x.nudged(variables, by);
         match self {
-            Random::Letter(i) => letters[*i],
+            Random::Letter(i) => variables[*i],
             Random::Constant(x) => S::of(*x * (1.0 + by)),
             Random::Add(a, b) => of(a) + of(b),
             Random::Subtract(a, b) => of(a) - of(b),
@@ -66,8 +66,9 @@ fn proper<S: Scalar>(divisor: S) -> S {
 fn expressions() -> impl Strategy<Value = Random> {
     let constant =
         prop::sample::select(vec![0.0, 1.0, -1.0, 2.0, 0.5, 1.5, 9.81, 0.123_456_789_012_3, 0.523_598_775_598_298_8]);
-    let leaf = prop_oneof![3 => (0..NAMES.len()).prop_map(Random::Letter), 1 => constant.prop_map(Random::Constant)];
-    leaf.prop_recursive(5, 14, 2, |x| {
+    let variable =
+        prop_oneof![3 => (0..NAMES.len()).prop_map(Random::Letter), 1 => constant.prop_map(Random::Constant)];
+    variable.prop_recursive(5, 14, 2, |x| {
         let one = || x.clone().prop_map(Box::new);
         let two = || (one(), one());
         prop_oneof![
@@ -99,8 +100,8 @@ fn settled(random: &Random, at: [f64; 4]) -> Option<f64> {
     (value.is_finite() && value.abs() < 1e6 && steady(1e-7) && steady(-1e-7)).then_some(value)
 }
 
-fn values(at: [f64; 4]) -> impl Fn(&Letter) -> f64 {
-    move |letter| at[NAMES.iter().position(|name| *name == letter.name).unwrap()]
+fn values(at: [f64; 4]) -> impl Fn(&Variable) -> f64 {
+    move |variable| at[NAMES.iter().position(|name| *name == variable.name).unwrap()]
 }
 
 fn close(a: f64, b: f64) -> bool {
@@ -114,8 +115,8 @@ proptest! {
     fn rewriting_keeps_the_value(random in expressions(), at in points()) {
         let Some(expected) = settled(&random, at) else { return Ok(()) };
         session(|| {
-            let letters: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| letter(name, x)).collect();
-            let symbol = random.build(&letters);
+            let variables: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| letter(name, x)).collect();
+            let symbol = random.build(&variables);
             let value = symbol.evaluate(&values(at));
             prop_assert!(close(value, expected), "{value} instead of {expected}");
             prop_assert!(close(symbol.value(), expected));
@@ -132,8 +133,8 @@ proptest! {
         let expected = random.build(&jets).d1;
         prop_assume!(expected.is_finite() && expected.abs() < 1e4);
         session(|| {
-            let letters: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| letter(name, x)).collect();
-            let slope = random.build(&letters).derivative(&Letter::new("a", 0));
+            let variables: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| letter(name, x)).collect();
+            let slope = random.build(&variables).derivative(&Variable::new("a", 0));
             let value = slope.evaluate(&values(at));
             prop_assert!((value - expected).abs() <= 1e-5 * expected.abs().max(1.0), "{value} instead of {expected}");
             Ok(())
@@ -188,8 +189,8 @@ fn what_vanishes_identically_is_zero() {
     ];
     for (name, difference) in identities {
         session(|| {
-            let letters = [("a", 0.7), ("b", 1.3), ("u", 0.4), ("v", 0.9)].map(|(name, x)| letter(name, x));
-            let left = difference(letters);
+            let variables = [("a", 0.7), ("b", 1.3), ("u", 0.4), ("v", 0.9)].map(|(name, x)| letter(name, x));
+            let left = difference(variables);
             assert!(left.is_zero(), "{name}: {:?}", left.tree());
         });
     }
@@ -219,7 +220,7 @@ fn equal_work_gives_the_same_tree() {
 fn a_linear_letter_has_a_coefficient_and_a_rest() {
     session(|| {
         let [a, b, u] = ["a", "b", "u"].map(|name| letter(name, 0.8));
-        let (sum, of) = (a * b * u + a * b.sin_cos().0, Letter::new("u", 0));
+        let (sum, of) = (a * b * u + a * b.sin_cos().0, Variable::new("u", 0));
         assert_eq!(sum.coefficient_of(&of), Some(a * b));
         assert_eq!(sum.without(std::slice::from_ref(&of)), a * b.sin_cos().0);
         assert_eq!((u * u).coefficient_of(&of), None);
@@ -243,7 +244,7 @@ fn a_function_that_is_known_by_name_has_its_derivatives() {
         let rule = || -> super::Rule { std::rc::Rc::new(|x, order| [x * x, 2.0 * x, 2.0][order as usize]) };
         let a = letter("a", 1.5);
         let f = (a * a).function("cam", 0, rule());
-        assert_eq!(f.derivative(&Letter::new("a", 0)), (a * a).function("cam", 1, rule()) * a.scale(2.0));
+        assert_eq!(f.derivative(&Variable::new("a", 0)), (a * a).function("cam", 1, rule()) * a.scale(2.0));
         assert_eq!(f.evaluate(&|_| 3.0), 81.0);
     });
 }

@@ -1,6 +1,6 @@
 //! How expressions are written.
 
-use crate::algebra::{session, Letter, Number, Symbol, Tree};
+use crate::algebra::{session, Number, Symbol, Tree, Variable};
 use crate::scalar::{Jet, Scalar};
 
 /// A tree as plain text: `θ''` has two dots, factors are separated by spaces.
@@ -39,7 +39,7 @@ fn letters<const N: usize>(names: [&str; N]) -> [Symbol; N] {
     names.map(|name| {
         value += 0.17;
         let dots = name.chars().rev().take_while(|&c| c == '\'').count();
-        Symbol::letter(Letter::new(name.trim_end_matches('\''), dots as u8), value)
+        Symbol::variable(Variable::new(name.trim_end_matches('\''), dots as u8), value)
     })
 }
 fn written(symbol: Symbol) -> String {
@@ -135,7 +135,7 @@ fn what_is_gathered_alone_keeps_its_sign_and_numbers() {
 fn a_tree_can_be_grouped_by_unknowns() {
     session(|| {
         let [_, lower] = double_pendulum();
-        let by = [Letter::new("q", 2), Letter::new("p", 2)];
+        let by = [Variable::new("q", 2), Variable::new("p", 2)];
         assert_eq!(
             text(&lower.tree_by(&by)),
             "m2 l1 l2 cos(q - p) q'' + m2 l2^2 p'' - m2 l1 l2 sin(q - p) q'^2 + m2 l2 g sin(p)"
@@ -168,9 +168,10 @@ fn a_tree_is_the_json_that_is_agreed_on() {
 fn ten_links_are_written_in_time() {
     const LINKS: usize = 10;
     session(|| {
-        let number =
-            |name: &str, i: usize, dots| Symbol::letter(Letter::new(format!("{name}{i}"), dots), 0.3 + 0.1 * i as f64);
-        let g = Symbol::letter(Letter::new("g", 0), 9.81);
+        let number = |name: &str, i: usize, dots| {
+            Symbol::variable(Variable::new(format!("{name}{i}"), dots), 0.3 + 0.1 * i as f64)
+        };
+        let g = Symbol::variable(Variable::new("g", 0), 9.81);
         let (mut x, mut y) = (Jet::constant(Symbol::zero()), Jet::constant(Symbol::zero()));
         let mut angle = Jet::constant(Symbol::zero());
         let mut moment = Symbol::zero();

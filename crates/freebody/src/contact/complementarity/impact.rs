@@ -1,6 +1,6 @@
-//! Impacts of several touches at once: velocities before, impulses, velocities after.
+//! Impacts of several contacts at once: velocities before, impulses, velocities after.
 
-use super::{resolve, task, Grip, Verdict};
+use super::{lcp_block, resolve, FrictionLaw, Verdict};
 use crate::solve::Matrix;
 use std::fmt;
 
@@ -15,29 +15,29 @@ const GAIN: f64 = 1e-12;
 /// Work above this, relative to the energy of the velocities before, is a gain whatever the terms.
 const GROSS: f64 = 1e-10;
 
-/// k touches that are closed and may be approaching.
+/// k contacts that are closed and may be approaching.
 #[derive(Clone, Copy, Debug)]
-pub struct Strike<'a> {
+pub struct ImpactProblem<'a> {
     /// 2k × 2k: velocity (rows) by unit impulses (columns), as in [`Problem`](super::Problem).
     pub g: &'a Matrix,
-    /// 2k: the normal velocities before, negative where a touch approaches, then the tangential ones.
+    /// 2k: the normal velocities before, negative where a contact approaches, then the tangential ones.
     pub before: &'a [f64],
     /// k: the coefficients of restitution, 0 ≤ e ≤ 1.
     pub restitution: &'a [f64],
-    /// k: the coefficients of friction; infinite where a touch cannot slide.
+    /// k: the coefficients of friction; infinite where a contact cannot slide.
     pub friction: &'a [f64],
 }
 
 /// What restitution means. Friction is Coulomb's between the impulses pT and pN, by the velocity after.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
-    /// The velocity is reversed, all touches at once: 0 ≤ pN ⟂ vN⁺ − e max(0, −vN⁻) ≥ 0
+pub enum ImpactLaw {
+    /// The velocity is reversed, all contacts at once: 0 ≤ pN ⟂ vN⁺ − e max(0, −vN⁻) ≥ 0
     /// (Newton; Moreau 1988). With friction it may create energy.
     Newton,
     /// The impulse is returned: plastic compression with pC, then expansion with pN ≥ e pC
     /// (Poisson; Glocker & Pfeiffer, *Nonlinear Dynamics* 7, 1995).
     Poisson,
-    /// One touch after the other by Newton's law, the fastest approach first, until none approaches.
+    /// One contact after the other by Newton's law, the fastest approach first, until none approaches.
     Sequential,
 }
 
@@ -65,7 +65,7 @@ pub enum NoImpact {
     Ambiguous(Vec<Impulses>),
     /// None were found, without proof that there are none; or a number is not what it should be.
     Unknown,
-    /// One touch hits after the other without coming to rest, or ever faster.
+    /// One contact hits after the other without coming to rest, or ever faster.
     Endless,
 }
 
@@ -86,19 +86,19 @@ impl std::error::Error for NoImpact {}
 type Impulse = Vec<f64>;
 
 /// The impulses by one law. Those that create energy are flagged; see [`settle`](super::settle).
-pub fn strike(s: &Strike, law: Law) -> Result<Impulses, NoImpact> {
+pub fn impact(s: &ImpactProblem, law: ImpactLaw) -> Result<Impulses, NoImpact> {
     if !s.is_sound() {
         return Err(NoImpact::Unknown);
     }
     let p = match law {
-        Law::Newton => newton(s),
-        Law::Poisson => poisson(s),
-        Law::Sequential => sequential(s),
+        ImpactLaw::Newton => newton(s),
+        ImpactLaw::Poisson => poisson(s),
+        ImpactLaw::Sequential => sequential(s),
     }?;
     Ok(s.with(&p))
 }
 
-impl Strike<'_> {
+impl ImpactProblem<'_> {
     fn len(&self) -> usize {
         self.friction.len()
     }
@@ -130,11 +130,11 @@ impl Strike<'_> {
         Impulses { normal: p[..k].to_vec(), tangent: p[k..].to_vec(), after, work, gains }
     }
 
-    /// Impulses of which those of the touches at `velocity`, or their reversal, are complementary.
-    fn complementary(&self, velocity: &[f64], pressed: &[f64]) -> Result<Impulse, NoImpact> {
-        let grips: Vec<Grip> = self.friction.iter().map(|&mu| grip(mu)).collect();
+    /// Impulses of which those of the contacts at `velocity`, or their reversal, are complementary.
+    fn complementary(&self, velocity: &[f64], least_normal: &[f64]) -> Result<Impulse, NoImpact> {
+        let friction: Vec<FrictionLaw> = self.friction.iter().map(|&mu| friction_law(mu)).collect();
         let join = |a: &super::Answer| [&a.normal[..], &a.tangent[..]].concat();
-        match resolve(self.g, velocity, &grips, pressed, &task::EXACT) {
+        match resolve(self.g, velocity, &friction, least_normal, &lcp_block::EXACT) {
             Verdict::Solved(a) => Ok(join(&a)),
             Verdict::Indeterminate(all) => Err(NoImpact::Ambiguous(all.iter().map(|a| self.with(&join(a))).collect())),
             Verdict::Inconsistent => Err(NoImpact::Impossible),
@@ -143,15 +143,15 @@ impl Strike<'_> {
     }
 }
 
-fn grip(mu: f64) -> Grip {
+fn friction_law(mu: f64) -> FrictionLaw {
     match mu {
-        0.0 => Grip::Smooth,
-        f64::INFINITY => Grip::Rough,
-        _ => Grip::Resting { fixed: mu, kinetic: mu },
+        0.0 => FrictionLaw::Frictionless,
+        f64::INFINITY => FrictionLaw::Rough,
+        _ => FrictionLaw::Resting { fixed: mu, kinetic: mu },
     }
 }
 
-fn newton(s: &Strike) -> Result<Impulse, NoImpact> {
+fn newton(s: &ImpactProblem) -> Result<Impulse, NoImpact> {
     let mut free = s.before.to_vec();
     for (v, e) in free.iter_mut().zip(s.restitution) {
         *v -= e * (-*v).max(0.0);
@@ -159,7 +159,7 @@ fn newton(s: &Strike) -> Result<Impulse, NoImpact> {
     s.complementary(&free, &vec![0.0; s.len()])
 }
 
-fn poisson(s: &Strike) -> Result<Impulse, NoImpact> {
+fn poisson(s: &ImpactProblem) -> Result<Impulse, NoImpact> {
     let compression = s.complementary(s.before, &vec![0.0; s.len()])?;
     let middle = s.with(&compression);
     let returned: Vec<f64> = s.restitution.iter().zip(&middle.normal).map(|(e, p)| e * p).collect();
@@ -167,7 +167,7 @@ fn poisson(s: &Strike) -> Result<Impulse, NoImpact> {
     Ok(compression.iter().zip(&expansion).map(|(c, e)| c + e).collect())
 }
 
-fn sequential(s: &Strike) -> Result<Impulse, NoImpact> {
+fn sequential(s: &ImpactProblem) -> Result<Impulse, NoImpact> {
     let k = s.len();
     let rest = AT_REST * s.before.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let (mut velocity, mut total) = (s.before.to_vec(), vec![0.0; 2 * k]);
@@ -175,7 +175,7 @@ fn sequential(s: &Strike) -> Result<Impulse, NoImpact> {
         let fastest = (0..k).reduce(|a, b| if velocity[b] < velocity[a] { b } else { a });
         let Some(hit) = fastest.filter(|&i| velocity[i] < -rest) else { return Ok(total) };
         let rows = [hit, k + hit];
-        let one = Strike {
+        let one = ImpactProblem {
             g: &Matrix::from_fn(2, 2, |i, j| s.g[(rows[i], rows[j])]),
             before: &rows.map(|r| velocity[r]),
             restitution: &s.restitution[hit..=hit],

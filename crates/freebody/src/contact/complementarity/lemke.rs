@@ -4,7 +4,7 @@ use crate::solve::Matrix;
 
 /// An entry of the tableau below this is round-off and no pivot.
 const PIVOT: f64 = 1e-10;
-/// A ray that starts this near to a solution has missed it by round-off: redundant touches can often be
+/// A ray that starts this near to a solution has missed it by round-off: redundant contacts can often be
 /// closed all together only.
 const RESIDUE: f64 = 1e-10;
 /// Ratios that differ by less, relative to their size, tie.
@@ -34,9 +34,8 @@ struct Tableau {
     basis: Vec<usize>,
 }
 
-/// Follows Lemke's path with the lexicographic ratio test, on which no basis comes twice
-/// (Cottle, Pang & Stone, *The Linear Complementarity Problem*, 1992, §4.4 and §4.9). Each covering vector d > 0 has a path
-/// of its own.
+/// Follows Lemke's path with the lexicographic ratio test, on which no basis comes twice (Cottle, Pang & Stone, *The
+/// Linear Complementarity Problem*, 1992, §4.4 and §4.9). Each covering vector d > 0 has a path of its own.
 pub(super) fn lemke(m: &Matrix, q: &[f64], d: &[f64]) -> End {
     let n = q.len();
     let mut t = Tableau::new(m, q, d);

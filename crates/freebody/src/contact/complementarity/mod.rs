@@ -1,16 +1,15 @@
-//! Which touches of an instant hold, slide or part, with Coulomb friction; knows no mechanics.
+//! Which contacts of an instant hold, slide or part, with Coulomb friction; knows no mechanics.
 //!
-//! k touches have the accelerations a = G λ + f, normal rows first, tangential after; G is the
+//! k contacts have the accelerations a = G λ + f, normal rows first, tangential after; G is the
 //! Delassus matrix. [`solve`] finds forces and accelerations with
 //!
-//! - 0 ≤ λN ⟂ aN ≥ 0 at every touch;
+//! - 0 ≤ λN ⟂ aN ≥ 0 at every contact;
 //! - at rest: |λT| ≤ μ λN with aT = 0, or λT = −μ sgn(aT) λN;
 //! - sliding with the sense s: λT = −μ s λN.
 //!
 //! In the plane this is a linear complementarity problem, so it can be decided: one motion, several
-//! ([`Verdict::Indeterminate`]), or none ([`Verdict::Inconsistent`]); the last two are Painlevé's.
-//! [`strike`] poses the same problem for velocities and impulses, and [`jam`] tells how a motion goes on that friction lets
-//! not.
+//! ([`Verdict::Indeterminate`]), or none ([`Verdict::Inconsistent`]); the last two are Painlevé's. [`strike`] poses the
+//! same problem for velocities and impulses, and [`jam`] tells how a motion goes on that friction lets not.
 //!
 //! Pivoting (`lemke.rs`, on the form in `form.rs`) proposes who carries; `modes.rs` solves the linear
 //! equations of that proposal, holds them against the conditions above, and enumerates all proposals
@@ -18,43 +17,43 @@
 
 mod form;
 mod impact;
-mod jam;
-mod laws;
+mod impact_laws;
+mod impact_without_collision;
+mod lcp_block;
 mod lemke;
+mod mode_search;
 mod modes;
 mod painleve;
-mod search;
-mod task;
 #[cfg(test)]
 mod tests;
 
-pub use impact::{strike, Impulses, Law, NoImpact, Strike};
-pub use jam::{jam, least};
-pub use laws::{settle, undecided, yielding, Settled};
+pub use impact::{impact, ImpactLaw, ImpactProblem, Impulses, NoImpact};
+pub use impact_laws::{compliant_regularization, solve_impact, undecided, ImpactOutcome};
+pub use impact_without_collision::{impact_without_collision, least};
 pub use painleve::{painleve, Painleve};
 
 use crate::solve::Matrix;
-use task::Task;
+use lcp_block::LcpBlock;
 
-/// One instant of k touches.
+/// One instant of k contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// 2k × 2k, symmetric and positive semidefinite, possibly singular: acceleration (rows) by unit
-    /// contact forces (columns), all other constraints eliminated. Row i < k is the normal of touch i,
+    /// contact forces (columns), all other constraints eliminated. Row i < k is the normal of contact i,
     /// positive when it parts; row k + i its tangent.
     pub g: &'a Matrix,
     /// 2k: the accelerations without contact forces. They are judged against each other, so where nothing
-    /// moves the touches they must be zero, and not round-off of something that cancels.
+    /// moves the contacts they must be zero, and not round-off of something that cancels.
     pub free: &'a [f64],
-    /// k: how each touch resists sliding.
-    pub grips: &'a [Grip],
+    /// k: how each contact resists sliding.
+    pub friction: &'a [FrictionLaw],
 }
 
-/// How a touch resists sliding; coefficients are force over force, from zero up.
+/// How a contact resists sliding; coefficients are force over force, from zero up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Grip {
+pub enum FrictionLaw {
     /// No tangential force.
-    Smooth,
+    Frictionless,
     /// Never slides while closed: friction without bound.
     Rough,
     /// Slides now.
@@ -73,21 +72,21 @@ pub enum Grip {
     },
 }
 
-impl Grip {
+impl FrictionLaw {
     /// Whether its numbers are what they should be.
     fn is_sound(&self) -> bool {
         match *self {
-            Grip::Smooth | Grip::Rough => true,
-            Grip::Sliding { sense, kinetic } => sense.abs() == 1.0 && (0.0..f64::INFINITY).contains(&kinetic),
-            Grip::Resting { fixed, kinetic } => fixed.is_finite() && (0.0..=fixed).contains(&kinetic),
+            FrictionLaw::Frictionless | FrictionLaw::Rough => true,
+            FrictionLaw::Sliding { sense, kinetic } => sense.abs() == 1.0 && (0.0..f64::INFINITY).contains(&kinetic),
+            FrictionLaw::Resting { fixed, kinetic } => fixed.is_finite() && (0.0..=fixed).contains(&kinetic),
         }
     }
 }
 
-/// What a touch does.
+/// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Status {
-    /// It parts, or it carries nothing: then its acceleration may be zero, as at a redundant touch.
+    /// It parts, or it carries nothing: then its acceleration may be zero, as at a redundant contact.
     Open,
     /// It holds by its normal force alone.
     Closed,
@@ -100,10 +99,10 @@ pub enum Status {
 /// Forces and accelerations that satisfy all conditions.
 ///
 /// The answer is basic: the forces that are neither zero nor on the edge of their friction cone are
-/// independent. Redundant touches share the load in one of many ways; those that carry nothing are open.
+/// independent. Redundant contacts share the load in one of many ways; those that carry nothing are open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// k: what each touch does.
+    /// k: what each contact does.
     pub status: Vec<Status>,
     /// k: the normal forces, ≥ 0.
     pub normal: Vec<f64>,
@@ -113,17 +112,17 @@ pub struct Answer {
     pub acceleration: Vec<f64>,
 }
 
-/// What an instant of touches has as its answer.
+/// What an instant of contacts has as its answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// An answer. For up to three coupled touches, and without friction, its accelerations are the only ones.
+    /// An answer. For up to three coupled contacts, and without friction, its accelerations are the only ones.
     Solved(Answer),
-    /// Answers with different accelerations, all of them valid. Where touches that do not influence each
+    /// Answers with different accelerations, all of them valid. Where contacts that do not influence each
     /// other are concerned, one group is varied at a time.
     Indeterminate(Vec<Answer>),
     /// No forces satisfy the conditions.
     Inconsistent,
-    /// Pivoting found nothing and there are too many touches to try all modes; or masses differ so much that the
+    /// Pivoting found nothing and there are too many contacts to try all modes; or masses differ so much that the
     /// rank of G is in doubt; or a number is not what it should be: not finite, a negative coefficient, a
     /// static one below the kinetic.
     Unknown,
@@ -131,26 +130,32 @@ pub enum Verdict {
 
 /// Decides the instant.
 ///
-/// Static friction has precedence over kinetic: a touch that can stay at rest under its static
+/// Static friction has precedence over kinetic: a contact that can stay at rest under its static
 /// coefficient stays. Those that cannot slide under the kinetic one, and the rest is decided again.
 pub fn solve(problem: &Problem) -> Verdict {
-    let k = problem.grips.len();
-    resolve(problem.g, problem.free, problem.grips, &vec![0.0; k], &task::EXACT)
+    let k = problem.friction.len();
+    resolve(problem.g, problem.free, problem.friction, &vec![0.0; k], &lcp_block::EXACT)
 }
 
-/// As [`solve`], where accelerations may contradict each other by a little: those of touches that are almost one, as where two
-/// corners meet.
-pub fn solve_roughly(problem: &Problem) -> Verdict {
-    let k = problem.grips.len();
-    resolve(problem.g, problem.free, problem.grips, &vec![0.0; k], &task::ROUGH)
+/// As [`solve`], where accelerations may contradict each other by a little: those of contacts that are almost one, as
+/// where two corners meet.
+pub fn solve_relaxed(problem: &Problem) -> Verdict {
+    let k = problem.friction.len();
+    resolve(problem.g, problem.free, problem.friction, &vec![0.0; k], &lcp_block::RELAXED)
 }
 
 /// The same with normal forces that are at least `pressed` (k): aN ⟂ λN − pressed.
-fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64], tolerances: &'static [f64]) -> Verdict {
-    let k = grips.len();
+fn resolve(
+    g: &Matrix,
+    free: &[f64],
+    friction: &[FrictionLaw],
+    least_normal: &[f64],
+    tolerances: &'static [f64],
+) -> Verdict {
+    let k = friction.len();
     assert_eq!((g.rows(), g.cols(), free.len()), (2 * k, 2 * k, 2 * k), "a normal and a tangential row for each touch");
-    let finite = g.data().iter().chain(free).chain(pressed).all(|v| v.is_finite());
-    if !finite || !grips.iter().all(Grip::is_sound) {
+    let finite = g.data().iter().chain(free).chain(least_normal).all(|v| v.is_finite());
+    if !finite || !friction.iter().all(FrictionLaw::is_sound) {
         return Verdict::Unknown;
     }
     let nothing = Answer {
@@ -160,12 +165,12 @@ fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64], tolerances
         acceleration: free.to_vec(),
     };
     let (mut answers, mut unknown) = (vec![nothing], false);
-    for group in task::groups(g) {
-        let task = Task::new(g, free, grips, pressed, &group).within(tolerances);
-        match search::decide(&task) {
-            search::Outcome::Found(found) => answers = combine(answers, &task, &found),
-            search::Outcome::Nothing if !task.rank_is_doubtful() => return Verdict::Inconsistent,
-            search::Outcome::Nothing | search::Outcome::Unknown => unknown = true,
+    for group in lcp_block::groups(g) {
+        let block = LcpBlock::new(g, free, friction, least_normal, &group).within(tolerances);
+        match mode_search::decide(&block) {
+            mode_search::Outcome::Found(found) => answers = combine(answers, &block, &found),
+            mode_search::Outcome::Nothing if !block.rank_is_doubtful() => return Verdict::Inconsistent,
+            mode_search::Outcome::Nothing | mode_search::Outcome::Unknown => unknown = true,
         }
     }
     match answers.len() {
@@ -176,12 +181,12 @@ fn resolve(g: &Matrix, free: &[f64], grips: &[Grip], pressed: &[f64], tolerances
 }
 
 /// Writes what a group does into the answers: its first finding into all, the others into the first.
-fn combine(mut answers: Vec<Answer>, task: &Task, found: &[modes::Found]) -> Vec<Answer> {
+fn combine(mut answers: Vec<Answer>, block: &LcpBlock, found: &[modes::Found]) -> Vec<Answer> {
     let base = answers[0].clone();
-    answers.iter_mut().for_each(|a| task.write(&found[0], a));
+    answers.iter_mut().for_each(|a| block.write(&found[0], a));
     for other in &found[1..] {
         let mut answer = base.clone();
-        task.write(other, &mut answer);
+        block.write(other, &mut answer);
         answers.push(answer);
     }
     answers

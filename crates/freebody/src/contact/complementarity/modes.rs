@@ -1,13 +1,13 @@
-//! What touches do under given modes, held against the conditions of contact; and all modes there are.
+//! What contacts do under given modes, held against the conditions of contact; and all modes there are.
 
-use super::task::{Hold, Task};
-use super::{Grip, Status};
+use super::lcp_block::{BlockFriction, LcpBlock};
+use super::{FrictionLaw, Status};
 use crate::solve::{keep_above, Lu, Matrix, Orthogonal};
 
 /// A pivot below this, of rows with unit diagonal, is round-off of G.
 const SINGULAR: f64 = 1e-11;
 
-/// What a touch is supposed to do.
+/// What a contact is supposed to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mode {
     /// aN = 0; otherwise the normal force is the least one, which is zero unless pressed.
@@ -19,7 +19,7 @@ impl Mode {
     pub const OPEN: Mode = Mode { closed: false, tangent: Tangent::Free };
 }
 
-/// What a touch is supposed to do along its tangent.
+/// What a contact is supposed to do along its tangent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Tangent {
     /// λT = 0.
@@ -28,13 +28,13 @@ pub(super) enum Tangent {
     Slip(f64),
     /// aT = 0 by a force λT.
     Stick,
-    /// aT = 0 with λT = 0: held by other touches.
-    Lean,
-    /// aT = 0 with λT = −μ s λN: held by other touches, on the edge of the cone.
-    Brink(f64),
+    /// aT = 0 with λT = 0: held by other contacts.
+    PartialFriction,
+    /// aT = 0 with λT = −μ s λN: held by other contacts, on the edge of the cone.
+    Impending(f64),
 }
 
-/// What touches do, all conditions satisfied, in the units of the task.
+/// What contacts do, all conditions satisfied, in the units of the block.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     pub status: Vec<Status>,
@@ -51,9 +51,9 @@ pub(super) enum Refusal {
     Violated,
 }
 
-/// An unknown force: a unit along the normal of a touch, with its friction, or along its tangent.
+/// An unknown force: a unit along the normal of a contact, with its friction, or along its tangent.
 struct Column {
-    touch: usize,
+    contact: usize,
     normal: f64,
     tangent: f64,
 }
@@ -62,29 +62,29 @@ impl Column {
     /// Adds `x` of it to the forces.
     fn add(&self, x: f64, force: &mut [f64]) {
         let n = force.len() / 2;
-        force[self.touch] += self.normal * x;
-        force[n + self.touch] += self.tangent * x;
+        force[self.contact] += self.normal * x;
+        force[n + self.contact] += self.tangent * x;
     }
 
     /// The acceleration of `row` by a unit of it.
-    fn moves(&self, task: &Task, row: usize) -> f64 {
-        task.g[(row, self.touch)] * self.normal + task.g[(row, task.len() + self.touch)] * self.tangent
+    fn moves(&self, block: &LcpBlock, row: usize) -> f64 {
+        block.g[(row, self.contact)] * self.normal + block.g[(row, block.len() + self.contact)] * self.tangent
     }
 }
 
 /// Solves the equations of `modes` and checks every condition to `tolerance`, relative to the terms that
 /// make up an acceleration, the largest free acceleration, and the largest force.
-pub(super) fn evaluate(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
-    let force = forces(task, modes)?;
-    Check::new(task, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
+pub(super) fn evaluate(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+    let force = forces(block, modes)?;
+    Check::new(block, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
 }
 
-/// As [`evaluate`], for modes whose equations do not determine the forces: from forces well inside their bounds on along
-/// self-stresses, each to the next bound that a touch reaches, until what is left is determined.
-pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+/// As [`evaluate`], for modes whose equations do not determine the forces: from forces well inside their bounds on
+/// along self-stresses, each to the next bound that a contact reaches, until what is left is determined.
+pub(super) fn basic(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
     let mut modes = modes.to_vec();
     for _ in 0..=3 * modes.len() {
-        let Equations { columns, missing, a, force } = Equations::new(task, &modes);
+        let Equations { columns, missing, a, force } = Equations::new(block, &modes);
         let factors = Orthogonal::factor(&a);
         let (n, rank) = (columns.len(), factors.rank().rank);
         if rank == n {
@@ -92,15 +92,15 @@ pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found
         }
         let mut x = vec![0.0; n];
         factors.add_solution(&missing, &mut x);
-        let spread = |x: &[f64], mut force: Vec<f64>| {
+        let wrenches = |x: &[f64], mut force: Vec<f64>| {
             columns.iter().zip(x).for_each(|(column, x)| column.add(*x, &mut force));
             force
         };
         let nothing = vec![0.0; force.len()];
-        let along = |j: usize| margins(task, &modes, &spread(factors.x().row(rank + j), nothing.clone()));
+        let along = |j: usize| margins(block, &modes, &wrenches(factors.x().row(rank + j), nothing.clone()));
         let by: Vec<Vec<(usize, Bound, f64)>> = (0..n - rank).map(along).collect();
-        let mut now = margins(task, &modes, &spread(&x, force));
-        now.iter_mut().filter(|m| m.1 == Bound::Pressed).for_each(|m| m.2 -= task.pressed[m.0]);
+        let mut now = margins(block, &modes, &wrenches(&x, force));
+        now.iter_mut().filter(|m| m.1 == Bound::LeastNormal).for_each(|m| m.2 -= block.least_normal[m.0]);
         let least: Vec<f64> = now.iter().map(|m| m.2).collect();
         let (share, most) = keep_above(&Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i].2), &least, 1.0);
         if most < -tolerance {
@@ -111,41 +111,43 @@ pub(super) fn basic(task: &Task, modes: &[Mode], tolerance: f64) -> Result<Found
             .for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
         let ways = now.iter().zip(&by[0]).filter(|(_, by)| by.2.abs() > SINGULAR);
         let next = ways.map(|(now, by)| (now.0, now.1, (now.2 / by.2).abs())).min_by(|a, b| a.2.total_cmp(&b.2));
-        let Some((touch, bound, _)) = next else {
-            // Friction without bound, of touches that need it all the less.
-            let rub = (0..n).find(|&j| columns[j].normal == 0.0 && factors.x()[(rank, j)].abs() > SINGULAR);
-            let touch = columns[rub.ok_or(Refusal::Singular)?].touch;
-            modes[touch].tangent = Tangent::Lean;
+        let Some((contact, bound, _)) = next else {
+            // Friction without bound, of contacts that need it all the less.
+            let friction = (0..n).find(|&j| columns[j].normal == 0.0 && factors.x()[(rank, j)].abs() > SINGULAR);
+            let contact = columns[friction.ok_or(Refusal::Singular)?].contact;
+            modes[contact].tangent = Tangent::PartialFriction;
             continue;
         };
-        modes[touch] = match bound {
-            Bound::Pressed if task.pressed[touch] == 0.0 => Mode::OPEN,
-            Bound::Pressed => Mode { closed: false, ..modes[touch] },
-            Bound::Cone(sense) => Mode { tangent: Tangent::Brink(sense), ..modes[touch] },
+        modes[contact] = match bound {
+            Bound::LeastNormal if block.least_normal[contact] == 0.0 => Mode::OPEN,
+            Bound::LeastNormal => Mode { closed: false, ..modes[contact] },
+            Bound::Cone(sense) => Mode { tangent: Tangent::Impending(sense), ..modes[contact] },
         };
     }
-    evaluate(task, &modes, tolerance)
+    evaluate(block, &modes, tolerance)
 }
 
-/// What bounds the force of a touch.
+/// What bounds the force of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
     /// The least normal force.
-    Pressed,
+    LeastNormal,
     /// The cone of friction, on the side where it resists sliding with this sense.
     Cone(f64),
 }
 
-/// How far forces are inside the bounds of touches that could carry more or less.
-fn margins(task: &Task, modes: &[Mode], force: &[f64]) -> Vec<(usize, Bound, f64)> {
+/// How far forces are inside the bounds of contacts that could carry more or less.
+fn margins(block: &LcpBlock, modes: &[Mode], force: &[f64]) -> Vec<(usize, Bound, f64)> {
     let mut all = vec![];
     for (i, mode) in modes.iter().enumerate() {
         if mode.closed {
-            all.push((i, Bound::Pressed, force[i]));
+            all.push((i, Bound::LeastNormal, force[i]));
         }
-        if let (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Stick) = (task.holds[i], mode.tangent) {
-            let (most, rub) = (fixed * force[i], force[modes.len() + i]);
-            all.extend([(i, Bound::Cone(-1.0), most - rub), (i, Bound::Cone(1.0), most + rub)]);
+        if let (BlockFriction::Law(FrictionLaw::Resting { fixed, .. }), Tangent::Stick) =
+            (block.friction[i], mode.tangent)
+        {
+            let (most, friction) = (fixed * force[i], force[modes.len() + i]);
+            all.extend([(i, Bound::Cone(-1.0), most - friction), (i, Bound::Cone(1.0), most + friction)]);
         }
     }
     all
@@ -160,8 +162,8 @@ struct Equations {
 }
 
 /// The forces (2n) that keep the promises aN = 0 and aT = 0 of the modes.
-fn forces(task: &Task, modes: &[Mode]) -> Result<Vec<f64>, Refusal> {
-    let Equations { columns, missing, a, mut force } = Equations::new(task, modes);
+fn forces(block: &LcpBlock, modes: &[Mode]) -> Result<Vec<f64>, Refusal> {
+    let Equations { columns, missing, a, mut force } = Equations::new(block, modes);
     for (column, x) in columns.iter().zip(solved(&a, &missing)?) {
         column.add(x, &mut force);
     }
@@ -169,25 +171,25 @@ fn forces(task: &Task, modes: &[Mode]) -> Result<Vec<f64>, Refusal> {
 }
 
 impl Equations {
-    fn new(task: &Task, modes: &[Mode]) -> Equations {
-        let n = task.len();
+    fn new(block: &LcpBlock, modes: &[Mode]) -> Equations {
+        let n = block.len();
         let (mut rows, mut columns, mut force) = (Vec::new(), Vec::new(), vec![0.0; 2 * n]);
         for (i, mode) in modes.iter().enumerate() {
-            let ratio = ratio(task.holds[i], mode.tangent);
-            (force[i], force[n + i]) = (task.pressed[i], ratio * task.pressed[i]);
+            let ratio = ratio(block.friction[i], mode.tangent);
+            (force[i], force[n + i]) = (block.least_normal[i], ratio * block.least_normal[i]);
             if mode.closed {
                 rows.push(i);
-                columns.push(Column { touch: i, normal: 1.0, tangent: ratio });
+                columns.push(Column { contact: i, normal: 1.0, tangent: ratio });
             }
-            if matches!(mode.tangent, Tangent::Stick | Tangent::Lean | Tangent::Brink(_)) {
+            if matches!(mode.tangent, Tangent::Stick | Tangent::PartialFriction | Tangent::Impending(_)) {
                 rows.push(n + i);
             }
             if mode.tangent == Tangent::Stick {
-                columns.push(Column { touch: i, normal: 0.0, tangent: 1.0 });
+                columns.push(Column { contact: i, normal: 0.0, tangent: 1.0 });
             }
         }
-        let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(task, r, &force)).collect();
-        let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(task, rows[i]));
+        let missing: Vec<f64> = rows.iter().map(|&r| -accelerated(block, r, &force)).collect();
+        let a = Matrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].moves(block, rows[i]));
         Equations { columns, missing, a, force }
     }
 }
@@ -215,27 +217,29 @@ fn solved(a: &Matrix, b: &[f64]) -> Result<Vec<f64>, Refusal> {
 }
 
 /// λT/λN where the mode fixes it, else 0.
-fn ratio(hold: Hold, tangent: Tangent) -> f64 {
+fn ratio(law: BlockFriction, tangent: Tangent) -> f64 {
     let sense = match tangent {
-        Tangent::Slip(s) | Tangent::Brink(s) => s,
-        Tangent::Free | Tangent::Stick | Tangent::Lean => return 0.0,
+        Tangent::Slip(s) | Tangent::Impending(s) => s,
+        Tangent::Free | Tangent::Stick | Tangent::PartialFriction => return 0.0,
     };
-    match (hold, tangent) {
-        (Hold::Grip(Grip::Resting { fixed, .. }), Tangent::Brink(_)) => -fixed * sense,
-        (Hold::Grip(Grip::Resting { kinetic, .. } | Grip::Sliding { kinetic, .. }), _) => -kinetic * sense,
-        (Hold::Starting(_, kinetic), _) => -kinetic * sense,
-        (Hold::Grip(Grip::Smooth | Grip::Rough), _) => 0.0,
+    match (law, tangent) {
+        (BlockFriction::Law(FrictionLaw::Resting { fixed, .. }), Tangent::Impending(_)) => -fixed * sense,
+        (BlockFriction::Law(FrictionLaw::Resting { kinetic, .. } | FrictionLaw::Sliding { kinetic, .. }), _) => {
+            -kinetic * sense
+        }
+        (BlockFriction::Starting(_, kinetic), _) => -kinetic * sense,
+        (BlockFriction::Law(FrictionLaw::Frictionless | FrictionLaw::Rough), _) => 0.0,
     }
 }
 
 /// Acceleration `row` under the forces.
-fn accelerated(task: &Task, row: usize, force: &[f64]) -> f64 {
-    task.free[row] + task.g.row(row).iter().zip(force).map(|(g, l)| g * l).sum::<f64>()
+fn accelerated(block: &LcpBlock, row: usize, force: &[f64]) -> f64 {
+    block.free[row] + block.g.row(row).iter().zip(force).map(|(g, l)| g * l).sum::<f64>()
 }
 
 /// Forces against the conditions of their modes.
 struct Check<'a> {
-    task: &'a Task,
+    task: &'a LcpBlock,
     modes: &'a [Mode],
     force: &'a [f64],
     acceleration: Vec<f64>,
@@ -245,15 +249,15 @@ struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    fn new(task: &'a Task, modes: &'a [Mode], force: &'a [f64], tolerance: f64) -> Check<'a> {
+    fn new(block: &'a LcpBlock, modes: &'a [Mode], force: &'a [f64], tolerance: f64) -> Check<'a> {
         let rows = 0..force.len();
         // Free accelerations are of order one, and as uncertain as the largest.
-        let terms = |r: usize| 1.0 + task.g.row(r).iter().zip(force).map(|(g, l)| (g * l).abs()).sum::<f64>();
+        let terms = |r: usize| 1.0 + block.g.row(r).iter().zip(force).map(|(g, l)| (g * l).abs()).sum::<f64>();
         Check {
-            task,
+            task: block,
             modes,
             force,
-            acceleration: rows.clone().map(|r| accelerated(task, r, force)).collect(),
+            acceleration: rows.clone().map(|r| accelerated(block, r, force)).collect(),
             noise: rows.map(|r| tolerance * terms(r)).collect(),
             nothing: tolerance * force.iter().fold(1.0_f64, |m, f| m.max(f.abs())),
         }
@@ -271,19 +275,19 @@ impl<'a> Check<'a> {
             if *status == Status::Stick {
                 self.acceleration[n + i] = 0.0;
             }
-            if force[i] <= self.nothing && self.task.pressed[i] == 0.0 {
+            if force[i] <= self.nothing && self.task.least_normal[i] == 0.0 {
                 (force[i], force[n + i]) = (0.0, 0.0);
             }
         }
         Some(Found { status, force, acceleration: self.acceleration })
     }
 
-    /// What touch i then does, if its conditions hold.
+    /// What contact i then does, if its conditions hold.
     fn status(&self, i: usize) -> Option<Status> {
         let n = self.modes.len();
         let (mode, a, noise) = (self.modes[i], self.acceleration[i], self.noise[i]);
         let normal_holds = if mode.closed {
-            a.abs() <= noise && self.force[i] - self.task.pressed[i] >= -self.nothing
+            a.abs() <= noise && self.force[i] - self.task.least_normal[i] >= -self.nothing
         } else {
             a >= -noise
         };
@@ -301,17 +305,19 @@ impl<'a> Check<'a> {
     fn sliding(&self, i: usize) -> Option<Status> {
         let t = self.modes.len() + i;
         let (a, noise) = (self.acceleration[t], self.noise[t]);
-        let (hold, still) = (self.task.holds[i], a.abs() <= noise);
+        let (law, still) = (self.task.friction[i], a.abs() <= noise);
         match self.modes[i].tangent {
             Tangent::Free => Some(Status::Closed),
-            Tangent::Slip(s) => match hold {
-                Hold::Grip(Grip::Resting { .. }) | Hold::Starting(..) if still => Some(Status::Stick),
-                Hold::Grip(Grip::Resting { .. }) | Hold::Starting(..) if s * a < -noise => None,
+            Tangent::Slip(s) => match law {
+                BlockFriction::Law(FrictionLaw::Resting { .. }) | BlockFriction::Starting(..) if still => {
+                    Some(Status::Stick)
+                }
+                BlockFriction::Law(FrictionLaw::Resting { .. }) | BlockFriction::Starting(..) if s * a < -noise => None,
                 _ => Some(Status::Slip(s)),
             },
-            Tangent::Stick | Tangent::Lean | Tangent::Brink(_) => {
-                let bound = match hold {
-                    Hold::Grip(Grip::Resting { fixed, .. }) => fixed * self.force[i],
+            Tangent::Stick | Tangent::PartialFriction | Tangent::Impending(_) => {
+                let bound = match law {
+                    BlockFriction::Law(FrictionLaw::Resting { fixed, .. }) => fixed * self.force[i],
                     _ => f64::INFINITY,
                 };
                 (still && self.force[t].abs() <= bound + self.nothing).then_some(Status::Stick)
@@ -320,32 +326,36 @@ impl<'a> Check<'a> {
     }
 }
 
-/// All modes of a touch, with the least force first.
-pub(super) fn admissible(hold: Hold, pressed: f64) -> Vec<Mode> {
-    let tangents = match hold {
-        Hold::Grip(Grip::Smooth) => vec![Tangent::Free],
-        Hold::Grip(Grip::Rough) => vec![Tangent::Stick],
-        Hold::Grip(Grip::Sliding { sense, .. }) | Hold::Starting(sense, _) => vec![Tangent::Slip(sense)],
-        Hold::Grip(Grip::Resting { .. }) => vec![Tangent::Stick, Tangent::Slip(1.0), Tangent::Slip(-1.0)],
+/// All modes of a contact, with the least force first.
+pub(super) fn admissible(law: BlockFriction, least_normal: f64) -> Vec<Mode> {
+    let tangents = match law {
+        BlockFriction::Law(FrictionLaw::Frictionless) => vec![Tangent::Free],
+        BlockFriction::Law(FrictionLaw::Rough) => vec![Tangent::Stick],
+        BlockFriction::Law(FrictionLaw::Sliding { sense, .. }) | BlockFriction::Starting(sense, _) => {
+            vec![Tangent::Slip(sense)]
+        }
+        BlockFriction::Law(FrictionLaw::Resting { .. }) => {
+            vec![Tangent::Stick, Tangent::Slip(1.0), Tangent::Slip(-1.0)]
+        }
     };
     let with = |closed| tangents.iter().map(move |&tangent| Mode { closed, tangent });
-    let open = if pressed > 0.0 { with(false).collect() } else { vec![Mode::OPEN] };
+    let open = if least_normal > 0.0 { with(false).collect() } else { vec![Mode::OPEN] };
     open.into_iter().chain(with(true)).collect()
 }
 
 /// A mode and what can stand for it where its forces are not determined: the vertices of the set of forces.
-pub(super) fn vertices(hold: Hold, mode: Mode) -> Vec<Mode> {
-    let tangents = match (mode.tangent, hold) {
-        (Tangent::Stick, Hold::Grip(Grip::Resting { .. })) => {
-            vec![Tangent::Stick, Tangent::Lean, Tangent::Brink(1.0), Tangent::Brink(-1.0)]
+pub(super) fn vertices(law: BlockFriction, mode: Mode) -> Vec<Mode> {
+    let tangents = match (mode.tangent, law) {
+        (Tangent::Stick, BlockFriction::Law(FrictionLaw::Resting { .. })) => {
+            vec![Tangent::Stick, Tangent::PartialFriction, Tangent::Impending(1.0), Tangent::Impending(-1.0)]
         }
-        (Tangent::Stick, _) => vec![Tangent::Stick, Tangent::Lean],
+        (Tangent::Stick, _) => vec![Tangent::Stick, Tangent::PartialFriction],
         (tangent, _) => vec![tangent],
     };
     tangents.into_iter().map(|tangent| Mode { tangent, ..mode }).collect()
 }
 
-/// Calls `visit` with every choice of one mode for each touch, the last touch varying fastest, until it
+/// Calls `visit` with every choice of one mode for each contact, the last contact varying fastest, until it
 /// returns true.
 pub(super) fn choices(lists: &[Vec<Mode>], mut visit: impl FnMut(&[Mode]) -> bool) {
     let mut at = vec![0; lists.len()];

@@ -59,12 +59,12 @@ fn troubles_are_passed_on() {
             }
         }
     }
-    for (broken_from, reached) in [(0.5, 0.5), (-1.0, 0.0)] {
+    for (broken_from, contacts) in [(0.5, 0.5), (-1.0, 0.0)] {
         let dop853 = method("dop853").unwrap();
         let mut system = Broken(broken_from);
         let run = run(&mut system, dop853, (0.0, &[0.0]), 1.0, &rtol(1e-9), &mut |_| true);
         assert_eq!(run.outcome.name(), "SingularMass");
-        assert!((run.t - reached).abs() < 1e-9);
+        assert!((run.t - contacts).abs() < 1e-9);
     }
 }
 

@@ -225,10 +225,10 @@ fn kinks_are_passed_exactly() {
             side.set(-side.get());
             After::Continue
         });
-    system.watches[0].role = Role::Kink;
+    system.watches[0].role = Role::Discontinuity;
     let run = system.run("dop853", (0.0, &[0.0, 1.0]), 41.0, &rtol(1e-10));
-    println!("{:?}, {} kinks, {} steps", run.y, run.kinks, run.accepted);
-    assert_eq!((run.kinks, run.events.len()), (20, 0));
+    println!("{:?}, {} kinks, {} steps", run.y, run.discontinuities, run.accepted);
+    assert_eq!((run.discontinuities, run.events.len()), (20, 0));
     assert!((run.y[0] - 0.5).abs() < 1e-11 && run.y[1].abs() < 1e-11);
 }
 
@@ -268,7 +268,7 @@ fn sliding_on_a_kink_is_named() {
             side.set(-side.get());
             After::Continue
         });
-    system.watches[0].role = Role::Kink;
+    system.watches[0].role = Role::Discontinuity;
     let run = system.run("dop853", (0.0, &[0.7]), 3.0, &rtol(1e-9));
     assert!(matches!(run.outcome, Outcome::Chatter { .. }));
     assert!((run.t - 1.0).abs() < 1e-12);

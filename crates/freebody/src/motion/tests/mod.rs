@@ -17,7 +17,7 @@ type Act<'a> = Box<dyn FnMut(usize, f64, &mut [f64]) -> After + 'a>;
 struct Plain<'a> {
     scale: Vec<f64>,
     rate: Rate<'a>,
-    watches: Vec<Watch>,
+    watches: Vec<EventSpec>,
     switches: Switches<'a>,
     act: Act<'a>,
 }
@@ -34,8 +34,8 @@ impl<'a> Plain<'a> {
     }
 
     fn watching(mut self, directions: &[i8], switches: impl FnMut(f64, &[f64], &mut [f64]) + 'a) -> Self {
-        let watch = |&direction| Watch::event(direction);
-        self.watches = directions.iter().map(watch).collect();
+        let spec = |&direction| EventSpec::event(direction);
+        self.watches = directions.iter().map(spec).collect();
         self.switches = Box::new(switches);
         self
     }
@@ -68,7 +68,7 @@ impl System for Plain<'_> {
         (self.switches)(t, y, out);
         Ok(())
     }
-    fn switch(&self, i: usize) -> Watch {
+    fn switch(&self, i: usize) -> EventSpec {
         self.watches[i]
     }
     fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {

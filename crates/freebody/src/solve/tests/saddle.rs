@@ -185,7 +185,7 @@ fn actuators_must_reach_the_prescribed_motion() {
     let g = Matrix::from_fn(1, 2, |_, j| [1.0, 0.0][j]);
     let beside = Matrix::from_fn(1, 2, |_, j| [0.0, 1.0][j]);
     let error = Saddle::factor(&mass, &g, Some(&beside), &ones[..1], &ones).unwrap_err();
-    assert!(matches!(error, SaddleError::NoAuthority { .. }), "{error}");
+    assert!(matches!(error, SaddleError::InsufficientActuation { .. }), "{error}");
     let none = Matrix::zeros(1, 2);
     let error = Saddle::factor(&mass, &g, Some(&none), &ones[..1], &ones).unwrap_err();
     assert_eq!(error, SaddleError::RankMismatch { motion: 1, force: 0 });

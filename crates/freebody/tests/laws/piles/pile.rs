@@ -70,8 +70,8 @@ impl Pile {
     /// with which they are. Independent of what the contacts of the model measure.
     pub fn clearance(&self, poses: &[[f64; 3]]) -> (f64, String) {
         let n = self.blocks.len();
-        let shape = |i: usize| Placed::of(&self.blocks[i].outline, poses[i]);
-        let shapes: Vec<Placed> = (0..n).map(shape).collect();
+        let shape = |i: usize| StateView::of(&self.blocks[i].outline, poses[i]);
+        let shapes: Vec<StateView> = (0..n).map(shape).collect();
         let boxed = |i: usize| (shapes[i].in_box(), format!("b{i} box"));
         let pairs = (0..n).flat_map(|i| (0..i).map(move |j| (i, j)));
         let apart = pairs.map(|(i, j)| (shapes[i].apart(&shapes[j]), format!("b{i} b{j}")));
@@ -186,18 +186,18 @@ fn contact(model: &mut Model, name: String, of: [Surface; 2], surfaces: &mut dyn
 }
 
 /// An outline in its place: corners round which a disk of a radius goes.
-struct Placed {
+struct StateView {
     corners: Vec<Vec2>,
     radius: f64,
 }
 
-impl Placed {
-    fn of(outline: &Outline, at: [f64; 3]) -> Placed {
+impl StateView {
+    fn of(outline: &Outline, at: [f64; 3]) -> StateView {
         let pose = pose(at);
         match outline {
-            Outline::Disk(radius) => Placed { corners: vec![pose.at], radius: *radius },
+            Outline::Disk(radius) => StateView { corners: vec![pose.at], radius: *radius },
             Outline::Polygon(corners) => {
-                Placed { corners: corners.iter().map(|c| pose.place(*c)).collect(), radius: 0.0 }
+                StateView { corners: corners.iter().map(|c| pose.place(*c)).collect(), radius: 0.0 }
             }
         }
     }
@@ -213,13 +213,13 @@ impl Placed {
 
     /// Along every normal of a side, and from every corner to every one of a disk, how far the other lies beyond: the
     /// largest is a distance that both keep at least, and where they overlap the depth, negative.
-    fn apart(&self, other: &Placed) -> f64 {
-        let beyond = |a: &Placed, b: &Placed, normal: Vec2| {
+    fn apart(&self, other: &StateView) -> f64 {
+        let beyond = |a: &StateView, b: &StateView, normal: Vec2| {
             let far = a.corners.iter().map(|c| normal.dot(*c)).fold(f64::NEG_INFINITY, f64::max);
             let near = b.corners.iter().map(|c| normal.dot(*c)).fold(f64::INFINITY, f64::min);
             near - far
         };
-        let sides = |a: &Placed, b: &Placed| {
+        let sides = |a: &StateView, b: &StateView| {
             let next = a.corners.iter().cycle().skip(1);
             let normals = a.corners.iter().zip(next).filter(|_| a.corners.len() > 1).map(|(p, q)| {
                 let along = *q - *p;

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 const UP: f64 = FRAC_PI_2;
 
-fn resting(mu: f64) -> Grip {
-    Grip::Resting { fixed: mu, kinetic: mu }
+fn resting(mu: f64) -> FrictionLaw {
+    FrictionLaw::Resting { fixed: mu, kinetic: mu }
 }
 
 /// (ẍ, ÿ, angular acceleration) of a uniform box of unit mass, half-width b and half-height h, that rests on
@@ -39,45 +39,46 @@ fn box_sticks_slides_tips() {
         let w = rows(&[touch(-b, -h, UP), touch(b, -h, UP)]);
         let g = delassus(&w, &[1.0, 1.0, 3.0 / (b * b + h * h)]);
         let free = w.mul_vec(&[pull, -gravity, 0.0]);
-        let a = solved(&Problem { g: &g, free: &free, grips: &[resting(mu); 2] });
+        let a = solved(&Problem { g: &g, free: &free, friction: &[resting(mu); 2] });
         assert!(agree(&a.acceleration, &w.mul_vec(&expected), 1e-12), "{b} {h} {mu} {pull} {a:?} {expected:?}");
     }
     assert!(seen[0] > 100 && seen[1] > 100 && seen[3] > 100, "{seen:?}");
 }
 
-/// A block on an incline of angle α holds up to tan α = μ and not beyond, on one touch and on four.
+/// A block on an incline of angle α holds up to tan α = μ and not beyond, on one contact and on four.
 #[test]
 fn block_on_incline() {
     for n in 1..1_000 {
         let alpha = n as f64 / 1_000.0 * 1.5;
-        for touches in [1, 4] {
-            let corners: Vec<_> = (0..touches).map(|i| touch(4.0 * i as f64 / 3.0 - 2.0, -0.01, UP)).collect();
-            let w = if touches == 1 { rows(&[touch(0.0, 0.0, UP)]) } else { rows(&corners) };
+        for contacts in [1, 4] {
+            let corners: Vec<_> = (0..contacts).map(|i| touch(4.0 * i as f64 / 3.0 - 2.0, -0.01, UP)).collect();
+            let w = if contacts == 1 { rows(&[touch(0.0, 0.0, UP)]) } else { rows(&corners) };
             let g = delassus(&w, &[1.0, 1.0, 3.0]);
             let free = w.mul_vec(&[9.81 * alpha.sin(), -9.81 * alpha.cos(), 0.0]);
             // Friction falls short of the pull down the plane by this part of the weight.
             let slides = |short: f64| {
-                let grips = vec![resting((alpha.sin() - short) / alpha.cos()); touches];
-                solved(&Problem { g: &g, free: &free, grips: &grips }).acceleration[touches] > 1e-12
+                let friction = vec![resting((alpha.sin() - short) / alpha.cos()); contacts];
+                solved(&Problem { g: &g, free: &free, friction: &friction }).acceleration[contacts] > 1e-12
             };
-            assert!(!slides(0.0) && !slides(-1e-12) && slides(1e-12), "{alpha} {touches}");
+            assert!(!slides(0.0) && !slides(-1e-12) && slides(1e-12), "{alpha} {contacts}");
         }
     }
 }
 
-/// Redundant touches carry a load by independent forces; the rest carry nothing.
+/// Redundant contacts carry a load by independent forces; the rest carry nothing.
 #[test]
 fn redundant_touches_are_basic() {
     for k in 2..10 {
-        for grip in [Grip::Smooth, Grip::Rough, resting(0.4)] {
+        for friction_law in [FrictionLaw::Frictionless, FrictionLaw::Rough, resting(0.4)] {
             let feet: Vec<_> = (0..k).map(|i| touch(i as f64 - 0.4 * k as f64, -1.0, UP)).collect();
             let w = rows(&feet);
             let g = delassus(&w, &[1.0, 1.0, 0.7]);
-            let pull = if grip == Grip::Smooth { 0.0 } else { 1.0 };
+            let pull = if friction_law == FrictionLaw::Frictionless { 0.0 } else { 1.0 };
             let free = w.mul_vec(&[pull, -9.81, 0.1]);
-            let a = solved(&Problem { g: &g, free: &free, grips: &vec![grip; k] });
-            // On the edge of its cone a touch has one force.
-            let edge = |i: usize| grip == resting(0.4) && (a.tangent[i].abs() - 0.4 * a.normal[i]).abs() < 1e-12;
+            let a = solved(&Problem { g: &g, free: &free, friction: &vec![friction_law; k] });
+            // On the edge of its cone a contact has one force.
+            let edge =
+                |i: usize| friction_law == resting(0.4) && (a.tangent[i].abs() - 0.4 * a.normal[i]).abs() < 1e-12;
             let count = |i: usize| usize::from(a.normal[i] != 0.0) + usize::from(a.tangent[i] != 0.0 && !edge(i));
             assert!((0..k).map(count).sum::<usize>() <= 3, "{a:?}");
             assert!(a.acceleration.iter().all(|a| a.abs() <= 1e-14), "{a:?}");
@@ -86,7 +87,7 @@ fn redundant_touches_are_basic() {
     }
 }
 
-/// A stack of boxes of mass 1, each on two touches: each pair carries the weight above it; if the
+/// A stack of boxes of mass 1, each on two contacts: each pair carries the weight above it; if the
 /// lowest is pulled hard enough, it slides out, and drags the next with friction.
 #[test]
 fn stacks() {
@@ -107,7 +108,7 @@ fn stacks() {
         let inverse: Vec<f64> = (0..3 * boxes).map(|i| if i % 3 == 2 { 3.0 / 1.01 } else { 1.0 }).collect();
         let g = delassus(&w, &inverse);
         let mut pull: Vec<f64> = (0..3 * boxes).map(|i| if i % 3 == 1 { -gravity } else { 0.0 }).collect();
-        let a = solved(&Problem { g: &g, free: &w.mul_vec(&pull), grips: &vec![resting(mu); k] });
+        let a = solved(&Problem { g: &g, free: &w.mul_vec(&pull), friction: &vec![resting(mu); k] });
         assert!(a.acceleration.iter().all(|a| *a == 0.0));
         for j in 0..boxes {
             assert!((a.normal[2 * j] + a.normal[2 * j + 1] - (boxes - j) as f64 * gravity).abs() < 1e-12);
@@ -115,7 +116,7 @@ fn stacks() {
         if boxes > 1 {
             pull[0] = 5.0 * boxes as f64 * gravity;
             let n = boxes as f64;
-            let a = solved(&Problem { g: &g, free: &w.mul_vec(&pull), grips: &vec![resting(mu); k] });
+            let a = solved(&Problem { g: &g, free: &w.mul_vec(&pull), friction: &vec![resting(mu); k] });
             let (lowest, next) = (pull[0] - mu * gravity * (2.0 * n - 1.0), mu * gravity);
             assert!((a.acceleration[k] - lowest).abs() < 1e-11 * lowest, "{a:?}");
             assert!((a.acceleration[k + 2] - (next - lowest)).abs() < 1e-11 * lowest);
@@ -129,28 +130,31 @@ fn clamped_between_walls() {
     let w = rows(&[touch(-1.0, 0.0, 0.0), touch(1.0, 0.0, 2.0 * FRAC_PI_2)]);
     let g = delassus(&w, &[1.0, 1.0, 1.0]);
     let free = w.mul_vec(&[0.0, -9.81, 0.0]);
-    let Verdict::Indeterminate(all) = verified(&Problem { g: &g, free: &free, grips: &[resting(0.5); 2] }, 1e-12)
+    let Verdict::Indeterminate(all) = verified(&Problem { g: &g, free: &free, friction: &[resting(0.5); 2] }, 1e-12)
     else {
         panic!()
     };
     assert_eq!(all.len(), 2);
     assert!(all.iter().any(|a| a.acceleration.iter().all(|a| *a == 0.0)));
-    let smooth = solved(&Problem { g: &g, free: &free, grips: &[Grip::Smooth; 2] });
+    let smooth = solved(&Problem { g: &g, free: &free, friction: &[FrictionLaw::Frictionless; 2] });
     assert!(agree(&smooth.acceleration, &free, 1e-15));
 }
 
-/// Opposed touches that a prescribed motion would drive through each other cannot be.
+/// Opposed contacts that a prescribed motion would drive through each other cannot be.
 #[test]
 fn squeezed() {
     let w = rows(&[touch(-1.0, 0.0, 0.0), touch(1.0, 0.0, 2.0 * FRAC_PI_2)]);
     let g = delassus(&w, &[1.0, 1.0, 1.0]);
-    for grip in [Grip::Smooth, Grip::Rough, resting(0.5)] {
-        assert_eq!(solve(&Problem { g: &g, free: &[-1.0, 0.5, 0.0, 0.0], grips: &[grip; 2] }), Verdict::Inconsistent);
+    for friction_law in [FrictionLaw::Frictionless, FrictionLaw::Rough, resting(0.5)] {
+        assert_eq!(
+            solve(&Problem { g: &g, free: &[-1.0, 0.5, 0.0, 0.0], friction: &[friction_law; 2] }),
+            Verdict::Inconsistent
+        );
     }
     let nothing_moves = Matrix::zeros(2, 2);
-    let grips = &[resting(0.5)];
-    assert_eq!(solve(&Problem { g: &nothing_moves, free: &[-1.0, 0.0], grips }), Verdict::Inconsistent);
-    assert!(matches!(solve(&Problem { g: &nothing_moves, free: &[0.0, 1.0], grips }), Verdict::Solved(_)));
+    let friction = &[resting(0.5)];
+    assert_eq!(solve(&Problem { g: &nothing_moves, free: &[-1.0, 0.0], friction }), Verdict::Inconsistent);
+    assert!(matches!(solve(&Problem { g: &nothing_moves, free: &[0.0, 1.0], friction }), Verdict::Solved(_)));
 }
 
 /// A uniform rod of half-length l slides at the angle θ to the ground: A m = 1 + 3 cos θ (cos θ − μ sin θ) and
@@ -171,8 +175,10 @@ fn painleve_rod() {
             let p = painleve(&g, &free, 0, 1.0, mu);
             assert!((p.leading * mass - leading).abs() < 1e-13 * (1.0 + mu) && p.free == b);
             assert!((p.critical.unwrap() - (1.0 + 3.0 * cos * cos) / (3.0 * cos * sin)).abs() < 1e-10 * (1.0 / cos));
-            let verdict =
-                verified(&Problem { g: &g, free: &free, grips: &[Grip::Sliding { sense: 1.0, kinetic: mu }] }, 1e-12);
+            let verdict = verified(
+                &Problem { g: &g, free: &free, friction: &[FrictionLaw::Sliding { sense: 1.0, kinetic: mu }] },
+                1e-12,
+            );
             let class = match (leading > 0.0, b > 0.0, &verdict) {
                 (true, false, Verdict::Solved(a)) if a.status == [Status::Slip(1.0)] => 0,
                 (true, true, Verdict::Solved(a)) if a.status == [Status::Open] => 1,
@@ -190,13 +196,13 @@ fn painleve_rod() {
 #[test]
 fn ladder() {
     let mu: f64 = 0.5;
-    let limit = ((1.0 - mu * mu) / (2.0 * mu)).atan();
-    for (theta, holds) in [(limit + 1e-6, true), (limit - 1e-6, false), (FRAC_PI_4, true)] {
+    let constraint = ((1.0 - mu * mu) / (2.0 * mu)).atan();
+    for (theta, laws) in [(constraint + 1e-6, true), (constraint - 1e-6, false), (FRAC_PI_4, true)] {
         let (sin, cos) = theta.sin_cos();
         let w = rows(&[touch(-cos, -sin, UP), touch(cos, sin, 2.0 * FRAC_PI_2)]);
         let g = delassus(&w, &[1.0, 1.0, 3.0]);
-        let problem = Problem { g: &g, free: &w.mul_vec(&[0.0, -9.81, 0.0]), grips: &[resting(mu); 2] };
-        assert_eq!(solved(&problem).acceleration.iter().all(|a| *a == 0.0), holds, "{theta}");
+        let problem = Problem { g: &g, free: &w.mul_vec(&[0.0, -9.81, 0.0]), friction: &[resting(mu); 2] };
+        assert_eq!(solved(&problem).acceleration.iter().all(|a| *a == 0.0), laws, "{theta}");
     }
 }
 
@@ -210,8 +216,8 @@ fn heavy_on_light() {
         let w = Matrix::from_fn(4, 2, |i, j| if i < 2 { normal[i][j] } else { 0.0 });
         let g = delassus(&w, &[1.0 / light, 1.0]);
         let free = w.mul_vec(&[-9.81, -9.81]);
-        for grip in [Grip::Smooth, resting(0.3)] {
-            match solve(&Problem { g: &g, free: &free, grips: &[grip; 2] }) {
+        for friction_law in [FrictionLaw::Frictionless, resting(0.3)] {
+            match solve(&Problem { g: &g, free: &free, friction: &[friction_law; 2] }) {
                 Verdict::Solved(a) => assert!(agree(&a.normal, &[9.81 * (1.0 + light), 9.81], 1e-15 / light), "{a:?}"),
                 verdict => assert!(decades > 9 && verdict == Verdict::Unknown, "{verdict:?} {light}"),
             }

@@ -1,4 +1,4 @@
-//! Random touches, and what an answer must satisfy whoever found it.
+//! Random contacts, and what an answer must satisfy whoever found it.
 
 use super::*;
 use crate::solve::Matrix;
@@ -34,17 +34,17 @@ impl Random {
     }
 }
 
-/// The normal and tangential row of a touch at (x, y) of a body with coordinates (x, y, angle), with the
+/// The normal and tangential row of a contact at (x, y) of a body with coordinates (x, y, angle), with the
 /// normal at `angle`.
 fn touch(x: f64, y: f64, angle: f64) -> [[f64; 3]; 2] {
     let row = |(nx, ny): (f64, f64)| [nx, ny, x * ny - y * nx];
     [row((angle.cos(), angle.sin())), row((angle.sin(), -angle.cos()))]
 }
 
-/// Rows of touches of one body on the ground, normals first.
-fn rows(touches: &[[[f64; 3]; 2]]) -> Matrix {
-    let k = touches.len();
-    Matrix::from_fn(2 * k, 3, |i, j| touches[i % k][i / k][j])
+/// Rows of contacts of one body on the ground, normals first.
+fn rows(contacts: &[[[f64; 3]; 2]]) -> Matrix {
+    let k = contacts.len();
+    Matrix::from_fn(2 * k, 3, |i, j| contacts[i % k][i / k][j])
 }
 
 /// W M⁻¹ Wᵀ.
@@ -58,19 +58,19 @@ fn delassus(w: &Matrix, inverse_masses: &[f64]) -> Matrix {
 struct Case {
     g: Matrix,
     free: Vec<f64>,
-    grips: Vec<Grip>,
+    grips: Vec<FrictionLaw>,
     /// The free accelerations are W v̇ of some motion.
     consistent: bool,
 }
 
 impl Case {
     fn problem(&self) -> Problem<'_> {
-        Problem { g: &self.g, free: &self.free, grips: &self.grips }
+        Problem { g: &self.g, free: &self.free, friction: &self.grips }
     }
 }
 
 /// Touches of two bodies with the ground and each other; `round` numbers make degenerate cases.
-fn case(r: &mut Random, k: usize, grip: impl Fn(&mut Random) -> Grip) -> Case {
+fn case(r: &mut Random, k: usize, friction_law: impl Fn(&mut Random) -> FrictionLaw) -> Case {
     let (round, consistent) = (r.below(3) == 0, r.below(4) > 0);
     let bodies = 1 + r.below(2);
     let masses: Vec<f64> = (0..3 * bodies).map(|_| if round { 1.0 } else { (3.0 * r.unit(false)).exp() }).collect();
@@ -90,49 +90,50 @@ fn case(r: &mut Random, k: usize, grip: impl Fn(&mut Random) -> Grip) -> Case {
     if !consistent {
         free.iter_mut().for_each(|f| *f += r.unit(round));
     }
-    Case { g: delassus(&w, &masses), free, grips: (0..k).map(|_| grip(r)).collect(), consistent }
+    Case { g: delassus(&w, &masses), free, grips: (0..k).map(|_| friction_law(r)).collect(), consistent }
 }
 
-fn any_grip(r: &mut Random) -> Grip {
+fn any_grip(r: &mut Random) -> FrictionLaw {
     let round = r.below(3) == 0;
     let mu = 1.0 + r.unit(round);
     match r.below(8) {
-        0 => Grip::Smooth,
-        1 => Grip::Rough,
-        2..=4 => Grip::Sliding { sense: r.sense(), kinetic: mu },
-        _ => Grip::Resting { fixed: mu, kinetic: mu },
+        0 => FrictionLaw::Frictionless,
+        1 => FrictionLaw::Rough,
+        2..=4 => FrictionLaw::Sliding { sense: r.sense(), kinetic: mu },
+        _ => FrictionLaw::Resting { fixed: mu, kinetic: mu },
     }
 }
 
-/// Holds an answer against the conditions of contact, to `tolerance` relative to the terms of a row and the free accelerations.
+/// Holds an answer against the conditions of contact, to `tolerance` relative to the terms of a row and the free
+/// accelerations.
 fn verify(p: &Problem, a: &Answer, tolerance: f64) -> Result<(), String> {
-    let k = p.grips.len();
+    let k = p.friction.len();
     let force = [&a.normal[..], &a.tangent[..]].concat();
     let units: Vec<f64> = (0..2 * k).map(|i| p.g[(i, i)].sqrt()).collect();
     let free = p.free.iter().zip(&units).map(|(f, u)| f.abs() / u).fold(0.0, f64::max);
-    let pushes = force.iter().zip(&units).map(|(f, u)| f.abs() * u).fold(free, f64::max);
+    let point_forces = force.iter().zip(&units).map(|(f, u)| f.abs() * u).fold(free, f64::max);
     let terms = |i: usize| units[i] * free + (0..2 * k).map(|j| (p.g[(i, j)] * force[j]).abs()).sum::<f64>();
     let small: Vec<f64> = (0..2 * k).map(|i| tolerance * terms(i)).collect();
     let moved = p.g.mul_vec(&force);
     let require = |ok: bool, what: &str, i: usize| if ok { Ok(()) } else { Err(format!("{what} of touch {i}")) };
     for i in 0..k {
-        let push = tolerance * pushes * (1.0 / units[i]).max(1.0 / units[k + i]);
+        let push = tolerance * point_forces * (1.0 / units[i]).max(1.0 / units[k + i]);
         let (n, t, an, at) = (a.normal[i], a.tangent[i], a.acceleration[i], a.acceleration[k + i]);
         require((p.free[i] + moved[i] - an).abs() <= small[i], "aN = G λ + f", i)?;
         require((p.free[k + i] + moved[k + i] - at).abs() <= small[k + i], "aT = G λ + f", i)?;
         require(n >= 0.0 && an >= 0.0 && n * an == 0.0, "0 ≤ λN ⟂ aN ≥ 0", i)?;
         let (slip, stick) = (a.status[i] == Status::Slip(at.signum()), a.status[i] == Status::Stick);
-        match (p.grips[i], a.status[i]) {
+        match (p.friction[i], a.status[i]) {
             (_, Status::Open) => require(n == 0.0 && t == 0.0, "no force", i)?,
-            (Grip::Smooth, s) => require(t == 0.0 && s == Status::Closed, "λT = 0", i)?,
-            (Grip::Rough, _) => require(at == 0.0 && stick && n > 0.0, "aT = 0", i)?,
-            (Grip::Sliding { sense, kinetic }, s) => {
+            (FrictionLaw::Frictionless, s) => require(t == 0.0 && s == Status::Closed, "λT = 0", i)?,
+            (FrictionLaw::Rough, _) => require(at == 0.0 && stick && n > 0.0, "aT = 0", i)?,
+            (FrictionLaw::Sliding { sense, kinetic }, s) => {
                 require((t + kinetic * sense * n).abs() <= push && s == Status::Slip(sense), "λT = −μ s λN", i)?
             }
-            (Grip::Resting { fixed, .. }, Status::Stick) => {
+            (FrictionLaw::Resting { fixed, .. }, Status::Stick) => {
                 require(at == 0.0 && t.abs() <= fixed * n + push, "|λT| ≤ μ λN", i)?
             }
-            (Grip::Resting { kinetic, .. }, _) => {
+            (FrictionLaw::Resting { kinetic, .. }, _) => {
                 require(slip && (t + kinetic * at.signum() * n).abs() <= push, "λT = −μ sgn(aT) λN", i)?
             }
         }

@@ -1,12 +1,12 @@
 //! Random problems: pivoting against enumeration, and what theory promises.
 
+use super::super::mode_search::{enumerate, pivot, Outcome};
 use super::super::modes::Found;
-use super::super::search::{enumerate, pivot, Outcome};
 use super::*;
 
-fn task(c: &Case) -> Task {
+fn task(c: &Case) -> LcpBlock {
     let k = c.grips.len();
-    Task::new(&c.g, &c.free, &c.grips, &vec![0.0; k], &(0..k).collect::<Vec<_>>())
+    LcpBlock::new(&c.g, &c.free, &c.grips, &vec![0.0; k], &(0..k).collect::<Vec<_>>())
 }
 
 /// Pivoting finds what enumeration finds, and never what it does not; every answer satisfies the conditions.
@@ -17,9 +17,9 @@ fn pivoting_agrees_with_enumeration() {
     for n in 0..100_000 {
         let k = 1 + r.below(3);
         let c = case(&mut r, k, any_grip);
-        let task = task(&c);
-        let all = enumerate(&task, Vec::new(), 1e-12);
-        match pivot(&task, 1e-12) {
+        let block = task(&c);
+        let all = enumerate(&block, Vec::new(), 1e-12);
+        match pivot(&block, 1e-12) {
             Outcome::Found(found) => {
                 let same = |f: &Found| agree(&f.acceleration, &found[0].acceleration, 1e-9);
                 assert!(all.iter().any(same), "case {n}: {:?}\n{found:?}\n{all:?}", c.problem());
@@ -35,11 +35,11 @@ fn pivoting_agrees_with_enumeration() {
         }
     }
     assert!(counts[0] > 50_000 && counts[1] > 1_000 && counts[2] > 1_000 && counts[3] == 0, "{counts:?}");
-    // Where touches slide, Lemke's path may end on a ray though there is a solution.
+    // Where contacts slide, Lemke's path may end on a ray though there is a solution.
     assert!(lost < 4_000, "{lost}");
 }
 
-/// Without touches that slide already there is always a motion, however many touches are redundant
+/// Without contacts that slide already there is always a motion, however many contacts are redundant
 /// (Stewart & Trinkle 1996), and pivoting finds it.
 #[test]
 fn touches_at_rest_always_have_a_motion() {
@@ -47,7 +47,13 @@ fn touches_at_rest_always_have_a_motion() {
     for n in 0..10_000 {
         let k = 1 + r.below(10);
         let mu = r.unit(false).abs() * 2.0;
-        let c = case(&mut r, k, |_| if n % 4 == 0 { Grip::Smooth } else { Grip::Resting { fixed: mu, kinetic: mu } });
+        let c = case(&mut r, k, |_| {
+            if n % 4 == 0 {
+                FrictionLaw::Frictionless
+            } else {
+                FrictionLaw::Resting { fixed: mu, kinetic: mu }
+            }
+        });
         if c.consistent {
             assert!(matches!(pivot(&task(&c), 1e-12), Outcome::Found(_)), "case {n}: {:?}", c.problem());
             assert!(matches!(verified(&c.problem(), 1e-9), Verdict::Solved(_) | Verdict::Indeterminate(_)));
@@ -55,7 +61,7 @@ fn touches_at_rest_always_have_a_motion() {
     }
 }
 
-/// Nor does round-off of G and of the free accelerations make redundant touches impossible.
+/// Nor does round-off of G and of the free accelerations make redundant contacts impossible.
 #[test]
 fn round_off_is_no_contradiction() {
     let mut r = Random(5);
@@ -63,9 +69,9 @@ fn round_off_is_no_contradiction() {
         let (k, noise) = (1 + r.below(8), [1e-16, 1e-14, 1e-12][n % 3]);
         let mut c = case(&mut r, k, |r| {
             if n % 4 == 0 {
-                Grip::Smooth
+                FrictionLaw::Frictionless
             } else {
-                Grip::Resting { fixed: 1.0, kinetic: r.unit(true).abs() }
+                FrictionLaw::Resting { fixed: 1.0, kinetic: r.unit(true).abs() }
             }
         });
         for (a, b) in (0..2 * k).flat_map(|a| (0..=a).map(move |b| (a, b))) {
@@ -95,7 +101,7 @@ fn units_do_not_matter() {
         let (d, f) = (2_f64.powi(r.below(40) as i32 - 20), 10_f64.powi(r.below(19) as i32 - 9));
         let g = Matrix::from_fn(2 * k, 2 * k, |i, j| d * c.g[(i, j)] * d);
         let free: Vec<f64> = c.free.iter().map(|v| d * f * v).collect();
-        let Verdict::Solved(b) = verified(&Problem { g: &g, free: &free, grips: &c.grips }, 1e-9) else { panic!() };
+        let Verdict::Solved(b) = verified(&Problem { g: &g, free: &free, friction: &c.grips }, 1e-9) else { panic!() };
         let back: Vec<f64> = b.acceleration.iter().map(|v| v / (d * f)).collect();
         assert!(agree(&back, &a.acceleration, 1e-9));
         assert_eq!(a.status, b.status);
@@ -111,16 +117,16 @@ fn static_friction_has_precedence() {
         let k = 1 + r.below(3);
         let c = case(&mut r, k, |r| {
             let fixed = 1.0 + r.unit(false);
-            Grip::Resting { fixed, kinetic: 0.5 * fixed * (1.0 + r.unit(false)) }
+            FrictionLaw::Resting { fixed, kinetic: 0.5 * fixed * (1.0 + r.unit(false)) }
         });
         let Verdict::Solved(a) = verified(&c.problem(), 1e-9) else { continue };
         slips += a.status.iter().filter(|s| matches!(s, Status::Slip(_))).count();
-        let bound = |g: &Grip| match *g {
-            Grip::Resting { fixed, .. } => Grip::Resting { fixed, kinetic: fixed },
+        let bound = |g: &FrictionLaw| match *g {
+            FrictionLaw::Resting { fixed, .. } => FrictionLaw::Resting { fixed, kinetic: fixed },
             g => g,
         };
-        let grips: Vec<Grip> = c.grips.iter().map(bound).collect();
-        if let Verdict::Solved(b) = solve(&Problem { grips: &grips, ..c.problem() }) {
+        let friction: Vec<FrictionLaw> = c.grips.iter().map(bound).collect();
+        if let Verdict::Solved(b) = solve(&Problem { friction: &friction, ..c.problem() }) {
             let slides = |a: &Answer| a.status.iter().any(|s| matches!(s, Status::Slip(_)));
             assert!(slides(&a) == slides(&b) || slides(&b));
         }
@@ -132,8 +138,8 @@ fn static_friction_has_precedence() {
 #[test]
 fn far_apart() {
     let g = Matrix::identity(4);
-    let grip = Grip::Resting { fixed: 0.5, kinetic: 0.5 };
-    let a = solved(&Problem { g: &g, free: &[-1e9, -1e-9, 1e9, 1e-10], grips: &[grip; 2] });
+    let friction_law = FrictionLaw::Resting { fixed: 0.5, kinetic: 0.5 };
+    let a = solved(&Problem { g: &g, free: &[-1e9, -1e-9, 1e9, 1e-10], friction: &[friction_law; 2] });
     assert_eq!(a.status, [Status::Slip(1.0), Status::Stick]);
     assert_eq!(a.normal, [1e9, 1e-9]);
     assert!(agree(&a.tangent, &[-5e8, -1e-10], 1e-15));
@@ -143,9 +149,9 @@ fn far_apart() {
 #[test]
 fn not_a_number() {
     let g = Matrix::identity(2);
-    let verdict = |free: f64, grip| solve(&Problem { g: &g, free: &[free, 0.0], grips: &[grip] });
-    assert_eq!(verdict(f64::NAN, Grip::Smooth), Verdict::Unknown);
-    assert_eq!(verdict(-1.0, Grip::Resting { fixed: f64::NAN, kinetic: 0.1 }), Verdict::Unknown);
-    assert_eq!(verdict(-1.0, Grip::Resting { fixed: 0.1, kinetic: 0.2 }), Verdict::Unknown);
-    assert_eq!(verdict(-1.0, Grip::Sliding { sense: 0.0, kinetic: 0.2 }), Verdict::Unknown);
+    let verdict = |free: f64, friction_law| solve(&Problem { g: &g, free: &[free, 0.0], friction: &[friction_law] });
+    assert_eq!(verdict(f64::NAN, FrictionLaw::Frictionless), Verdict::Unknown);
+    assert_eq!(verdict(-1.0, FrictionLaw::Resting { fixed: f64::NAN, kinetic: 0.1 }), Verdict::Unknown);
+    assert_eq!(verdict(-1.0, FrictionLaw::Resting { fixed: 0.1, kinetic: 0.2 }), Verdict::Unknown);
+    assert_eq!(verdict(-1.0, FrictionLaw::Sliding { sense: 0.0, kinetic: 0.2 }), Verdict::Unknown);
 }

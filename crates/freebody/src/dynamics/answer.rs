@@ -1,0 +1,45 @@
+//! What an instant tells, as data.
+
+use super::{ContactLoad, Freedom, Instant};
+use serde_json::{json, Value};
+
+impl Instant {
+    /// The degrees of freedom, how they come about, and the ways in which parts can load each other, in words.
+    pub fn rank(&self, f: &Freedom) -> Value {
+        json!({
+            "freedom": f.here, "count": f.count, "rows": f.rows, "redundant": f.redundant, "always_redundant": f.always_redundant,
+            "driven": f.driven, "uncertain": f.uncertain, "explanation": f.explain(), "self_stress": self.self_stress,
+        })
+    }
+
+    /// What every contact, stop and string does.
+    pub fn contacts(&self) -> Value {
+        let told = |l: &ContactLoad| {
+            json!({
+                "state": l.state, "gap": l.gap, "normal": l.along[0], "friction": l.along[1],
+                "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]), "determinate": l.determinate,
+            })
+        };
+        Value::Array(self.contacts.iter().map(told).collect())
+    }
+}
+
+impl<'m> super::Workspace<'m> {
+    /// The mechanism at a state, with contacts, strings and friction as they are where nothing moved before.
+    ///
+    /// # Errors
+    /// Arrays that are no state; as [`super::Workspace::set_contact_modes`].
+    pub fn of_state(
+        m: &'m crate::mechanism::Mechanism,
+        p: &[f64],
+        t: f64,
+        q: &[f64],
+        u: &[f64],
+    ) -> Result<Self, super::Trouble> {
+        m.check_state(p, t, q, u)?;
+        let mut workspace = Self::new(m, p);
+        workspace.place(t, q, u);
+        workspace.set_contact_modes()?;
+        Ok(workspace)
+    }
+}

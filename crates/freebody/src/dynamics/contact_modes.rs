@@ -1,0 +1,384 @@
+//! Unilateral constraints that are closed: which of them hold, and what an impact does.
+//!
+//! All other constraints are eliminated first, by the null space of their rows; what is left is a problem of the
+//! unilateral constraints alone, with the Delassus matrix of accelerations by unit contact forces. An impact is the
+//! same problem with velocities and impulses (Pfeiffer & Glocker 1996, *Multibody Dynamics with Unilateral Contacts*).
+
+use super::minimal::Force;
+use super::rows::{closing_rows, gap_row, slide_row};
+use super::{generalized_force, Row, Trouble, Workspace};
+use crate::contact::complementarity::{self, Answer, FrictionLaw, Problem, Status, Verdict};
+use crate::mechanism::Friction;
+use crate::mode::ContactMode;
+use crate::plane::{Vec2, Wrench};
+use crate::solve::Matrix;
+
+/// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
+const CLOSE: f64 = 1e-8;
+/// Part of the mechanism's own accelerations below which one is round-off.
+const NOTHING: f64 = 1e-13;
+
+/// Coupling of two unilateral constraints, over their own sizes, that is round-off.
+const UNCOUPLED: f64 = 1e-12;
+
+/// What counts as slow, and what is done where nothing decides.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactTolerances {
+    /// A speed of sliding below which there is none, m/s.
+    pub rest_speed: f64,
+    /// The mechanism's own accelerations, m/s².
+    pub acceleration: f64,
+    /// Whether what can stay at rest stays, where Coulomb's law leaves it open.
+    pub prefer_rest: bool,
+    /// Whether touches that are almost one may contradict each other by a little.
+    pub relaxed: bool,
+}
+
+/// Unilateral constraints whose gaps are closed at one state, k of them.
+pub struct ClosedContacts {
+    /// Which.
+    pub constraints: Vec<usize>,
+    pub(super) gaps: Vec<Row>,
+    pub(super) slides: Vec<Option<Row>>,
+    /// Joint accelerations for a unit force: of the k gaps, then of the k slides.
+    responses: Vec<Vec<f64>>,
+    /// Accelerations of gaps, then slides, by unit forces along them, 2k × 2k.
+    pub(super) g: Matrix,
+    /// Rates of the k gaps, then of the k slides, m/s.
+    pub rates: Vec<f64>,
+}
+
+/// How unilateral constraints go on.
+pub struct ContactDecision {
+    /// Of each unilateral constraint reached.
+    pub modes: Vec<ContactMode>,
+    /// Whether something that decides was too small to be sure of.
+    pub is_doubtful: bool,
+    /// Part of its normal force that is the friction of each.
+    pub friction_ratios: Vec<f64>,
+}
+
+impl ClosedContacts {
+    pub(super) fn len(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// Speeds of sliding, m/s.
+    pub fn slips(&self) -> Vec<f64> {
+        self.rates[self.len()..].to_vec()
+    }
+
+    /// Sizes of the speeds that each impulse alone gives where it acts, m/s.
+    pub fn speeds_of<'a>(&'a self, normal: &'a [f64], tangent: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        normal.iter().chain(tangent).enumerate().map(|(i, p)| (self.g[(i, i)] * p).abs())
+    }
+
+    /// Of each unilateral constraint whether it approaches faster than `rest_speed`, or is coupled to one that does.
+    pub fn takes_part(&self, rest_speed: f64) -> Vec<bool> {
+        let k = self.len();
+        let size = |i: usize| self.g[(i, i)].max(self.g[(k + i, k + i)]).max(f64::MIN_POSITIVE);
+        let coupled = |i: usize, j: usize| {
+            let entries = [(i, j), (i, k + j), (k + i, j), (k + i, k + j)];
+            entries.iter().any(|&at| self.g[at].abs() > UNCOUPLED * (size(i) * size(j)).sqrt())
+        };
+        let mut part: Vec<bool> = (0..k).map(|i| self.rates[i] < -rest_speed).collect();
+        let mut found: Vec<usize> = (0..k).filter(|&i| part[i]).collect();
+        while let Some(i) = found.pop() {
+            for j in (0..k).filter(|&j| coupled(i, j)) {
+                if !std::mem::replace(&mut part[j], true) {
+                    found.push(j);
+                }
+            }
+        }
+        part
+    }
+
+    /// Row i of gaps and slides together; None for a slide that cannot have friction.
+    pub(super) fn row(&self, i: usize) -> Option<&Row> {
+        let k = self.len();
+        if i < k {
+            Some(&self.gaps[i])
+        } else {
+            self.slides[i - k].as_ref()
+        }
+    }
+}
+
+impl Workspace<'_> {
+    /// Frees `limits` and finds how they act on one another at the present state.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`]: the mechanism without them must have a motion.
+    pub fn closed_contacts(&mut self, limits: Vec<usize>) -> Result<ClosedContacts, Trouble> {
+        for &constraint in &limits {
+            self.mode.contacts[constraint].mode = ContactMode::Open;
+        }
+        let at = self.at();
+        let gaps: Vec<Row> = limits.iter().map(|&l| gap_row(at, l, None)).collect();
+        let slides: Vec<Option<Row>> =
+            limits.iter().map(|&l| self.m.unilateral[l].friction.and_then(|_| slide_row(at, l, None))).collect();
+        self.rows = closing_rows(at, None);
+        let mut arms = std::mem::take(&mut self.arms);
+        super::loads::centre_arms(self.at(), &mut arms);
+        self.arms = arms;
+        self.factor(Force::ActuatorDirection)?;
+        let k = limits.len();
+        let rates = gaps.iter().map(|r| r.rate.unwrap_or(0.0));
+        let rates = rates.chain(slides.iter().map(|s| s.as_ref().and_then(|r| r.rate).unwrap_or(0.0))).collect();
+        let mut contacts = ClosedContacts {
+            constraints: limits,
+            gaps,
+            slides,
+            responses: vec![],
+            g: Matrix::zeros(2 * k, 2 * k),
+            rates,
+        };
+        let along: Vec<Vec<f64>> = (0..2 * k).map(|i| self.along(contacts.row(i))).collect();
+        let rest_speed = vec![0.0; self.rows.len()];
+        contacts.responses = along.iter().map(|f| self.dense.saddle.solve(f, &rest_speed).a).collect();
+        contacts.g = Matrix::from_fn(2 * k, 2 * k, |i, j| dot(&along[i], &contacts.responses[j]));
+        Ok(contacts)
+    }
+
+    /// What a unit force along a row does on each joint coordinate.
+    pub(super) fn along(&self, row: Option<&Row>) -> Vec<f64> {
+        let mut force = vec![0.0; self.m.freedom()];
+        if let Some(row) = row {
+            generalized_force(self.at(), &row.motion, &mut force);
+        }
+        force
+    }
+
+    /// Accelerations of gaps, then slides, that the unilateral constraints that are closed would have without force,
+    /// m/s².
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn free_accelerations(&mut self, contacts: &ClosedContacts) -> Result<Vec<f64>, Trouble> {
+        self.solve_by(super::Route::Minimal)?;
+        let at = self.at();
+        let bodies = Some(self.solved.bodies.as_slice());
+        let gaps = contacts.constraints.iter().map(|&l| gap_row(at, l, bodies).bias);
+        let slides = contacts
+            .constraints
+            .iter()
+            .zip(&contacts.slides)
+            .map(|(&l, slide)| slide.as_ref().and_then(|_| slide_row(at, l, bodies)).map_or(0.0, |row| row.bias));
+        Ok(gaps.chain(slides).collect())
+    }
+
+    /// How the unilateral constraints that are closed go on from the present state: what parts, what sticks, what
+    /// slides, for given speeds of sliding; one below `rest_speed` is none. An acceleration far below `acceleration`
+    /// decides nothing by itself. Where several motions satisfy Coulomb's law, as where a block in a gap may jam or go
+    /// down, `prefer_rest` takes the one in which most unilateral constraints stick: what can stay at rest stays.
+    ///
+    /// # Errors
+    /// `painleve_inconsistent`, `painleve_indeterminate`; as [`Workspace::solve`].
+    pub fn decide_contact_modes(
+        &mut self,
+        contacts: &ClosedContacts,
+        slips: &[f64],
+        scale: ContactTolerances,
+    ) -> Result<ContactDecision, Trouble> {
+        let mut free = self.free_accelerations(contacts)?;
+        if !free.iter().all(|a| a.is_finite()) {
+            return Err(Trouble::not_finite());
+        }
+        // Round-off is no reason to part.
+        free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.acceleration).for_each(|a| *a = 0.0);
+        let friction = self.friction_laws(contacts, slips, scale.rest_speed);
+        let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
+        let solve = if scale.relaxed { complementarity::solve_relaxed } else { complementarity::solve };
+        match solve(&problem) {
+            Verdict::Solved(answer) => Ok(decision(&answer, &problem, scale.acceleration)),
+            Verdict::Indeterminate(answers) if scale.prefer_rest => {
+                let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
+                let most = answers.iter().rev().max_by_key(sticks).expect("several answers");
+                Ok(decision(most, &problem, scale.acceleration))
+            }
+            verdict => Err(self.painleve_error(contacts, &free, &friction, &verdict)),
+        }
+    }
+
+    /// Lets the unilateral constraints hold that are closed at the present state, and lets friction act in the joints
+    /// that move, for an instant by itself: there is no impact.
+    ///
+    /// # Errors
+    /// `penetration`; as [`Workspace::decide_contact_modes`].
+    pub fn set_contact_modes(&mut self) -> Result<(), Trouble> {
+        if self.m.unilateral.is_empty() && self.m.joint_friction.is_empty() {
+            return Ok(());
+        }
+        self.start_contacts()?;
+        let rest_speed = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
+        self.start_joint_friction(rest_speed)?;
+        let scale = ContactTolerances {
+            rest_speed,
+            acceleration: self.n.gravity.norm().max(self.length),
+            prefer_rest: false,
+            relaxed: false,
+        };
+        for _ in 0..=self.friction_switch_limit() {
+            self.set_modes_of_closed_contacts(scale)?;
+            if self.m.joint_friction.is_empty() || !self.switch_joint_friction(scale, None)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn set_modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<(), Trouble> {
+        let touching = self.touching(1e-9 * self.length);
+        let contacts = self.closed_contacts(touching)?;
+        let staying = (0..contacts.len())
+            .filter(|&i| contacts.rates[i] <= scale.rest_speed)
+            .map(|i| contacts.constraints[i])
+            .collect();
+        let contacts = self.closed_contacts(staying)?;
+        let decision = self.decide_contact_modes(&contacts, &contacts.slips(), scale)?;
+        self.apply_contact_modes(&contacts, &decision);
+        Ok(())
+    }
+
+    /// Takes the holds found.
+    pub fn apply_contact_modes(&mut self, contacts: &ClosedContacts, decision: &ContactDecision) {
+        for (&l, &mode) in contacts.constraints.iter().zip(&decision.modes) {
+            self.mode.contacts[l].mode = mode;
+        }
+    }
+
+    /// Of unilateral constraints that stick, though others that slide keep them from it, takes as many as there are
+    /// forces too many for the motions that are excluded: these keep the friction that they have now. What holds them
+    /// does not say how much.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn share_friction(&mut self, contacts: &ClosedContacts, decision: &ContactDecision) -> Result<(), Trouble> {
+        let sticking = |(&l, &friction): (&usize, &f64)| {
+            Some((l, friction)).filter(|_| self.mode.contacts[l].mode == ContactMode::Stick)
+        };
+        let sticking: Vec<(usize, f64)> =
+            contacts.constraints.iter().zip(&decision.friction_ratios).filter_map(sticking).collect();
+        if self.solve_by(super::Route::Minimal).is_ok() || sticking.is_empty() {
+            return Ok(());
+        }
+        for &(l, friction) in &sticking {
+            self.mode.contacts[l].mode = ContactMode::PartialFriction(friction);
+        }
+        for &(l, friction) in &sticking {
+            self.mode.contacts[l].mode = ContactMode::Stick;
+            let fails = self.solve_by(super::Route::Minimal).is_err();
+            if fails && self.dense.saddle.actuation_rank() >= self.dense.saddle.rank().rank {
+                self.mode.contacts[l].mode = ContactMode::PartialFriction(friction);
+            }
+        }
+        self.solve_by(super::Route::Minimal)
+    }
+
+    pub(super) fn friction_laws(&self, contacts: &ClosedContacts, slips: &[f64], rest_speed: f64) -> Vec<FrictionLaw> {
+        contacts.constraints.iter().zip(slips).map(|(&l, &slip)| self.friction_law(l, slip, rest_speed)).collect()
+    }
+
+    fn friction_law(&self, constraint: usize, slip: f64, rest_speed: f64) -> FrictionLaw {
+        match self.m.unilateral[constraint].friction {
+            None => FrictionLaw::Frictionless,
+            Some(Friction::Rough) => FrictionLaw::Rough,
+            Some(Friction::Coulomb { fixed, kinetic }) => {
+                let (fixed, kinetic) = (self.n.values[fixed], self.n.values[kinetic]);
+                match slip.abs() <= rest_speed {
+                    true => FrictionLaw::Resting { fixed, kinetic },
+                    false => FrictionLaw::Sliding { sense: slip.signum(), kinetic },
+                }
+            }
+        }
+    }
+
+    /// Says by name that Coulomb's law and rigid bodies contradict each other here.
+    fn painleve_error(
+        &self,
+        contacts: &ClosedContacts,
+        free: &[f64],
+        friction: &[FrictionLaw],
+        verdict: &Verdict,
+    ) -> Trouble {
+        let names = self.names_of(&contacts.constraints);
+        let mut text = match verdict {
+            Verdict::Indeterminate(answers) => {
+                format!(
+                    "at {names} {} different motions satisfy Coulomb's law and the balance equations",
+                    answers.len()
+                )
+            }
+            Verdict::Unknown => format!("at {names} no motion was found that satisfies Coulomb's law"),
+            _ => {
+                format!("at {names} no motion satisfies both Coulomb's law and the balance equations: the contact jams")
+            }
+        };
+        let sliding = (0..contacts.len()).find_map(|i| match friction[i] {
+            FrictionLaw::Sliding { sense, kinetic } => Some((i, sense, kinetic)),
+            _ => None,
+        });
+        if let Some((i, sense, kinetic)) = sliding {
+            let p = complementarity::painleve(&contacts.g, free, i, sense, kinetic);
+            text += &format!("; A = {:.4e} 1/kg, b = {:.4e} m/s²", p.leading, p.free);
+            if let Some(critical) = p.critical {
+                text += &format!(", and the paradox begins at a friction of {critical:.6}");
+            }
+        }
+        let name = match verdict {
+            Verdict::Indeterminate(_) => "painleve_indeterminate",
+            Verdict::Unknown => "contact_unsolved",
+            _ => "painleve_inconsistent",
+        };
+        let group = &self.m.groups[self.m.unilateral[contacts.constraints[sliding.map_or(0, |s| s.0)]].group];
+        Trouble::new(name, text + "; lower the friction, or let a spring stand for the contact").about(group.path())
+    }
+
+    /// The names of the contacts, stops and strings of unilateral constraints, each once.
+    pub fn names_of(&self, limits: &[usize]) -> String {
+        let mut names: Vec<String> =
+            limits.iter().map(|&l| format!("`{}`", self.m.groups[self.m.unilateral[l].group].name)).collect();
+        names.dedup();
+        names.join(" and ")
+    }
+}
+
+/// The force that loads put on the first body of a unilateral constraint's group; ground takes the opposite of what the
+/// others get.
+pub(super) fn force_on_first(m: &crate::mechanism::Mechanism, constraint: usize, loads: &[(usize, Wrench)]) -> Vec2 {
+    let first = m.groups[m.unilateral[constraint].group].ends[0];
+    match loads.iter().find(|(body, _)| *body == first) {
+        Some((_, load)) => load.f,
+        None => -loads.iter().fold(Vec2::zero(), |sum, (_, load)| sum + load.f),
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The holds of an answer, and whether it was a close thing.
+fn decision(answer: &Answer, problem: &Problem, pace: f64) -> ContactDecision {
+    let k = answer.status.len();
+    let fastest = problem.free.iter().chain(&answer.acceleration).fold(pace, |most, x| most.max(x.abs()));
+    let weak = |i: usize| answer.normal[i] * problem.g[(i, i)] <= CLOSE * fastest;
+    let slow = |x: f64| x.abs() <= CLOSE * fastest;
+    let mode = |i: usize| match answer.status[i] {
+        Status::Open if slow(answer.acceleration[i]) => ContactMode::ClosedUnloaded,
+        Status::Open => ContactMode::Open,
+        Status::Closed => ContactMode::Frictionless,
+        Status::Stick => ContactMode::Stick,
+        Status::Slip(sense) => ContactMode::Slip(sense),
+    };
+    let close = |i: usize| match (answer.status[i], problem.friction[i]) {
+        (Status::Open, _) => slow(answer.acceleration[i]),
+        (Status::Stick, FrictionLaw::Resting { fixed, .. }) => {
+            let most = fixed * answer.normal[i];
+            weak(i) || most - answer.tangent[i].abs() <= CLOSE * most
+        }
+        (Status::Slip(_), FrictionLaw::Resting { .. }) => weak(i) || slow(answer.acceleration[k + i]),
+        _ => weak(i),
+    };
+    let friction = answer.normal.iter().zip(&answer.tangent).map(|(n, t)| if *n > 0.0 { t / n } else { 0.0 }).collect();
+    ContactDecision { modes: (0..k).map(mode).collect(), is_doubtful: (0..k).any(close), friction_ratios: friction }
+}

@@ -1,0 +1,147 @@
+//! Impacts: what impulses through unilateral constraints and joints do.
+
+use super::contact_modes::force_on_first;
+use super::reactions::joint_load;
+use super::{ClosedContacts, ContactTolerances, JointLoad, Trouble, Workspace};
+use crate::contact::complementarity::{self, ImpactProblem, Problem};
+use crate::mechanism::Friction;
+use crate::plane::{Twist, Vec2, Wrench};
+
+/// Within an impact without collision loads act for this part of the time in which they would bring about a speed that
+/// counts.
+const BRIEF: f64 = 0.1;
+
+/// An impact: what impulses through unilateral constraints did.
+#[derive(Clone, Debug)]
+pub struct ImpactSolution {
+    /// Change of the user's rates.
+    pub change: Vec<f64>,
+    /// Impulses along each reached gap, N·s.
+    pub normal: Vec<f64>,
+    /// Impulses along each slide, N·s.
+    pub tangent: Vec<f64>,
+    /// The impulse of each unilateral constraint on its contact's first body, N·s, fixed axes.
+    pub on_first: Vec<Vec2>,
+    /// Impulsive reaction of every joint, N·s and N·m·s.
+    pub joints: Vec<JointLoad>,
+    /// What was to be said of the law.
+    pub note: Option<String>,
+}
+
+impl Workspace<'_> {
+    /// What impulses along the unilateral constraints that are closed would do, by `settle` of the impact problem that
+    /// it is given.
+    ///
+    /// # Errors
+    /// What `settle` finds.
+    pub fn solve_impact(
+        &mut self,
+        contacts: &ClosedContacts,
+        restitution: &[f64],
+        solve: impl FnOnce(&ImpactProblem) -> Result<(complementarity::Impulses, Option<String>), Trouble>,
+    ) -> Result<ImpactSolution, Trouble> {
+        let friction: Vec<f64> = contacts.constraints.iter().map(|&l| self.friction_of(l)).collect();
+        let problem = ImpactProblem { g: &contacts.g, before: &contacts.rates, restitution, friction: &friction };
+        let (impulses, note) = solve(&problem)?;
+        Ok(self.impact_solution(contacts, impulses, note))
+    }
+
+    /// The impact by which unilateral constraints that have no motion under Coulomb's law come to one; None where each
+    /// has one already.
+    ///
+    /// # Errors
+    /// `no_impact`; as [`Workspace::solve`].
+    pub fn impact_without_collision(
+        &mut self,
+        contacts: &ClosedContacts,
+        scale: ContactTolerances,
+    ) -> Result<Option<ImpactSolution>, Trouble> {
+        let (free, slips) = (self.free_accelerations(contacts)?, contacts.slips());
+        let friction = self.friction_laws(contacts, &slips, scale.rest_speed);
+        let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
+        let fastest = free.iter().fold(scale.acceleration, |most, a| most.max(a.abs()));
+        let impulses = complementarity::impact_without_collision(&problem, &slips, BRIEF * scale.rest_speed / fastest)
+            .map_err(|e| {
+                let sentence = format!("no impulses at {} end the jam: {e}", self.names_of(&contacts.constraints));
+                Trouble::new("no_impact", sentence)
+            })?;
+        let note = Some("the contact jammed: an impact without a collision".to_string());
+        Ok(impulses.map(|impulses| self.impact_solution(contacts, impulses, note)))
+    }
+
+    fn impact_solution(
+        &mut self,
+        contacts: &ClosedContacts,
+        impulses: complementarity::Impulses,
+        note: Option<String>,
+    ) -> ImpactSolution {
+        let p: Vec<f64> = impulses.normal.iter().chain(&impulses.tangent).copied().collect();
+        let mut force = vec![0.0; self.m.freedom()];
+        for (i, &p) in p.iter().enumerate() {
+            self.along(contacts.row(i)).iter().zip(&mut force).for_each(|(f, sum)| *sum += p * f);
+        }
+        let solution = self.dense.saddle.solve(&force, &vec![0.0; self.rows.len()]);
+        let mut change = vec![0.0; self.m.freedom()];
+        self.to_user(&solution.a, &mut change);
+        let joints = self.impulsive_loads(contacts, &p, &solution.a, &solution.lambda);
+        let k = contacts.len();
+        let on_first = (0..k).map(|i| self.on_first(contacts, i, p[i], p[k + i])).collect();
+        let (normal, tangent) = (impulses.normal, impulses.tangent);
+        ImpactSolution { change, normal, tangent, on_first, joints, note }
+    }
+
+    /// The impulses by which the present closing rows come to rest, unilateral constraints apart from those that carry.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn engagement_impact(&mut self) -> Result<ImpactSolution, Trouble> {
+        let nothing = self.closed_contacts(vec![])?;
+        let asked: Vec<f64> = self.rows.iter().map(|row| -row.rate.unwrap_or(0.0)).collect();
+        let solution = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked);
+        let mut change = vec![0.0; self.m.freedom()];
+        self.to_user(&solution.a, &mut change);
+        let joints = self.impulsive_loads(&nothing, &[], &solution.a, &solution.lambda);
+        Ok(ImpactSolution { change, normal: vec![], tangent: vec![], on_first: vec![], joints, note: None })
+    }
+
+    /// The coefficient of friction of a unilateral constraint that slides: 0 where it is smooth, infinite where it
+    /// cannot slide.
+    pub fn friction_of(&self, constraint: usize) -> f64 {
+        match self.m.unilateral[constraint].friction {
+            None => 0.0,
+            Some(Friction::Rough) => f64::INFINITY,
+            Some(Friction::Coulomb { kinetic, .. }) => self.n.values[kinetic],
+        }
+    }
+
+    /// The force on the first body of a unilateral constraint's contact (of a string, on its first end), for forces
+    /// along gap and slide.
+    fn on_first(&self, contacts: &ClosedContacts, i: usize, normal: f64, tangent: f64) -> Vec2 {
+        let mut sum = Vec2::zero();
+        let parts = [(Some(&contacts.gaps[i]), normal), (contacts.slides[i].as_ref(), tangent)];
+        for (row, p) in parts.into_iter().filter_map(|(row, p)| row.map(|row| (row, p))) {
+            sum += force_on_first(self.m, contacts.constraints[i], &row.motion) * p;
+        }
+        sum
+    }
+
+    /// Reactions of all joints to impulses: the balance of momentum of all that hangs on them.
+    fn impulsive_loads(&self, contacts: &ClosedContacts, p: &[f64], change: &[f64], lambda: &[f64]) -> Vec<JointLoad> {
+        let n = self.m.bodies.len();
+        let mut bodies = vec![Twist::zero(); n];
+        self.k.propagate_motion(self.m, change, false, &mut bodies);
+        let mut needed: Vec<Wrench> = (0..n)
+            .map(|i| {
+                let momentum = bodies[i].at(self.arms[i]) * self.n.mass[i];
+                Wrench { f: momentum, m: self.arms[i].cross(momentum) + self.n.inertia[i] * bodies[i].w }
+            })
+            .collect();
+        for (i, &p) in p.iter().enumerate() {
+            for &(body, load) in contacts.row(i).map_or(&[][..], |row| &row.motion) {
+                needed[body] = needed[body] - load * p;
+            }
+        }
+        let joint_wrenches = self.joint_wrenches(needed, lambda);
+        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &joint_wrenches, &self.rows, lambda)).collect()
+    }
+}

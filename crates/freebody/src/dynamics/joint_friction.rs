@@ -1,0 +1,220 @@
+//! Friction in joints: Coulomb's, by the size of the force that the joint carries; and of contacts for which a spring
+//! stands, by the force of the spring, which the state tells.
+//!
+//! The load of a joint depends on its friction and the friction on its load. Where it slides both are found in turns;
+//! as long as friction does not jam the joint each turn brings them closer.
+
+use super::rows::joint_friction_row;
+use super::{ContactTolerances, Route, Source, Trouble, Workspace, INCONSISTENT};
+use crate::mechanism::FrictionSource;
+use crate::mode::ContactMode;
+
+/// Turns after which a joint counts as jammed.
+const ITERATIONS: usize = 200;
+/// Turns for each of what has friction in which it is found what sticks.
+const SWITCHES: usize = 8;
+/// Part of the mechanism's own accelerations below which one brings nothing back.
+const NOTHING: f64 = 1e-9;
+/// Change of a friction force that is round-off, over the most that the largest load of all could cause by friction.
+const SETTLED: f64 = 1e-14;
+
+impl Workspace<'_> {
+    /// The most that friction can be in the last solution, by a coefficient: N, or N·m of a hinge.
+    fn most_friction(&self, friction: usize, rests: bool) -> f64 {
+        let of = &self.m.joint_friction[friction];
+        let pressing = match of.of {
+            FrictionSource::Joint { joint, .. } => self.joint_load(joint).force.norm() * self.arm_of(friction),
+            FrictionSource::Limit(constraint) => self.compliant_force(constraint).max(0.0),
+        };
+        pressing * self.n.values[if rests { of.fixed } else { of.kinetic }]
+    }
+
+    /// Radius of the bearing of a hinge, m; else 1.
+    fn arm_of(&self, friction: usize) -> f64 {
+        match self.m.joint_friction[friction].of {
+            FrictionSource::Joint { radius: Some(radius), .. } => self.n.values[radius],
+            _ => 1.0,
+        }
+    }
+
+    /// Adds the loads of all that slides.
+    pub(super) fn add_joint_friction(&mut self) {
+        for friction in 0..self.m.joint_friction.len() {
+            let force = self.joint_friction_forces[friction];
+            if matches!(self.mode.joint_friction[friction], ContactMode::Slip(_)) && force != 0.0 {
+                for (body, load) in joint_friction_row(self.at(), friction, None).motion {
+                    self.loads[body] += load * force;
+                }
+            }
+        }
+    }
+
+    /// Solves again until the friction of all that slides fits the forces that press.
+    pub(super) fn solve_joint_friction(&mut self, route: Route) -> Result<(), Trouble> {
+        for _ in 0..ITERATIONS {
+            let wanted: Vec<f64> =
+                (0..self.m.joint_friction.len()).map(|friction| self.sliding_friction(friction)).collect();
+            let largest = self.largest_force();
+            let noise = |friction: usize| {
+                SETTLED * self.n.values[self.m.joint_friction[friction].kinetic] * self.arm_of(friction) * largest
+            };
+            let fits =
+                |friction: usize| (wanted[friction] - self.joint_friction_forces[friction]).abs() <= noise(friction);
+            if (0..wanted.len()).all(fits) {
+                return Ok(());
+            }
+            self.joint_friction_forces = wanted;
+            self.solve_once(route)?;
+        }
+        let names: Vec<String> =
+            (0..self.m.joint_friction.len()).map(|r| format!("`{}`", Source::JointFriction(r).name(self.m))).collect();
+        Err(Trouble::new(
+            "friction_jams",
+            format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
+        ))
+    }
+
+    /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, effective,
+    /// N.
+    fn largest_force(&self) -> f64 {
+        let effective = |i: usize| super::inertia_wrench(self.at(), i, self.arms[i], self.solved.bodies[i]);
+        let forces = |i: usize| [self.loads[i], self.solved.joint_wrenches[i], effective(i)].map(|load| load.f.norm());
+        (0..self.m.bodies.len()).flat_map(forces).fold(0.0, f64::max)
+    }
+
+    fn sliding_friction(&self, friction: usize) -> f64 {
+        match self.mode.joint_friction[friction] {
+            ContactMode::Slip(sense) => -sense * self.most_friction(friction, false),
+            _ => 0.0,
+        }
+    }
+
+    /// Friction in the last solution, along what it keeps from sliding: N, or N·m of a hinge.
+    pub fn joint_friction_force(&self, friction: usize) -> f64 {
+        match self.mode.joint_friction[friction] {
+            ContactMode::Slip(_) => self.joint_friction_forces[friction],
+            _ => {
+                let rows = self.rows.iter().zip(&self.solved.lambda);
+                rows.filter(|(row, _)| row.source == Source::JointFriction(friction)).map(|(_, &l)| l).sum()
+            }
+        }
+    }
+
+    /// How much of the friction at rest is left in the last solution, in either direction.
+    pub fn joint_friction_reserve(&self, friction: usize) -> [f64; 2] {
+        let (most, force) = (self.most_friction(friction, true), self.joint_friction_force(friction));
+        [most - force, most + force]
+    }
+
+    /// The rate of sliding at the present state, m/s, or rad/s of a hinge.
+    pub fn joint_sliding_rate(&self, friction: usize) -> f64 {
+        joint_friction_row(self.at(), friction, None).rate.unwrap_or(0.0)
+    }
+
+    /// Power of all that slides in the last solution, W.
+    pub(super) fn joint_friction_power(&self) -> f64 {
+        (0..self.m.joint_friction.len())
+            .map(|friction| self.joint_friction_force(friction) * self.joint_sliding_rate(friction))
+            .sum()
+    }
+
+    /// Lets all friction go on as it is: what moves slides, the rest sticks, and what is not pressed does neither.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn start_joint_friction(&mut self, rest_speed: f64) -> Result<(), Trouble> {
+        for friction in 0..self.m.joint_friction.len() {
+            self.mode.joint_friction[friction] = match self.m.joint_friction[friction].of {
+                FrictionSource::Limit(constraint) if self.mode.contacts[constraint].mode != ContactMode::Compliant => {
+                    ContactMode::Open
+                }
+                FrictionSource::Joint { joint, .. } if !self.has(self.m.part_of(joint)) => ContactMode::Open,
+                _ if self.rests(friction, rest_speed) => ContactMode::Stick,
+                _ => ContactMode::Slip(self.joint_sliding_rate(friction).signum()),
+            };
+        }
+        if self.mode.joint_friction.contains(&ContactMode::Stick) && self.is_overconstrained() {
+            self.release_overconstrained_friction()?;
+        }
+        Ok(())
+    }
+
+    /// Whether the constraints of the present mode ask for motions that exclude each other.
+    fn is_overconstrained(&mut self) -> bool {
+        matches!(self.solve_by(Route::Minimal), Err(error) if error.name == INCONSISTENT)
+    }
+
+    /// Lets slide what no friction can hold, because the other constraints alone tell its acceleration: a slider that
+    /// turns back at the dead point of its crank.
+    fn release_overconstrained_friction(&mut self) -> Result<(), Trouble> {
+        let stuck: Vec<usize> = (0..self.m.joint_friction.len())
+            .filter(|&friction| self.mode.joint_friction[friction] == ContactMode::Stick)
+            .collect();
+        stuck.iter().for_each(|&friction| self.mode.joint_friction[friction] = ContactMode::Open);
+        self.solve_by(Route::Minimal)?;
+        let later: Vec<f64> = stuck.iter().map(|&friction| self.joint_sliding_acceleration(friction)).collect();
+        for (&friction, later) in stuck.iter().zip(later) {
+            self.mode.joint_friction[friction] = ContactMode::Stick;
+            if self.is_overconstrained() {
+                self.mode.joint_friction[friction] = ContactMode::Slip(later.signum());
+            }
+        }
+        Ok(())
+    }
+
+    /// Turns after which it should be settled what sticks.
+    pub fn friction_switch_limit(&self) -> usize {
+        SWITCHES * self.m.joint_friction.len()
+    }
+
+    /// Lets the first slide that sticks and whose friction at rest does not suffice, or the first stick again that
+    /// slides from rest and would be brought back, but not the one just come `released`; answers whether there was one
+    /// (Murty 1974,
+    /// *Mathematical Programming* 7, 138: the first of them, so that it comes to an end).
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn switch_joint_friction(
+        &mut self,
+        scale: ContactTolerances,
+        released: Option<usize>,
+    ) -> Result<bool, Trouble> {
+        self.solve()?;
+        for friction in 0..self.m.joint_friction.len() {
+            match self.mode.joint_friction[friction] {
+                ContactMode::Stick => {
+                    let [later, back] = self.joint_friction_reserve(friction);
+                    if later.min(back) < 0.0 {
+                        // Friction that would have to push ahead cannot keep it from sliding back.
+                        self.mode.joint_friction[friction] = ContactMode::Slip(if later < back { -1.0 } else { 1.0 });
+                        return Ok(true);
+                    }
+                }
+                ContactMode::Slip(sense)
+                    if released != Some(friction)
+                        && self.rests(friction, scale.rest_speed)
+                        && sense * self.joint_sliding_acceleration(friction) < -NOTHING * scale.acceleration =>
+                {
+                    self.mode.joint_friction[friction] = ContactMode::Stick;
+                    return Ok(true);
+                }
+                _ => {}
+            }
+        }
+        Ok(false)
+    }
+
+    /// Acceleration of sliding in the last solution, m/s², or rad/s² of a hinge.
+    fn joint_sliding_acceleration(&self, friction: usize) -> f64 {
+        joint_friction_row(self.at(), friction, Some(&self.solved.bodies)).bias
+    }
+
+    /// Whether what has friction does not slide, at a speed that counts.
+    fn rests(&self, friction: usize, rest_speed: f64) -> bool {
+        let arm = match self.m.joint_friction[friction].of {
+            FrictionSource::Joint { radius, .. } => radius.map_or(1.0, |_| self.length),
+            FrictionSource::Limit(_) => 1.0,
+        };
+        self.joint_sliding_rate(friction).abs() * arm <= rest_speed
+    }
+}

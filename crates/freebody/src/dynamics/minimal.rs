@@ -1,0 +1,325 @@
+//! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
+
+use super::rows::closing_rows;
+use super::{
+    generalized_force, inertia_wrench, size_of_power, visit_ancestors, Row, Source, Trouble, Workspace, CANCELLED,
+    INCONSISTENT,
+};
+use crate::kinematics::StateView;
+use crate::mode::ContactMode;
+use crate::plane::{Twist, Wrench};
+use crate::solve::{Islands, Matrix, Orthogonal, SaddleError};
+
+/// Memory of the dense solution.
+#[derive(Clone, Debug, Default)]
+pub struct Dense {
+    pub(super) mass: Matrix,
+    pub(super) g: Matrix,
+    b: Matrix,
+    pub(super) saddle: Islands,
+}
+
+/// Along what the multipliers act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Force {
+    /// The gradient of their rows.
+    Gradient,
+    /// Each actuator its own gauge.
+    ActuatorDirection,
+}
+
+/// Share of a row in a dependence, whose size is 1, below which it is round-off.
+const PART: f64 = 1e-6;
+/// Largest contradiction of the rows, relative to what they ask for, that is put down to round-off.
+const CONTRADICTION: f64 = 1e-7;
+
+impl Workspace<'_> {
+    pub(super) fn solve_minimal(&mut self) -> Result<(), Trouble> {
+        let force = self.set_up()?;
+        let asked: Vec<f64> = self.rows.iter().map(|row| -row.bias).collect();
+        let solution = self.dense.saddle.solve(&force, &asked);
+        self.check_consistent(solution.inconsistency, &asked)?;
+        self.solved.nu_dot.copy_from_slice(&solution.a);
+        self.solved.lambda = solution.lambda;
+        self.recover_body_motion();
+        self.refine(&asked);
+        Ok(())
+    }
+
+    /// Bodies and loads of the joint accelerations and multipliers found.
+    fn recover_body_motion(&mut self) {
+        self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
+        self.propagate_joint_wrenches();
+    }
+
+    /// One step of iterative refinement: what the balance of the bodies leaves along the freedom of each joint, which
+    /// can pass nothing there, is asked of the factored equations again. Small masses behind large ones keep their
+    /// digits.
+    fn refine(&mut self, asked: &[f64]) {
+        let mut left = vec![0.0; self.m.freedom()];
+        for (i, body) in self.m.bodies.iter().enumerate() {
+            let Some(b) = body.tree_joint else { continue };
+            for k in 0..b.freedom {
+                left[b.start + k] = -self.solved.joint_wrenches[i].power(self.k.motion_subspace[i][k]);
+            }
+        }
+        let rates = self.dense.g.mul_vec(&self.solved.nu_dot);
+        let gap: Vec<f64> = asked.iter().zip(rates).map(|(r, g)| r - g).collect();
+        let more = self.dense.saddle.solve(&left, &gap);
+        self.solved.nu_dot.iter_mut().zip(&more.a).for_each(|(x, d)| *x += d);
+        self.solved.lambda.iter_mut().zip(&more.lambda).for_each(|(x, d)| *x += d);
+        self.recover_body_motion();
+    }
+
+    /// Sets up and factors the equations of the present state; returns the generalized forces.
+    fn set_up(&mut self) -> Result<Vec<f64>, Trouble> {
+        let zero = vec![0.0; self.m.freedom()];
+        self.k.propagate_motion(self.m, &zero, true, &mut self.solved.bodies);
+        self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
+        let mut force = vec![0.0; self.m.freedom()];
+        let needed = self.unbalanced_wrenches();
+        generalized_force(self.at(), &needed, &mut force);
+        self.factor(Force::ActuatorDirection)?;
+        Ok(force)
+    }
+
+    /// Loads less effective loads of the present accelerations, body by body.
+    fn unbalanced_wrenches(&self) -> Vec<(usize, Wrench)> {
+        (1..self.m.bodies.len())
+            .map(|i| (i, self.loads[i] - inertia_wrench(self.at(), i, self.arms[i], self.solved.bodies[i])))
+            .collect()
+    }
+
+    /// Factors mass matrix and rows of the present state.
+    pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
+        let at = StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        mass_matrix(at, &self.arms, &mut self.dense.mass);
+        rows_in_coordinates(at, &self.rows, self.length, &mut self.dense.g, &mut self.dense.b);
+        let columns = column_scales(at, self.length);
+        let scales = row_scales(&self.dense.g, &columns);
+        let own = force == Force::ActuatorDirection && self.rows.iter().any(|row| row.force.is_some());
+        let d = &mut self.dense;
+        let b = own.then_some(&d.b);
+        d.saddle.refactor(&d.mass, &d.g, b, &scales, &columns).map_err(|error| self.explain(error))
+    }
+
+    /// Says in the model's words why there is no unique motion.
+    fn explain(&self, error: SaddleError) -> Trouble {
+        match error {
+            SaddleError::ZeroInertia { direction } => {
+                let (what, first) = self.describe_motion(&direction);
+                let sentence =
+                    format!("{what} with no inertia to resist it; give it mass and inertia, or lock that motion");
+                Trouble::new("singular_mass", sentence).about(first)
+            }
+            SaddleError::InsufficientActuation { direction } => {
+                let (what, first) = self.describe_motion(&direction);
+                let sentence =
+                    format!("the actuators cannot bring about the prescribed motion: {what} out of their reach");
+                Trouble::new("no_authority", sentence).about(first)
+            }
+            SaddleError::RankMismatch { motion, force } => match &self.dependent()[..] {
+                [] => Trouble::new(
+                    "no_authority",
+                    format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
+                ),
+                spare => self.indeterminate_contact(spare),
+            },
+        }
+    }
+
+    /// Unilateral constraints that slide and of which one is to spare: their gaps depend on each other.
+    fn dependent(&self) -> Vec<usize> {
+        let dependence = Orthogonal::factor(&self.dense.g);
+        let (y, rank) = (dependence.y(), dependence.rank().rank);
+        let is_part = |i: usize| (rank..y.rows()).any(|k| y[(k, i)].abs() > PART);
+        let slides = |l: &usize| matches!(self.mode.contacts[*l].mode, ContactMode::Slip(_));
+        let constraint = |row: &Row| if let Source::Gap(l) = row.source { Some(l) } else { None };
+        let parts = self.rows.iter().enumerate().filter(|(i, _)| is_part(*i));
+        parts.filter_map(|(_, row)| constraint(row)).filter(slides).collect()
+    }
+
+    /// Unilateral constraints that slide press against each other: the balance equations leave open how hard.
+    fn indeterminate_contact(&self, spare: &[usize]) -> Trouble {
+        let names = self.names_of(spare);
+        let what = format!("{names} slide while they press against each other: the balance equations leave open how hard, and the motion depends on it");
+        let group = &self.m.groups[self.m.unilateral[spare[0]].group];
+        Trouble::new("painleve_indeterminate", what + "; lower the friction, or let a spring stand for one of them")
+            .about(group.path())
+    }
+
+    /// Which bodies take part in a motion of the tree, in words, and where the first of them stands in the model.
+    fn describe_motion(&self, direction: &[f64]) -> (String, Option<String>) {
+        let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
+        self.k.propagate_motion(self.m, direction, false, &mut bodies);
+        let size = |t: &Twist| t.v.norm() / self.length + t.w.abs();
+        let most = bodies.iter().map(size).fold(0.0, f64::max);
+        let moving: Vec<usize> = (1..bodies.len()).filter(|&i| size(&bodies[i]) > 1e-6 * most).collect();
+        let words: Vec<String> = moving
+            .iter()
+            .map(|&i| {
+                let turning = bodies[i].w.abs() * self.length > 1e3 * bodies[i].v.norm();
+                let pin = self.m.bodies[i].tree_joint.map_or("", |b| self.m.joints[b.joint].name.as_str());
+                if turning {
+                    format!("`{}` can spin about `{pin}`", self.m.bodies[i].name)
+                } else {
+                    format!("`{}` can move", self.m.bodies[i].name)
+                }
+            })
+            .collect();
+        (words.join(" and "), moving.first().map(|&i| format!("bodies.{}", self.m.bodies[i].name)))
+    }
+
+    fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), Trouble> {
+        let columns = column_scales(self.at(), self.length);
+        let scales = row_scales(&self.dense.g, &columns);
+        let most = asked.iter().zip(&scales).map(|(r, s)| (r * s).abs()).fold(1.0, f64::max);
+        if inconsistency <= CONTRADICTION * most {
+            return Ok(());
+        }
+        let names: Vec<String> = self.rows.iter().map(|row| format!("`{}`", row.source.name(self.m))).collect();
+        let mut unique = names.clone();
+        unique.dedup();
+        Err(Trouble::new(
+            INCONSISTENT,
+            format!("{} ask for motions that exclude each other; remove one, or make them agree", unique.join(", ")),
+        )
+        .about(self.rows.last().map(|row| row.source.path(self.m))))
+    }
+
+    /// The load that each body's joint passes, from the balance of all that hangs on it.
+    pub(super) fn propagate_joint_wrenches(&mut self) {
+        let mut needed = vec![Wrench::zero(); self.m.bodies.len()];
+        for (i, load) in self.unbalanced_wrenches() {
+            needed[i] = -load;
+        }
+        self.solved.joint_wrenches = self.joint_wrenches(needed, &self.solved.lambda);
+    }
+
+    /// The load that each body's joint passes, for what each body needs and the present rows with their multipliers.
+    pub(super) fn joint_wrenches(&self, mut needed: Vec<Wrench>, lambda: &[f64]) -> Vec<Wrench> {
+        for (row, &lambda) in self.rows.iter().zip(lambda) {
+            for &(body, load) in row.loads() {
+                needed[body] = needed[body] - load * lambda;
+            }
+        }
+        let mut joint_wrenches = vec![Wrench::zero(); needed.len()];
+        for i in (1..needed.len()).rev() {
+            let b = self.m.bodies[i].tree_joint.expect("every body hangs in the tree");
+            joint_wrenches[i] = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
+            needed[b.parent] += joint_wrenches[i].seen_from(self.k.arm[i]);
+        }
+        joint_wrenches
+    }
+}
+
+/// Unit of each coordinate: 1 for angles and curve parameters, the characteristic length for lengths.
+pub(super) fn column_scales(at: StateView<'_>, length: f64) -> Vec<f64> {
+    let unit = |i: usize| if at.m.coordinate(i).dimension == "m" { length } else { 1.0 };
+    (0..at.m.freedom()).map(unit).collect()
+}
+
+/// Makes every row of order one in scaled coordinates.
+pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
+    (0..g.rows())
+        .map(|i| {
+            let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c) * (x * c)).sum::<f64>().sqrt();
+            if norm > 0.0 {
+                1.0 / norm
+            } else {
+                1.0
+            }
+        })
+        .collect()
+}
+
+/// Rows by joint coordinates, n columns, and the loads of their multipliers.
+pub(super) fn rows_in_coordinates(at: StateView<'_>, rows: &[Row], length: f64, g: &mut Matrix, b: &mut Matrix) {
+    let n = at.m.freedom();
+    g.reset(rows.len(), n);
+    b.reset(rows.len(), n);
+    for (i, row) in rows.iter().enumerate() {
+        generalized_force_clean(at, &row.motion, length, g.row_mut(i));
+        generalized_force_clean(at, row.loads(), length, b.row_mut(i));
+    }
+}
+
+/// As [`project`], but 0 where loads cancel, or pass through a joint origin, but for round-off: such a row asks for
+/// nothing of that coordinate, and must not be scaled up to a constraint.
+fn generalized_force_clean(at: StateView<'_>, wrenches: &[(usize, Wrench)], length: f64, out: &mut [f64]) {
+    let mut size = vec![0.0; out.len()];
+    visit_ancestors(at, wrenches, |i, load, column| {
+        out[i] += load.power(column);
+        size[i] += size_of_power(load, column, length);
+    });
+    for (sum, size) in out.iter_mut().zip(&size) {
+        if sum.abs() <= CANCELLED * size {
+            *sum = 0.0;
+        }
+    }
+}
+
+/// The inertia of a body with all that hangs on it, at its joint origin (composite rigid bodies; Featherstone ch. 6).
+#[derive(Clone, Copy, Default)]
+struct Composite {
+    mass: f64,
+    moment: crate::plane::Vec2,
+    turn: f64,
+}
+
+/// The mass matrix of the tree by joint coordinates, n × n.
+pub(super) fn mass_matrix(at: StateView<'_>, arms: &[crate::plane::Vec2], out: &mut Matrix) {
+    let bodies = at.m.bodies.len();
+    out.reset(at.m.freedom(), at.m.freedom());
+    let mut whole = vec![Composite::default(); bodies];
+    for i in (1..bodies).rev() {
+        let (m, arm) = (at.n.mass[i], arms[i]);
+        let own = &mut whole[i];
+        own.mass += m;
+        own.moment += arm * m;
+        own.turn += at.n.inertia[i] + m * arm.dot(arm);
+        let own = *own;
+        let tree_joint = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
+        let particle = at.m.bodies[i].particle;
+        for k in 0..tree_joint.freedom {
+            let mut load = momentum(&own, at.k.motion_subspace[i][k]);
+            if particle {
+                load.m = 0.0;
+            }
+            couple(at, i, tree_joint.start + k, load, out);
+        }
+        let r = at.k.arm[i];
+        let up = &mut whole[tree_joint.parent];
+        up.mass += own.mass;
+        if particle {
+            // A particle resists the turning of its parent by its place only.
+            up.moment += r * own.mass;
+            up.turn += own.mass * r.dot(r);
+        } else {
+            up.moment += own.moment + r * own.mass;
+            up.turn += own.turn + 2.0 * r.dot(own.moment) + own.mass * r.dot(r);
+        }
+    }
+}
+
+fn momentum(c: &Composite, motion: Twist) -> Wrench {
+    let f = motion.v * c.mass + c.moment.perp() * motion.w;
+    Wrench { f, m: c.moment.cross(motion.v) + c.turn * motion.w }
+}
+
+/// Enters what the load of coordinate `j` does on every coordinate from body `i` down to ground.
+fn couple(at: StateView<'_>, i: usize, j: usize, load: Wrench, out: &mut Matrix) {
+    let (mut body, mut load) = (i, load);
+    while let Some(b) = at.m.bodies[body].tree_joint {
+        for k in 0..b.freedom {
+            let value = load.power(at.k.motion_subspace[body][k]);
+            out[(b.start + k, j)] = value;
+            out[(j, b.start + k)] = value;
+        }
+        if at.m.bodies[body].particle {
+            load.m = 0.0;
+        }
+        load = load.seen_from(at.k.arm[body]);
+        body = b.parent;
+    }
+}

@@ -1,0 +1,318 @@
+//! The momentum balance of one instant: accelerations of everything and every reaction, in three ways.
+//!
+//! - [`Route::Minimal`]: as many equations as degrees of freedom. A tree is swept in joint coordinates; loops and drives
+//!   are eliminated by the null space of their rows.
+//! - [`Route::NewtonEuler`]: three balance equations a body, for the joint accelerations and all reactions at once.
+//! - [`Route::Constraints`]: three coordinates a body and every joint a constraint.
+//!
+//! All agree to round-off where the reactions are determinate; they share the loads and the rows, and nothing else.
+
+mod answer;
+mod articulated_body;
+mod contact_forces;
+mod contact_modes;
+mod energy;
+mod gaps;
+mod gear_flank;
+mod impact;
+mod instant;
+mod joint_friction;
+mod loads;
+mod maximal;
+mod minimal;
+mod newton_euler;
+mod projection;
+mod rank;
+mod reactions;
+mod rows;
+mod term_scales;
+
+pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
+pub use energy::{kinetic, potential};
+pub use impact::ImpactSolution;
+pub use instant::{ContactLoad, Instant, Observer};
+pub use loads::{add_force, force_power, force_value, inertia_wrench, pulled, pushed, unaccounted_power};
+pub use maximal::curve_row;
+pub(crate) use projection::{CLOSED, OPEN};
+pub use rank::{Count, Determinacy, Freedom, SelfStress};
+pub use reactions::JointLoad;
+pub use rows::{
+    closing_rows, drive_row, gap_row, joint_friction_row, joint_rows, slide_row, BodyWrenches, Row, Source,
+};
+pub use term_scales::TermScales;
+
+use crate::bound_values::BoundValues;
+pub use crate::error::Trouble;
+use crate::kinematics::{Kinematics, StateView};
+use crate::mechanism::Mechanism;
+use crate::mode::Mode;
+use crate::plane::{Twist, Vec2, Wrench};
+use crate::scalar::Scalar;
+
+/// How the equations of an instant are set up and solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// As few equations as degrees of freedom.
+    Minimal,
+    /// Three balance equations a body.
+    NewtonEuler,
+    /// Three coordinates a body, every joint a constraint.
+    Constraints,
+}
+
+impl Route {
+    /// Every route with its word.
+    pub const ALL: &'static [(&'static str, Route)] =
+        &[("minimal", Route::Minimal), ("newton_euler", Route::NewtonEuler), ("constraints", Route::Constraints)];
+    /// The route of a word.
+    pub fn named(word: &str) -> Option<Route> {
+        Route::ALL.iter().find(|r| r.0 == word).map(|r| r.1)
+    }
+}
+
+/// The trouble of constraints that contradict each other.
+const INCONSISTENT: &str = "inconsistent_constraints";
+/// Part of its terms below which a sum is round-off.
+const CANCELLED: f64 = 1e-13;
+
+impl Trouble {
+    /// Accelerations that are no numbers.
+    pub(crate) fn not_finite() -> Trouble {
+        let what = "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
+        Trouble::new("not_finite", what)
+    }
+
+    /// A motion of a body that nothing resists.
+    pub(crate) fn singular_inertia(m: &Mechanism, body: usize) -> Trouble {
+        let tree_joint = m.bodies[body].tree_joint.expect("a body of the tree");
+        let (name, joint) = (&m.bodies[body].name, &m.joints[tree_joint.joint].name);
+        Trouble::new(
+            "singular_mass",
+            format!("`{name}` can move at `{joint}` with no inertia to resist it; give it (or what hangs on it) mass and inertia, or lock that motion"),
+        )
+        .about(format!("bodies.{name}"))
+    }
+}
+
+/// The unknowns of an instant, found.
+#[derive(Clone, Debug, Default)]
+pub struct Solution {
+    /// Joint accelerations, in the order of `q`.
+    pub nu_dot: Vec<f64>,
+    /// Accelerations of the joint origins and angles of all bodies.
+    pub bodies: Vec<Twist>,
+    /// Multipliers of the closing rows.
+    pub lambda: Vec<f64>,
+    /// The load that each body's joint in the tree puts on it, at its joint origin.
+    pub joint_wrenches: Vec<Wrench>,
+}
+
+/// One state of a mechanism with everything that its equations need; the memory is kept from one state to the next.
+pub struct Workspace<'m> {
+    /// The mechanism.
+    pub m: &'m Mechanism,
+    /// Its numbers.
+    pub n: BoundValues,
+    /// Which arms of switches are frozen.
+    pub mode: Mode,
+    /// Characteristic length, for the scaling of rows and coordinates, m.
+    pub length: f64,
+    /// Of every contact, how far its surfaces reach from the joint origins of its bodies, m.
+    reaches: Vec<[f64; 2]>,
+    k: Kinematics,
+    t: f64,
+    q: Vec<f64>,
+    u: Vec<f64>,
+    arms: Vec<Vec2>,
+    loads: Vec<Wrench>,
+    rows: Vec<Row>,
+    solved: Solution,
+    sweep: articulated_body::ArticulatedBody,
+    dense: minimal::Dense,
+    sparse: Option<maximal::Sparse>,
+    many_loops: bool,
+    preferred: Option<Route>,
+    determinacy: Option<rank::Determinacy>,
+    /// Friction of each joint that slides, along its coordinate.
+    joint_friction_forces: Vec<f64>,
+}
+
+impl<'m> Workspace<'m> {
+    /// The mechanism at parameters `p`.
+    pub fn new(m: &'m Mechanism, p: &[f64]) -> Self {
+        let n = m.bind(p);
+        let (bodies, freedom) = (m.bodies.len(), m.freedom());
+        let length = characteristic_length(&n);
+        let reaches = gaps::reaches(m, &n);
+        let mut workspace = Workspace {
+            m,
+            n,
+            mode: Mode::free(m),
+            length,
+            reaches,
+            k: Kinematics::of(m),
+            t: 0.0,
+            q: vec![0.0; freedom],
+            u: vec![0.0; freedom],
+            arms: vec![Vec2::zero(); bodies],
+            loads: vec![Wrench::zero(); bodies],
+            rows: vec![],
+            solved: Solution {
+                nu_dot: vec![0.0; freedom],
+                bodies: vec![Twist::zero(); bodies],
+                lambda: vec![],
+                joint_wrenches: vec![Wrench::zero(); bodies],
+            },
+            sweep: Default::default(),
+            dense: Default::default(),
+            sparse: None,
+            many_loops: false,
+            preferred: None,
+            determinacy: None,
+            joint_friction_forces: vec![0.0; m.joint_friction.len()],
+        };
+        workspace.many_loops = workspace.prefers_sparse();
+        workspace
+    }
+
+    /// Lets [`Workspace::solve`] take a given route, or the cheapest.
+    pub fn prefer(&mut self, route: Option<Route>) {
+        self.preferred = route;
+    }
+
+    /// Takes other parameters.
+    pub fn rebind(&mut self, p: &[f64]) {
+        self.n = self.m.bind(p);
+        self.length = characteristic_length(&self.n);
+        self.reaches = gaps::reaches(self.m, &self.n);
+    }
+
+    /// Goes to a state.
+    pub fn place(&mut self, t: f64, q: &[f64], u: &[f64]) {
+        self.t = t;
+        self.q.copy_from_slice(q);
+        self.u.copy_from_slice(u);
+        self.k.forward_kinematics(self.m, &self.n, q, u);
+    }
+
+    /// Takes all speeds as none, in the present configuration.
+    pub fn set_zero_rates(&mut self) {
+        self.u.fill(0.0);
+        self.k.forward_kinematics(self.m, &self.n, &self.q, &self.u);
+    }
+
+    /// The present state, as what measures sees it.
+    pub fn at(&self) -> StateView<'_> {
+        StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode }
+    }
+
+    /// Solves the present state the quickest way; see [`Workspace::solved`].
+    ///
+    /// # Errors
+    /// `singular_mass`, `inconsistent_constraints`, named after the bodies and joints concerned.
+    pub fn solve(&mut self) -> Result<(), Trouble> {
+        let cheapest = if self.many_loops { Route::Constraints } else { Route::Minimal };
+        self.solve_by(self.preferred.unwrap_or(cheapest))
+    }
+
+    /// Solves the present state by a given route.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
+        self.solve_once(route)?;
+        if self.switch_gear_flanks() {
+            self.solve_once(route)?;
+        }
+        match self.m.joint_friction.is_empty() {
+            true => Ok(()),
+            false => self.solve_joint_friction(route),
+        }
+    }
+
+    fn solve_once(&mut self, route: Route) -> Result<(), Trouble> {
+        let at = StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        loads::centre_arms(at, &mut self.arms);
+        loads::loads(at, &self.arms, &mut self.loads);
+        self.add_joint_friction();
+        self.add_compliant_forces();
+        let at = StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        match route {
+            Route::Minimal if !self.is_closed() => {
+                self.solved.lambda.clear();
+                let s = &mut self.solved;
+                self.sweep.solve(at, &self.arms, &self.loads, &mut s.nu_dot, &mut s.bodies, &mut s.joint_wrenches)
+            }
+            Route::Minimal => self.solve_minimal(),
+            Route::NewtonEuler => self.solve_newton_euler(),
+            Route::Constraints => self.solve_constraints(),
+        }
+    }
+
+    /// Whether anything but the tree constrains the motion.
+    pub fn is_closed(&self) -> bool {
+        !self.m.closures.is_empty() || !self.m.drives.is_empty() || self.m.is_hybrid()
+    }
+
+    /// What the last solution found.
+    pub fn solved(&self) -> &Solution {
+        &self.solved
+    }
+
+    /// The closing rows of the last solution.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Accelerations of the user's coordinates of the last solution.
+    pub fn accelerations(&self, out: &mut [f64]) {
+        self.k.user_rates(self.m, &self.n, &self.solved.bodies, &self.solved.nu_dot, out);
+    }
+
+    /// A motion of the coordinates from joint rates (or displacements) `nu` of the tree.
+    pub(crate) fn to_user(&self, nu: &[f64], out: &mut [f64]) {
+        let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
+        self.k.propagate_motion(self.m, nu, false, &mut bodies);
+        self.k.user_rates(self.m, &self.n, &bodies, nu, out);
+    }
+}
+
+/// The median distance of the mechanism's places from their bodies' joint origins, or 1 m.
+fn characteristic_length(n: &BoundValues) -> f64 {
+    let mut lengths: Vec<f64> =
+        n.arms.iter().chain(&n.centre).map(|arm| arm.norm()).filter(|&l| l.is_finite() && l > 0.0).collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.
+fn generalized_force<S: Scalar>(at: StateView<'_, S>, wrenches: &[(usize, Wrench<S>)], out: &mut [S]) {
+    visit_ancestors(at, wrenches, |i, load, column| out[i] += load.power(column));
+}
+
+/// Every coordinate on which loads may do work, with the load at the joint origin of its body and its column.
+fn visit_ancestors<S: Scalar>(
+    at: StateView<'_, S>,
+    wrenches: &[(usize, Wrench<S>)],
+    mut visit: impl FnMut(usize, Wrench<S>, Twist<S>),
+) {
+    for &(body, load) in wrenches {
+        let (mut body, mut load) = (body, load);
+        while let Some(b) = at.m.bodies[body].tree_joint {
+            for k in 0..b.freedom {
+                visit(b.start + k, load, at.k.motion_subspace[body][k]);
+            }
+            load = load.seen_from(at.k.arm[body]);
+            if at.m.bodies[body].particle {
+                // A particle passes no couple on.
+                load = Wrench::force(load.f, at.k.arm[body]);
+            }
+            body = b.parent;
+        }
+    }
+}
+
+/// How large the power of a load may be on its way to cancelling, levers being of the characteristic length.
+fn size_of_power(load: Wrench, motion: Twist, length: f64) -> f64 {
+    load.f.norm() * (motion.v.norm() + length * motion.w.abs()) + (load.m * motion.w).abs()
+}

@@ -1,0 +1,261 @@
+//! Back onto the closed loops: corrections of positions and velocities that change the motion least.
+
+use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
+use super::rows::closing_rows;
+use super::{Row, Source, Trouble, Workspace};
+use crate::gauges::ModelExpr;
+use crate::kinematics::{JointView, StateView};
+use crate::solve::{Lu, Matrix, Orthogonal};
+
+/// Corrections after which a position is given up.
+const TRIES: usize = 12;
+/// Gap, relative to the characteristic length, at which a loop counts as closed.
+pub(crate) const CLOSED: f64 = 1e-14;
+/// Gap above which the closing of a loop has failed.
+pub(crate) const OPEN: f64 = 1e-9;
+/// Correction, over the gap that it closes, beyond which the rows all but depend on each other.
+const FAR: f64 = 1e4;
+/// Square of the independence of rows below which a gap is left rather than closed from afar.
+const DAMPING: f64 = 1e-8;
+
+impl Workspace<'_> {
+    /// What is open at a row: its value less its zero, angles brought to the nearest turn; None where nothing
+    /// is prescribed at the level of positions.
+    pub(crate) fn gap(&self, row: &Row) -> Option<f64> {
+        let value = row.value?;
+        let Source::Joint(j, r) = row.source else { return Some(value) };
+        let joint = &self.m.joints[j];
+        let zero = match self.mode.row_offsets.get(&(j, r)) {
+            Some(zero) => *zero,
+            None if joint.is_relative[r] => return None,
+            None => 0.0,
+        };
+        let period = JointView::new(self.m, &self.n, joint, |x: f64| x).period(r);
+        let open = value - zero;
+        Some(if period > 0.0 { open - period * (open / period).round() } else { open })
+    }
+
+    /// The closing rows of the present state.
+    pub(crate) fn update_rows(&mut self) {
+        self.rows = closing_rows(self.at(), None);
+    }
+
+    /// Largest gap of the present state, lengths in units of the characteristic length.
+    pub fn worst_gap(&mut self) -> f64 {
+        self.update_rows();
+        let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
+        // What cannot be told (wheels that overlap) is wide open.
+        self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
+    }
+
+    /// Unit of a row's value: the characteristic length, or 1 where it is an angle.
+    pub(crate) fn row_unit(&self, row: &Row) -> f64 {
+        let turns = row.motion.iter().map(|(_, w)| w.m.abs()).fold(0.0, f64::max);
+        let moves = row.motion.iter().map(|(_, w)| w.f.norm()).fold(0.0, f64::max);
+        if moves * self.length >= 1e-9 * turns && moves > 0.0 {
+            self.length
+        } else {
+            1.0
+        }
+    }
+
+    /// Closes the loops at (t, q): returns the size of the correction.
+    ///
+    /// # Errors
+    /// `branch_lost` when the loops cannot be closed from here.
+    pub fn project_positions(&mut self, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, Trouble> {
+        let (mut moved, mut last) = (0.0_f64, f64::INFINITY);
+        for _ in 0..TRIES {
+            self.place(t, q, u);
+            let gap = self.worst_gap();
+            // Gaps of contacts are told to the round-off of places: to lessen them further is work for nothing.
+            let shut = gap <= 0.1 * CLOSED && self.m.closures.is_empty();
+            if gap == 0.0 || shut || (gap >= 0.5 * last && gap <= OPEN) {
+                return Ok(moved);
+            }
+            last = gap;
+            let asked: Vec<f64> = self.rows.iter().map(|row| self.gap(row).map_or(0.0, |g| -g)).collect();
+            let present: Vec<bool> = self.rows.iter().map(|row| self.gap(row).is_some()).collect();
+            let least = self.correction(&asked, &present)?;
+            let mut step = self.rates_of(&least);
+            // Contacts that all but depend on each other keep their gaps, lest the bodies go far, and up, to close
+            // them.
+            if self.m.closures.is_empty() && gap <= OPEN && self.size_of(&step) > FAR * gap {
+                let open_rows = self.rows.iter().filter_map(|row| Some((row.clone(), self.gap(row)?)));
+                step = self.rates_of(&self.damped_motion(&open_rows.collect::<Vec<_>>(), DAMPING));
+            }
+            moved = moved.max(self.size_of(&step));
+            q.iter_mut().zip(&step).for_each(|(q, d)| *q += d);
+        }
+        self.place(t, q, u);
+        let gap = self.worst_gap();
+        if gap <= OPEN {
+            return Ok(moved);
+        }
+        let open = self.largest_gap_source();
+        let (name, far) = (open.name(self.m), gap * self.length);
+        let sentence = format!("the loop at `{name}` opened by {far:.3e} m and could not be closed again");
+        Err(Trouble::new("branch_lost", sentence).about(open.path(self.m)))
+    }
+
+    /// Makes the velocities at (t, q) keep the loops closed: returns the size of the correction.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn project_velocities(&mut self, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, Trouble> {
+        self.place(t, q, u);
+        self.update_rows();
+        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
+        if asked.iter().all(|&r| r == 0.0) {
+            return Ok(0.0);
+        }
+        let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
+        let step = self.correction(&asked, &present)?;
+        let step = self.rates_of(&step);
+        u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
+        Ok(self.size_of(&step))
+    }
+
+    /// The motion that changes the present rows by `asked`, least in the metric of the masses; least in plain scaled
+    /// coordinates where a free motion has no mass.
+    fn correction(&mut self, asked: &[f64], present: &[bool]) -> Result<Vec<f64>, Trouble> {
+        if self.many_loops && present.iter().all(|&p| p) {
+            return self.sparse_correction(asked);
+        }
+        let mut keep = present.iter();
+        self.rows.retain(|_| *keep.next().expect("one for each row"));
+        let asked: Vec<f64> = asked.iter().zip(present).filter(|(_, &p)| p).map(|(a, _)| *a).collect();
+        super::loads::centre_arms(
+            StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode },
+            &mut self.arms,
+        );
+        match self.factor(Force::Gradient) {
+            Ok(()) => Ok(self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked).a),
+            Err(_) => Ok(self.least_motion(&self.rows, &asked)),
+        }
+    }
+
+    /// The least motion, in scaled coordinates, that changes `rows` by `asked` as nearly as possible.
+    pub(crate) fn least_motion(&self, rows: &[Row], asked: &[f64]) -> Vec<f64> {
+        let (scaled, scales, columns) = self.scaled(rows);
+        let side: Vec<f64> = asked.iter().zip(&scales).map(|(a, s)| a * s).collect();
+        let mut step = vec![0.0; columns.len()];
+        Orthogonal::factor(&scaled).add_solution(&side, &mut step);
+        step.iter_mut().zip(&columns).for_each(|(s, c)| *s *= c);
+        step
+    }
+
+    /// As [`Workspace::project_velocities`], with further gauges whose rates must have given values.
+    pub(crate) fn project_velocities_with(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        u: &mut [f64],
+        contact: &[(String, ModelExpr, f64)],
+    ) -> Result<(), Trouble> {
+        self.place(t, q, u);
+        self.update_rows();
+        let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
+        self.rows.extend(targets);
+        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
+        let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
+        let dense = std::mem::replace(&mut self.many_loops, false);
+        let step = self.correction(&asked, &present);
+        self.many_loops = dense;
+        let step = self.rates_of(&step?);
+        u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
+        Ok(())
+    }
+
+    /// A motion of the tree in the user's rates.
+    fn rates_of(&self, motion: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; motion.len()];
+        self.to_user(motion, &mut rates);
+        rates
+    }
+
+    /// Number of independent rows.
+    pub(crate) fn rank_of(&self, rows: &[(Row, f64)]) -> usize {
+        let rows: Vec<Row> = rows.iter().map(|(row, _)| row.clone()).collect();
+        if rows.is_empty() {
+            return 0;
+        }
+        Orthogonal::factor(&self.scaled(&rows).0).rank().rank
+    }
+
+    /// The motion that lessens the gaps of rows, damped (in scaled coordinates).
+    pub(crate) fn damped_motion(&self, rows: &[(Row, f64)], damping: f64) -> Vec<f64> {
+        let asked: Vec<f64> = rows.iter().map(|(_, gap)| -gap).collect();
+        let rows: Vec<Row> = rows.iter().map(|(row, _)| row.clone()).collect();
+        if damping == 0.0 {
+            return self.least_motion(&rows, &asked);
+        }
+        // Weighed by the units in which gaps are compared, so that a short enough step lessens them.
+        let (g, scales, columns) = self.scaled(&rows);
+        let weights: Vec<f64> = rows.iter().zip(&scales).map(|(row, s)| 1.0 / (s * self.row_unit(row))).collect();
+        let g = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * weights[i]);
+        let n = g.cols();
+        let side: Vec<f64> = asked.iter().zip(&rows).map(|(a, row)| a / self.row_unit(row)).collect();
+        let normal = Matrix::from_fn(n, n, |i, j| {
+            let sum: f64 = (0..g.rows()).map(|r| g[(r, i)] * g[(r, j)]).sum();
+            sum + if i == j { damping } else { 0.0 }
+        });
+        let mut right = vec![0.0; n];
+        g.add_t_mul_vec(&side, &mut right);
+        let mut step = Lu::factor(&normal).map(|lu| lu.solve(&right)).unwrap_or(right);
+        step.iter_mut().zip(&columns).for_each(|(s, c)| *s *= c);
+        step
+    }
+
+    /// Rows by scaled coordinates, each of order one, with the scales of rows and coordinates.
+    fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
+        let (mut g, mut b) = (Matrix::default(), Matrix::default());
+        rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
+        let columns = column_scales(self.at(), self.length);
+        let scales = row_scales(&g, &columns);
+        let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
+        (scaled, scales, columns)
+    }
+
+    /// A row that holds a gauge at a value, and its rate at a rate.
+    pub(crate) fn target_row(&self, gauge: &ModelExpr, value: f64, rate: f64) -> Row {
+        let going = crate::kinematics::MotionView { at: self.at(), bodies: None, accelerations: None };
+        let jet = crate::kinematics::jet(&going, gauge);
+        Row {
+            source: Source::Drive(usize::MAX),
+            value: Some(jet.d0 - value),
+            rate: Some(jet.d1 - rate),
+            bias: 0.0,
+            motion: super::rows::gauge_wrenches(self.at(), gauge),
+            force: None,
+        }
+    }
+
+    /// How far the closing rows are from depending on one another: the least row, and where there are few rows the
+    /// least combination of rows, relative to the greatest, in units of the characteristic length.
+    pub(crate) fn independence(&mut self) -> f64 {
+        let (mut g, mut b) = (Matrix::default(), Matrix::default());
+        rows_in_coordinates(self.at(), &self.rows, self.length, &mut g, &mut b);
+        let columns = column_scales(self.at(), self.length);
+        let units: Vec<f64> = self.rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
+        let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j]);
+        if self.many_loops {
+            let norms = (0..g.rows()).map(|i| scaled.row(i).iter().map(|x| x * x).sum::<f64>().sqrt());
+            let (least, most) = norms.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+            return least / most;
+        }
+        Orthogonal::factor(&scaled).rank().kept
+    }
+
+    fn size_of(&self, user: &[f64]) -> f64 {
+        let unit = column_scales(self.at(), self.length);
+        user.iter().zip(&unit).map(|(x, u)| (x / u).abs()).fold(0.0, f64::max)
+    }
+
+    /// The joint or motion whose row is farthest from closed.
+    fn largest_gap_source(&self) -> Source {
+        let open = |row: &Row| self.gap(row).map_or(0.0, f64::abs) / self.row_unit(row);
+        let worst = self.rows.iter().max_by(|a, b| open(a).total_cmp(&open(b)));
+        worst.expect("only a row can be open").source
+    }
+}

@@ -1,0 +1,189 @@
+//! What every joint does to its bodies.
+
+use super::rows::{Row, Source};
+use super::Workspace;
+use crate::kinematics::{relative, JointView, StateView};
+use crate::mechanism::{FrictionSource, Mechanism};
+use crate::plane::{vec2, Vec2, Wrench};
+use crate::scalar::real;
+use crate::solve::{Matrix, Orthogonal};
+
+/// The reaction of a joint on its second body: force in fixed axes and couple about the joint's point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLoad {
+    /// The joint's point, fixed axes.
+    pub point: Vec2,
+    /// Force on the second body, N.
+    pub force: Vec2,
+    /// Couple on the second body about the point, N·m; a plain 0 where the joint passes none.
+    pub couple: f64,
+    /// Direction of the first body's marker, rad.
+    pub axes: f64,
+    /// From the first body's marker to the second's, fixed axes.
+    pub span: Vec2,
+}
+
+impl Source {
+    /// The name of the joint, motion, contact, stop or string.
+    pub fn name(self, m: &Mechanism) -> &str {
+        match self {
+            Source::Joint(joint, _) => &m.joints[joint].name,
+            Source::Drive(drive) => &m.drives[drive].name,
+            Source::JointFriction(friction) => match m.joint_friction[friction].of {
+                FrictionSource::Joint { joint, .. } => &m.joints[joint].name,
+                FrictionSource::Limit(constraint) => Source::Gap(constraint).name(m),
+            },
+            Source::Gap(constraint) | Source::Friction(constraint) => &m.groups[m.unilateral[constraint].group].name,
+        }
+    }
+    /// Where it stands in the model, e.g. `joints.pivot`.
+    pub fn path(self, m: &Mechanism) -> String {
+        match self {
+            Source::Gap(constraint) | Source::Friction(constraint) => m.groups[m.unilateral[constraint].group].path(),
+            Source::JointFriction(friction) => match m.joint_friction[friction].of {
+                FrictionSource::Limit(constraint) => Source::Gap(constraint).path(m),
+                FrictionSource::Joint { joint, .. } => Source::Joint(joint, 0).path(m),
+            },
+            Source::Drive(drive) if !m.drives[drive].coupling => format!("motions.{}", self.name(m)),
+            Source::Drive(_) | Source::Joint(..) => format!("joints.{}", self.name(m)),
+        }
+    }
+}
+
+/// The reaction of joint `index`: in the tree from the load passed, else from the multipliers.
+pub(super) fn joint_load(
+    at: StateView<'_>,
+    index: usize,
+    joint_wrenches: &[Wrench],
+    rows: &[Row],
+    lambda: &[f64],
+) -> JointLoad {
+    let joint = &at.m.joints[index];
+    let (axes, place) = relative(joint, at.m, &at);
+    let view = JointView::new(at.m, at.n, joint, |x| x);
+    let point = axes.place(view.contact(&place));
+    let [first, second] = at.m.ends(joint);
+    let load = match joint.child {
+        Some(child) if child == second => about(at, child, joint_wrenches[child], point),
+        Some(child) => -about(at, child, joint_wrenches[child], point),
+        None => {
+            let mut load = Wrench::zero();
+            let on_body = if second > 0 { second } else { first };
+            let sign = if second > 0 { 1.0 } else { -1.0 };
+            for (row, &l) in
+                rows.iter().zip(lambda).filter(|(r, _)| matches!(r.source, Source::Joint(j, _) if j == index))
+            {
+                let on = row.motion.iter().find(|(body, _)| *body == on_body).map_or(Wrench::zero(), |(_, w)| *w);
+                load += on * (l * sign);
+            }
+            about(at, on_body, load, point)
+        }
+    };
+    let couple = if joint.couple { load.m } else { 0.0 };
+    JointLoad { point, force: load.f, couple, axes: axes.turn.angle, span: axes.turn.apply(place.at()) }
+}
+
+/// A load at a body's joint origin, expressed about another place.
+fn about(at: StateView<'_>, body: usize, load: Wrench, place: Vec2) -> Wrench {
+    load.seen_from(at.k.pose[body].at - place)
+}
+
+impl JointLoad {
+    /// The load on the second body at its joint origin.
+    fn at_pin(&self, at: StateView<'_>, body: usize) -> Wrench {
+        Wrench { f: self.force, m: self.couple }.seen_from(self.point - at.k.pose[body].at)
+    }
+    /// The pull along the line of the two markers: positive when it draws the second towards the first, N.
+    pub fn tension(&self) -> f64 {
+        -self.force.dot(self.span) / self.span.norm()
+    }
+    /// The force along and across the first body's marker.
+    pub fn in_joint_axes(&self) -> Vec2 {
+        let (sin, cos) = real::sin_cos(self.axes);
+        vec2(cos * self.force.x + sin * self.force.y, cos * self.force.y - sin * self.force.x)
+    }
+}
+
+impl Workspace<'_> {
+    /// The reaction of a joint in the last solution.
+    pub(super) fn joint_load(&self, joint: usize) -> JointLoad {
+        joint_load(self.at(), joint, &self.solved.joint_wrenches, &self.rows, &self.solved.lambda)
+    }
+
+    /// The reaction of every joint in the last solution.
+    pub fn joint_loads(&self) -> Vec<JointLoad> {
+        let s = &self.solved;
+        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &s.joint_wrenches, &self.rows, &s.lambda)).collect()
+    }
+
+    /// The multipliers of a joint's own rows that add up to its reaction in the last solution.
+    pub fn row_loads(&self, joint: usize) -> Vec<f64> {
+        let at = self.at();
+        let load = joint_load(at, joint, &self.solved.joint_wrenches, &self.rows, &self.solved.lambda);
+        let second = at.m.ends(&at.m.joints[joint])[1];
+        let on_second = load.at_pin(at, second).parts();
+        let mut rows = vec![];
+        match at.m.joints[joint].curve {
+            Some(_) => rows.push(super::maximal::curve_row(at, joint).0),
+            None => super::rows::joint_rows(at, joint, None, &mut rows),
+        }
+        let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());
+        let unit = [1.0, 1.0, 1.0 / self.length];
+        let g = Matrix::from_fn(3, rows.len(), |i, j| of_second(&rows[j])[i] * unit[i]);
+        let side: Vec<f64> = on_second.iter().zip(unit).map(|(w, u)| w * u).collect();
+        let mut multipliers = vec![0.0; rows.len()];
+        Orthogonal::factor(&g).add_solution(&side, &mut multipliers);
+        multipliers
+    }
+
+    /// Force or torque of each drive in the last solution.
+    pub fn drive_forces(&self) -> Vec<f64> {
+        let mut forces = vec![0.0; self.m.drives.len()];
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if let Source::Drive(drive) = row.source {
+                forces[drive] = lambda;
+            }
+        }
+        forces
+    }
+
+    /// Power of each drive in the last solution, W.
+    pub fn drive_powers(&self) -> Vec<f64> {
+        let mut powers = vec![0.0; self.m.drives.len()];
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if let Source::Drive(drive) = row.source {
+                let rate: f64 = row.loads().iter().map(|(body, w)| w.power(self.k.twist[*body])).sum();
+                powers[drive] = lambda * rate;
+            }
+        }
+        powers
+    }
+
+    /// What is left of the momentum balance of each body in the last solution: N, N, N·m at its mass centre.
+    pub fn residuals(&self) -> Vec<[f64; 3]> {
+        let at = self.at();
+        let n = self.m.bodies.len();
+        let mut left: Vec<Wrench> =
+            (0..n).map(|i| self.loads[i] - super::inertia_wrench(at, i, self.arms[i], self.solved.bodies[i])).collect();
+        for joint in 0..self.m.joints.len() {
+            let load = joint_load(at, joint, &self.solved.joint_wrenches, &self.rows, &self.solved.lambda);
+            let wrench = Wrench { f: load.force, m: load.couple };
+            for (body, w) in super::rows::pair(at, &self.m.joints[joint], load.point, wrench) {
+                left[body] += w;
+            }
+        }
+        // The loads of friction that slides are among the others.
+        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+            if !matches!(row.source, Source::Joint(..)) {
+                for &(body, load) in row.loads() {
+                    left[body] += load * lambda;
+                }
+            }
+        }
+        let at_centre = |i: usize| {
+            let w = left[i].seen_from(-self.arms[i]);
+            [w.f.x, w.f.y, if self.m.bodies[i].particle { 0.0 } else { w.m }]
+        };
+        (1..n).map(at_centre).collect()
+    }
+}

@@ -1,0 +1,242 @@
+//! The rows that close loops and drive motions.
+//!
+//! A row is a quantity that must vanish: with its value, its rate, the acceleration it would have if no joint of the
+//! tree accelerated (or no body, see [`Base`]), the loads that a unit multiplier puts on the bodies (which are also its
+//! gradient), and, for an actuator that acts along another gauge, the loads of that one.
+
+use crate::expr::Env;
+use crate::gauges::ModelExpr;
+use crate::kinematics::{gradient, jet, relative, JointView, MotionView, Poses, SeededView, State, StateView};
+use crate::mechanism::{Drive, Friction, FrictionSource, Joint, Level, Part};
+use crate::mode::ContactMode;
+use crate::plane::{vec2, Twist, Vec2, Wrench};
+use crate::scalar::{Dual, Jet, Scalar};
+
+/// Loads on bodies, at their joint origins.
+pub type BodyWrenches<S> = Vec<(usize, Wrench<S>)>;
+
+/// Where a row comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Row `1` (of the card) of joint `0`.
+    Joint(usize, usize),
+    /// A coupling or prescribed motion.
+    Drive(usize),
+    /// A unilateral constraint that carries load: its gap.
+    Gap(usize),
+    /// A unilateral constraint that does not slide: its slide.
+    Friction(usize),
+    /// A joint, or a unilateral constraint with a spring, with friction and does not slide.
+    JointFriction(usize),
+}
+
+/// One row.
+#[derive(Clone, Debug)]
+pub struct Row<S = f64> {
+    /// Where it comes from.
+    pub source: Source,
+    /// What must vanish; None when only a rate or an acceleration is prescribed.
+    pub value: Option<S>,
+    /// Its rate, or the rate that must vanish; None when only an acceleration is prescribed.
+    pub rate: Option<S>,
+    /// The acceleration that the joints must cancel.
+    pub bias: S,
+    /// Gradient of the quantity by the motion of the bodies.
+    pub motion: BodyWrenches<S>,
+    /// Loads for a unit multiplier, when they are not the gradient.
+    pub force: Option<BodyWrenches<S>>,
+}
+
+impl<S: Scalar> Row<S> {
+    /// Loads for a unit multiplier.
+    pub fn loads(&self) -> &BodyWrenches<S> {
+        self.force.as_ref().unwrap_or(&self.motion)
+    }
+}
+
+/// The accelerations of the bodies at which biases are told.
+pub type Base<'a, S> = Option<&'a [Twist<S>]>;
+
+/// All rows outside the tree that hold in the present mode.
+pub fn closing_rows<S: Scalar>(at: StateView<'_, S>, base: Base<S>) -> Vec<Row<S>> {
+    let mut rows = vec![];
+    for &joint in at.m.closures.iter().filter(|&&j| at.mode.has(Part::Joint(j))) {
+        joint_rows(at, joint, base, &mut rows);
+    }
+    for (drive, _) in at.drives() {
+        rows.push(drive_row(at, drive, base));
+    }
+    for (constraint, contact) in at.mode.contacts.iter().enumerate() {
+        match contact.mode {
+            // What has partial friction is kept from sliding by the rows of others.
+            ContactMode::Frictionless | ContactMode::PartialFriction(_) | ContactMode::Slip(_) => {
+                rows.push(gap_row(at, constraint, base))
+            }
+            ContactMode::Stick => {
+                rows.push(gap_row(at, constraint, base));
+                rows.extend(slide_row(at, constraint, base));
+            }
+            ContactMode::Off | ContactMode::Open | ContactMode::Compliant | ContactMode::ClosedUnloaded => {}
+        }
+    }
+    for friction in
+        (0..at.m.joint_friction.len()).filter(|&friction| at.mode.joint_friction[friction] == ContactMode::Stick)
+    {
+        rows.push(joint_friction_row(at, friction, base));
+    }
+    rows
+}
+
+/// The row that keeps what has friction from sliding.
+pub fn joint_friction_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let source = Source::JointFriction(index);
+    match at.m.joint_friction[index].of {
+        FrictionSource::Joint { joint, radius } => Row { source, ..joint_slide_row(at, joint, radius.is_some(), base) },
+        FrictionSource::Limit(constraint) => {
+            Row { source, ..slide_row(at, constraint, base).expect("only contacts rub") }
+        }
+    }
+}
+
+/// The row of the first freedom of a joint in the sense of its coordinate: what the second body turns, or moves along
+/// the joint's line or curve, against the first.
+fn joint_slide_row<S: Scalar>(at: StateView<'_, S>, index: usize, turns: bool, base: Base<S>) -> Row<S> {
+    let joint = &at.m.joints[index];
+    let (axes, place) = relative(joint, at.m, &at);
+    let (_, going) = relative(joint, at.m, &MotionView { at, bodies: base, accelerations: None });
+    let first = &joint.coordinates[0];
+    let (slide, load) = if turns {
+        (going.angle.scale(first.sense), Wrench { f: Vec2::zero(), m: S::of(first.sense) })
+    } else {
+        let s = match joint.curve {
+            Some(_) => at.n.values[first.zero] + at.coordinate(index, 0).scale(first.sense),
+            None => S::zero(),
+        };
+        let along = JointView::new(at.m, at.n, joint, |x| x).tangent(s) * S::of(first.sense);
+        // The direction is that of this instant: it turns across the motion.
+        let slide = going.x * Jet::constant(along.x) + going.y * Jet::constant(along.y);
+        (slide, Wrench { f: axes.turn.apply(along), m: S::zero() })
+    };
+    let motion = pair(at, joint, axes.place(place.at()), load);
+    Row { source: Source::Joint(index, 0), value: None, rate: Some(slide.d1), bias: slide.d2, motion, force: None }
+}
+
+/// The row that keeps the gap of a unilateral constraint closed; one that slides has friction in proportion to its
+/// normal force.
+pub fn gap_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
+    let jet = constraint.gap.gap(at.m, at.mode, &MotionView { at, bodies: base, accelerations: None }, contact.feature);
+    let load = |body| constraint.gap.gap(at.m, at.mode, &SeededView { at, body }, contact.feature).du;
+    let motion: BodyWrenches<S> =
+        constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect();
+    let friction = match (contact.mode, constraint.friction) {
+        (ContactMode::Slip(sense), Some(Friction::Coulomb { kinetic, .. })) => Some(-at.n.values[kinetic].scale(sense)),
+        (ContactMode::PartialFriction(part), _) => Some(S::of(part)),
+        _ => None,
+    };
+    let force = match friction {
+        Some(friction) => {
+            let along = slide_loads(at, index);
+            Some(motion.iter().zip(along).map(|(n, t)| (n.0, n.1 + t.1 * friction)).collect())
+        }
+        None => None,
+    };
+    let (value, rate) = (Some(jet.d0), Some(jet.d1));
+    Row { source: Source::Gap(index), value, rate, bias: jet.d2, motion, force }
+}
+
+/// The row that keeps a unilateral constraint from sliding; None where it cannot have friction.
+pub fn slide_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> Option<Row<S>> {
+    let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
+    let jet = constraint.gap.slide(at.m, &MotionView { at, bodies: base, accelerations: None }, contact.feature)?;
+    let motion = slide_loads(at, index);
+    Some(Row { source: Source::Friction(index), value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None })
+}
+
+/// The loads of a unit force along the slide of a unilateral constraint.
+fn slide_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> BodyWrenches<S> {
+    let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
+    let load =
+        |body| constraint.gap.slide(at.m, &SeededView { at, body }, contact.feature).map_or([S::zero(); 3], |s| s.du);
+    constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect()
+}
+
+/// The rows of one joint expressed as a constraint.
+pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, out: &mut Vec<Row<S>>) {
+    let joint = &at.m.joints[index];
+    let going = MotionView { at, bodies: base, accelerations: None };
+    let (_, place) = relative(joint, at.m, &going);
+    let jets = JointView::new(at.m, at.n, joint, Jet::constant).residual(&place);
+    let loads = joint_loads(at, joint);
+    for &row in &joint.rows {
+        out.push(Row {
+            source: Source::Joint(index, row),
+            value: Some(jets[row].d0),
+            rate: Some(jets[row].d1),
+            bias: jets[row].d2,
+            motion: loads[row].clone(),
+            force: None,
+        });
+    }
+}
+
+/// The loads of a unit multiplier of each row of a joint's card.
+fn joint_loads<S: Scalar>(at: StateView<'_, S>, joint: &Joint) -> Vec<BodyWrenches<S>> {
+    let (axes, place) = relative(joint, at.m, &at);
+    let seeded = crate::joints::Relative {
+        x: Dual::<3, S>::variable(place.x, 0),
+        y: Dual::variable(place.y, 1),
+        angle: Dual::variable(place.angle, 2),
+    };
+    let rows = JointView::new(at.m, at.n, joint, Dual::constant).residual(&seeded);
+    let point = axes.place(place.at());
+    rows.iter()
+        .map(|row| {
+            let [x, y, angle] = row.du;
+            pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle })
+        })
+        .collect()
+}
+
+/// A load on the second body at a place, and its opposite on the first, each at its body's joint origin.
+pub fn pair<S: Scalar>(at: StateView<'_, S>, joint: &Joint, place: Vec2<S>, load: Wrench<S>) -> BodyWrenches<S> {
+    let [a, b] = at.m.ends(joint);
+    let mut wrenches = vec![];
+    if b > 0 {
+        wrenches.push((b, load.seen_from(place - at.k.pose[b].at)));
+    }
+    if a > 0 {
+        wrenches.push((a, -load.seen_from(place - at.k.pose[a].at)));
+    }
+    wrenches
+}
+
+/// The row of a coupling or of a prescribed motion.
+pub fn drive_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    let drive: &Drive = &at.m.drives[index];
+    let going = MotionView { at, bodies: base, accelerations: None };
+    let of = jet(&going, &drive.of);
+    let (value, rate, bias, gauge) = match drive.level {
+        Level::Position => {
+            let law = jet(&going, &drive.law);
+            (Some(of.d0 - law.d0), Some(of.d1 - law.d1), of.d2 - law.d2, drive.of.clone() - drive.law.clone())
+        }
+        Level::Velocity => {
+            let law = jet(&going, &drive.law);
+            (None, Some(of.d1 - law.d0), of.d2 - law.d1, drive.of.clone())
+        }
+        Level::Acceleration => {
+            let law: S = drive.law.eval(&State(at) as &dyn Env<S, _>);
+            (None, None, of.d2 - law, drive.of.clone())
+        }
+    };
+    let motion = gauge_wrenches(at, &gauge);
+    let own_way = drive.by.is_some() || (drive.feedback && drive.level == Level::Position && !drive.coupling);
+    let force = own_way.then(|| gauge_wrenches(at, drive.by.as_ref().unwrap_or(&drive.of)));
+    Row { source: Source::Drive(index), value, rate, bias, motion, force }
+}
+
+/// The loads of a unit force along a gauge.
+pub fn gauge_wrenches<S: Scalar>(at: StateView<'_, S>, gauge: &ModelExpr) -> BodyWrenches<S> {
+    at.m.bodies_of(gauge).into_iter().map(|body| (body, gradient(at, gauge, body))).collect()
+}

@@ -1,0 +1,54 @@
+//! Taut strings that are drawn in until two of their points meet: there they have no direction.
+
+use super::HybridSystem;
+use crate::dynamics::Trouble;
+use crate::mechanism::Gap;
+use crate::plane::Vec2;
+
+/// Length of a phase, over the characteristic length, below which it has none.
+const VANISHED: f64 = 1e-9;
+
+impl HybridSystem<'_> {
+    /// The segments of unilateral constraint `l` between points, if it is a taut string.
+    fn taut_segments(&self, l: usize) -> Vec<Vec2> {
+        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode.contacts[l]);
+        match &constraint.gap {
+            Gap::Cable(cable) if contact.mode.carries() => {
+                cable.free_segments(self.workspace.m, &self.workspace.at(), contact.feature)
+            }
+            _ => vec![],
+        }
+    }
+
+    /// Remembers how all taut strings run at the state placed.
+    pub(super) fn note_taut_segments(&mut self) {
+        self.taut_segments = (0..self.workspace.m.unilateral.len()).map(|l| self.taut_segments(l)).collect();
+    }
+
+    /// Refuses a state, the one placed, in which a segment of a taut string has vanished since, or has passed through
+    /// its end: steps then become shorter, up to where it does.
+    ///
+    /// # Errors
+    /// `string_drawn_in`.
+    pub(super) fn check_taut_segments(&self) -> Result<(), Trouble> {
+        for (l, before) in self.taut_segments.iter().enumerate().filter(|(_, spans)| !spans.is_empty()) {
+            let short = VANISHED * self.workspace.length;
+            let lost = |(a, b): (&Vec2, Vec2)| b.norm() < short || a.dot(b) < 0.0;
+            if before.iter().zip(self.taut_segments(l)).any(lost) {
+                return Err(self.zero_length_error(l));
+            }
+        }
+        Ok(())
+    }
+
+    fn zero_length_error(&self, l: usize) -> Trouble {
+        let group = &self.workspace.m.groups[self.workspace.m.unilateral[l].group];
+        let what = format!(
+            "the taut string `{}` is drawn in until two of its points meet and it has no direction",
+            group.name
+        );
+        let why = "a little to one side it would swing round at once, straight through it would jerk";
+        Trouble::new("string_drawn_in", format!("{what}: {why}; let it pass beside, or put a stop before"))
+            .about(group.path())
+    }
+}

@@ -1,0 +1,71 @@
+//! What events do, and what a switching function is about.
+
+use super::guards::{FRICTION_GUARDS, GUARDS};
+use super::HybridSystem;
+use crate::dynamics::{Source, Trouble};
+use crate::mechanism::{Discontinuity, Event, EventAction, Mechanism};
+
+impl HybridSystem<'_> {
+    /// What switching function `i` is about, in the model's words.
+    pub fn switch_name(m: &Mechanism, i: usize) -> String {
+        if let Some(event) = m.events.get(i) {
+            return format!("event `{}`", event.name);
+        }
+        let Some(guard) = (i - m.events.len()).checked_sub(m.discontinuities.len()) else {
+            return "kink of a law".to_string();
+        };
+        match guard.checked_sub(GUARDS * m.unilateral.len()) {
+            None => {
+                let group = &m.groups[m.unilateral[guard / GUARDS].group];
+                format!("{} `{}`", group.word, group.name)
+            }
+            Some(friction) => format!("friction of `{}`", Source::JointFriction(friction / FRICTION_GUARDS).name(m)),
+        }
+    }
+
+    /// Whether all that an event would release is gone already.
+    pub(super) fn is_spent(&self, event: &Event) -> bool {
+        let gone = |action: &EventAction| matches!(action, EventAction::Release(part) if !self.workspace.has(*part));
+        event.then.iter().any(|action| matches!(action, EventAction::Release(_))) && event.then.iter().all(gone)
+    }
+
+    /// Takes the other arm of a switch.
+    pub(super) fn switch_branch(&mut self, discontinuity: &Discontinuity, t: f64) {
+        if let Discontinuity::Switch(switch, _) = discontinuity {
+            let arm = self.workspace.mode.branch(*switch).unwrap_or(true);
+            self.workspace.mode.freeze(*switch, !arm);
+        }
+        self.begin_phase(t, 0.0, 0.0);
+    }
+
+    /// Does what an event asks for; answers whether the motion changes by it.
+    pub(super) fn perform_actions(&mut self, event: &Event, t: f64, y: &mut [f64]) -> Result<bool, Trouble> {
+        let mut values = vec![];
+        for action in &event.then {
+            if let EventAction::Set(p, law) = action {
+                values.push((*p, self.read(&[law], t, y)?[0]));
+            }
+        }
+        if !values.is_empty() {
+            self.change(t, y, &values);
+            if !(self.workspace.m.unilateral.is_empty() && self.workspace.m.joint_friction.is_empty()) {
+                self.resolve_mode(t, y)?;
+            }
+        }
+        let switched = self.switch_parts(t, y, &event.then)?;
+        Ok(switched || !values.is_empty())
+    }
+
+    /// Sets parameters, lets the others follow, and notes the energy that the change put in.
+    pub(super) fn change(&mut self, t: f64, y: &[f64], values: &[(usize, f64)]) {
+        let before: f64 = self.energy(t, y).iter().sum();
+        for &(i, x) in values {
+            self.set.retain(|(j, _)| *j != i);
+            self.set.push((i, x));
+        }
+        let p = self.workspace.m.parameters_with(&self.set);
+        self.workspace.rebind(&p);
+        let jump = self.energy(t, y).iter().sum::<f64>() - before;
+        self.begin_phase(t, jump, 0.0);
+    }
+}

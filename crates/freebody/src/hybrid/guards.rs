@@ -1,0 +1,131 @@
+//! Guards: functions that stay positive as long as the mode holds.
+
+use super::mode_resolution::{CLOSED_GAP, REST_SPEED};
+use super::HybridSystem;
+use crate::dynamics::{Route, Trouble};
+use crate::mechanism::Gap;
+use crate::mode::ContactMode;
+
+/// Guards of each unilateral constraint: gap or force, two for friction, border.
+pub(super) const GUARDS: usize = 4;
+/// Guards of each joint with friction: friction in either direction, or the speed.
+pub(super) const FRICTION_GUARDS: usize = 2;
+
+/// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
+const OCCLUDED: f64 = 2.0 * CLOSED_GAP;
+/// Speed, over the mechanism's own, from which a contact with partial friction slides: well above what counts as none.
+const SLIPPING: f64 = 10.0 * REST_SPEED;
+
+impl HybridSystem<'_> {
+    /// The values of the guards of all unilateral constraints: positive as long as the mode holds.
+    pub(super) fn guard_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
+        self.place(t, y);
+        let m = self.workspace.m;
+        let carries =
+            !m.joint_friction.is_empty() || self.workspace.mode.contacts.iter().any(|contact| contact.mode.carries());
+        if carries {
+            self.workspace.solve_by(Route::Minimal)?;
+        }
+        let shared = if carries { self.workspace.safest_margin(self.strength) } else { None };
+        let forces = if carries && shared.is_none() { self.workspace.contact_forces() } else { vec![] };
+        let (out, friction) = out.split_at_mut(GUARDS * m.unilateral.len());
+        self.joint_friction_guards(friction);
+        let apart = self.workspace.apart();
+        for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
+            match apart[m.unilateral[l].group] {
+                // Apart, as their bodies are.
+                Some(least) if self.workspace.mode.contacts[l].mode == ContactMode::Open => {
+                    values.copy_from_slice(&[least / self.workspace.length, 1.0, 1.0, 1.0]);
+                }
+                _ => self.guards_of(l, forces.get(l).copied(), values),
+            }
+        }
+        // One guard is of them all.
+        let first = self.workspace.mode.contacts.iter().position(|contact| contact.mode.carries());
+        if let Some((first, shared)) = first.zip(shared) {
+            out[GUARDS * first] = shared / self.strength;
+        }
+        Ok(())
+    }
+
+    /// The guards of one unilateral constraint under given forces along its gap and its slide, where there are such, at
+    /// the state placed.
+    fn guards_of(&self, l: usize, forces: Option<[f64; 2]>, values: &mut [f64]) {
+        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode.contacts[l]);
+        values.fill(1.0);
+        match contact.mode {
+            ContactMode::Off => return,
+            ContactMode::Open if constraint.soft.is_some() => values[0] = self.compliant_gap(l),
+            ContactMode::Compliant => values[0] = self.compliant_contact(l),
+            // What another keeps off is at zero with it.
+            ContactMode::Open => {
+                let kept_off = || self.workspace.open_gap(l) / self.workspace.length + OCCLUDED;
+                let closing = self.workspace.closing_gap(l).map(|gap| gap / self.workspace.length);
+                values[0] = closing.unwrap_or_else(kept_off);
+            }
+            ContactMode::ClosedUnloaded => values[0] = self.workspace.open_gap(l) / self.workspace.length + CLOSED_GAP,
+            ContactMode::Frictionless | ContactMode::Stick | ContactMode::PartialFriction(_) | ContactMode::Slip(_) => {
+                let margins = forces.map_or(vec![], |forces| self.workspace.margins(l, forces));
+                for (value, margin) in values.iter_mut().zip(margins) {
+                    *value = margin / self.strength;
+                }
+                match contact.mode {
+                    ContactMode::Slip(sense) => values[1] = sense * self.workspace.slide_rate(l) / self.speed,
+                    ContactMode::PartialFriction(_) => {
+                        values[1] = SLIPPING - self.workspace.slide_rate(l).abs() / self.speed
+                    }
+                    _ => {}
+                }
+            }
+        }
+        // A string keeps count of its turns, slack or taut.
+        if contact.mode.touches() || matches!(constraint.gap, Gap::Cable(_)) {
+            values[3] = self.workspace.border(l).map_or(1.0, |(value, _)| value / self.workspace.length);
+        }
+    }
+
+    /// The values of the guards of all joints with friction, at the state of the last solution.
+    fn joint_friction_guards(&self, out: &mut [f64]) {
+        for (friction, values) in out.chunks_exact_mut(FRICTION_GUARDS).enumerate() {
+            values.fill(1.0);
+            match self.workspace.mode.joint_friction[friction] {
+                ContactMode::Stick => {
+                    let reserve = self.workspace.joint_friction_reserve(friction).map(|r| r / self.strength);
+                    values.copy_from_slice(&reserve);
+                }
+                ContactMode::Slip(sense) => {
+                    values[0] = sense * self.workspace.joint_sliding_rate(friction) / self.speed
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Positive while the gap of a unilateral constraint with a spring is open, or its damper would have to pull.
+    fn compliant_gap(&self, l: usize) -> f64 {
+        let gap = self.workspace.constraint_gap(l) / self.workspace.length;
+        gap.max(-self.workspace.compliant_force(l) / self.strength)
+    }
+
+    /// Positive while the gap of a unilateral constraint with a spring is violated and the spring pushes.
+    fn compliant_contact(&self, l: usize) -> f64 {
+        let gap = self.workspace.constraint_gap(l) / self.workspace.length;
+        (-gap).min(self.workspace.compliant_force(l) / self.strength)
+    }
+
+    /// One guard, if it is of places and speeds alone: then nothing needs to be solved.
+    pub(super) fn guard_value(&mut self, guard: usize, t: f64, y: &[f64]) -> Option<f64> {
+        let (l, which) = (guard / GUARDS, guard % GUARDS);
+        let is_force = match self.workspace.mode.contacts.get(l)?.mode {
+            ContactMode::Stick => which < 3,
+            mode => mode.carries() && which == 0,
+        };
+        if is_force {
+            return None;
+        }
+        self.place(t, y);
+        let mut values = [0.0; GUARDS];
+        self.guards_of(l, None, &mut values);
+        Some(values[which])
+    }
+}

@@ -1,0 +1,308 @@
+//! Impacts: impacts of unilateral constraints that are closed, the end of bounces without end, and contacts that jam.
+
+use super::mode_changes::{ContactImpulse, Impulses, ModeChange};
+use super::HybridSystem;
+use crate::contact::complementarity::{self, ImpactLaw, ImpactProblem, NoImpact};
+use crate::dynamics::{ClosedContacts, ImpactSolution, Trouble};
+use crate::mode::ContactMode;
+use crate::plane::Vec2;
+
+/// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
+/// its height comes near the round-off of the gap.
+const BRIEF: f64 = 1e-5;
+/// Part of the kinetic energy by which it may rise in an impact, as round-off.
+const RISE: f64 = 1e-11;
+/// Shares of themselves by which unilateral constraints yield, one after the other, where impulses of rigid ones are
+/// lost in round-off.
+const REGULARIZATION: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
+/// Speed, over the mechanism's own, up to which what yielding, or a long row of impacts, leaves over counts as none.
+pub(super) const LEFT_OVER: f64 = 1e-6;
+/// Part of the largest impulse below which one is round-off.
+const NOTHING: f64 = 1e-12;
+/// Part of what friction can do in an impact from which on all of it is used up.
+const USED_UP: f64 = 1.0 - 1e-9;
+
+/// What to do about impacts whose outcome rigid bodies leave open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// End the run by name.
+    Stop,
+    /// Take a law.
+    Law(ImpactLaw),
+}
+
+impl Rule {
+    /// Every rule with its word.
+    pub const ALL: &'static [(&'static str, Rule)] = &[
+        ("stop", Rule::Stop),
+        ("newton", Rule::Law(ImpactLaw::Newton)),
+        ("poisson", Rule::Law(ImpactLaw::Poisson)),
+        ("sequential", Rule::Law(ImpactLaw::Sequential)),
+    ];
+    /// The rule of a word.
+    pub fn named(word: &str) -> Option<Rule> {
+        Rule::ALL.iter().find(|r| r.0 == word).map(|r| r.1)
+    }
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        Rule::ALL.iter().find(|r| r.1 == self).map_or("", |r| r.0)
+    }
+}
+
+impl HybridSystem<'_> {
+    /// The constraints that are closed collide; returns those that did.
+    pub(super) fn impact(&mut self, t: f64, y: &mut [f64], contacts: &ClosedContacts) -> Result<Vec<usize>, Trouble> {
+        let restitution: Vec<f64> = contacts.constraints.iter().map(|&l| self.workspace.restitution(l)).collect();
+        let names = self.workspace.names_of(&contacts.constraints);
+        let rule = self.rule;
+        let (before, rest_speed) = (y.to_vec(), self.rest_speed);
+        let impact = self.workspace.solve_impact(contacts, &restitution, |problem| decide(problem, rule, &names));
+        let mut impacting = impact.and_then(|impact| self.apply_impact(t, y, impact));
+        for share in REGULARIZATION.into_iter().filter(|_| rule != Rule::Stop) {
+            if impacting.is_err() {
+                let impact =
+                    self.workspace.solve_impact(contacts, &restitution, |problem| yielding(problem, share, &names));
+                impacting = impact.and_then(|impact| self.apply_impact(t, y, impact));
+                impacting.iter().for_each(|(impact, _)| self.raise_rest_speed(contacts, impact, share));
+            }
+        }
+        let (impact, lost) = impacting?;
+        let (part, hit) = (contacts.takes_part(rest_speed), hit(&impact));
+        let impacting = (0..part.len()).filter(|&i| part[i] && hit[i]);
+        let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
+        let m = self.workspace.m;
+        let string = |&l: &usize| m.groups[m.unilateral[l].group].word == "string";
+        self.record_jump(ModeChange {
+            t,
+            kind: if impacting.iter().all(string) { "taut" } else { "impact" },
+            of: self.names(&impacting),
+            lost,
+            states: Some([before, y.to_vec()]),
+            impulses: Some(self.impulses(contacts, &impact)),
+            note: impact.note,
+        });
+        Ok(impacting)
+    }
+
+    /// Takes the velocities after an impact, with the energy lost in it, if there is less than before: large impulses
+    /// that all but cancel can bring energy from nowhere.
+    fn apply_impact(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        impact: ImpactSolution,
+    ) -> Result<(ImpactSolution, f64), Trouble> {
+        let n = self.workspace.m.freedom();
+        let (before, energy) = (y.to_vec(), self.workspace.kinetic_energy());
+        y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.workspace.kinetic_energy();
+        if lost >= -RISE * energy {
+            return Ok((impact, lost));
+        }
+        y.copy_from_slice(&before);
+        self.place(t, y);
+        let sentence = format!("the impulses found at t = {t:.12} s would create the energy {:.6e} J", -lost);
+        Err(Trouble::new("no_impact", sentence))
+    }
+
+    /// From now on in this instant the speeds that yielding left over count as none.
+    fn raise_rest_speed(&mut self, contacts: &ClosedContacts, impact: &ImpactSolution, share: f64) {
+        let left = contacts.speeds_of(&impact.normal, &impact.tangent).map(|v| 2.0 * share * v).fold(0.0, f64::max);
+        if left <= LEFT_OVER * self.speed {
+            self.rest_speed = self.rest_speed.max(left);
+        }
+    }
+
+    fn impulses(&self, contacts: &ClosedContacts, impact: &ImpactSolution) -> Impulses {
+        let m = self.workspace.m;
+        let mut limits: Vec<(String, Vec2)> = vec![];
+        for (&l, &p) in contacts.constraints.iter().zip(&impact.on_first) {
+            let name = &m.groups[m.unilateral[l].group].name;
+            match limits.iter_mut().find(|(known, _)| known == name) {
+                Some((_, sum)) => *sum += p,
+                None => limits.push((name.clone(), p)),
+            }
+        }
+        let most = limits.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
+        limits.retain(|(_, p)| p.norm() > NOTHING * most);
+        let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let (part, hit) = (contacts.takes_part(self.rest_speed), hit(impact));
+        let (impacting, unloaded): (Vec<usize>, Vec<usize>) =
+            (0..part.len()).filter(|&i| part[i]).partition(|&i| hit[i]);
+        let mut mode = self.workspace.mode.clone();
+        for &i in &impacting {
+            let friction = self.workspace.friction_of(contacts.constraints[i]);
+            mode.contacts[contacts.constraints[i]].mode = held(impact.normal[i], impact.tangent[i], friction);
+        }
+        let unloaded: Vec<usize> = unloaded.iter().map(|&i| contacts.constraints[i]).collect();
+        let impacting = impacting.iter().map(|&i| ContactImpulse {
+            name: m.groups[m.unilateral[contacts.constraints[i]].group].name.clone(),
+            normal: impact.normal[i],
+            tangent: impact.tangent[i],
+            restitution: self.workspace.restitution(contacts.constraints[i]),
+        });
+        Impulses { groups: limits, joints, contacts: impacting.collect(), unloaded: self.names(&unloaded), mode }
+    }
+
+    /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.
+    ///
+    /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
+    /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does
+    /// not see them.
+    pub(super) fn zeno_limit(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        contacts: &ClosedContacts,
+        parting: &[usize],
+        impacting: &[usize],
+    ) -> Result<bool, Trouble> {
+        self.place(t, y);
+        self.workspace.solve()?;
+        let limits: Vec<usize> = parting.iter().map(|&i| contacts.constraints[i]).collect();
+        let back = self.workspace.gap_accelerations(&limits);
+        let speeds = parting.iter().map(|&i| contacts.rates[i]);
+        let flights: Vec<f64> =
+            speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
+        let (brief, before) = (BRIEF * self.workspace.length / self.speed, self.bounce_interval.take());
+        let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
+        let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
+        if over.is_empty() {
+            let of = impacting.iter().copied().chain([limits[next]]).collect();
+            self.bounce_interval = flights[next].is_finite().then_some((of, flights[next]));
+            return Ok(false);
+        }
+        let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
+        let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
+        // What rocks alternates between its feet.
+        let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
+        let part = same.map_or(0.0, |(_, before)| (flight / before).min(0.999));
+        let n = self.workspace.m.freedom();
+        let (energy, earlier) = (self.workspace.kinetic_energy(), y.to_vec());
+        let fastest = parting.iter().map(|&i| contacts.rates[i]).fold(0.0, f64::max);
+        for &constraint in &over {
+            // What rocks comes to rest as a whole; what slides goes on sliding.
+            let rocks = self.workspace.m.unilateral[constraint].friction.is_some()
+                && self.workspace.slide_rate(constraint).abs() <= fastest;
+            self.workspace.mode.contacts[constraint].mode =
+                if rocks { ContactMode::Stick } else { ContactMode::Frictionless };
+        }
+        let (q, rest) = y.split_at_mut(n);
+        self.workspace.project_velocities(t, q, &mut rest[..n])?;
+        self.place(t, y);
+        let lost = energy - self.workspace.kinetic_energy();
+        self.begin_phase(t, 0.0, -lost);
+        self.record(ModeChange {
+            t: t + flight / (1.0 - part),
+            kind: "rest",
+            of: self.names(&over),
+            lost,
+            states: Some([earlier, y.to_vec()]),
+            impulses: None,
+            note: Some(format!("the bounces from t = {t:.12} s on, without end, are over")),
+        });
+        Ok(true)
+    }
+
+    /// Contacts that jam: the impact without a collision that brings their sliding to an end (Génot & Brogliato
+    /// 1999, *European Journal of Mechanics A* 18). Answers whether anything did.
+    pub(super) fn impact_without_collision(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        limits: &[usize],
+    ) -> Result<bool, Trouble> {
+        self.place(t, y);
+        let contacts = self.workspace.closed_contacts(limits.to_vec())?;
+        let (before, scale) = (y.to_vec(), self.tolerances());
+        let Some(impact) = self.workspace.impact_without_collision(&contacts, scale)? else { return Ok(false) };
+        let (impact, lost) = self.apply_impact(t, y, impact)?;
+        let hit = hit(&impact);
+        let impacting = (0..contacts.constraints.len()).filter(|&i| hit[i]);
+        let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
+        self.record_jump(ModeChange {
+            t,
+            kind: "impact",
+            of: self.names(&impacting),
+            lost,
+            states: Some([before, y.to_vec()]),
+            impulses: Some(self.impulses(&contacts, &impact)),
+            note: impact.note,
+        });
+        Ok(true)
+    }
+}
+
+/// Of each unilateral constraint reached whether it has an impulse.
+fn hit(impact: &ImpactSolution) -> Vec<bool> {
+    let most = impact.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
+    impact.normal.iter().map(|&p| p > NOTHING * most).collect()
+}
+
+/// How a unilateral constraint is held during an impact: it slides where its friction is all used up.
+fn held(normal: f64, tangent: f64, friction: f64) -> ContactMode {
+    match friction {
+        0.0 => ContactMode::Frictionless,
+        _ if tangent.abs() < USED_UP * friction * normal => ContactMode::Stick,
+        _ => ContactMode::Slip(-tangent.signum()),
+    }
+}
+
+/// The impulses of an impact, by the rule where laws differ.
+fn decide(
+    problem: &ImpactProblem,
+    rule: Rule,
+    names: &str,
+) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+    let law = match rule {
+        Rule::Law(law) => law,
+        Rule::Stop => match complementarity::undecided(problem) {
+            Some(alternatives) => return Err(undecided(names, &alternatives)),
+            None => ImpactLaw::Newton,
+        },
+    };
+    let resolved = match (complementarity::solve_impact(problem, law), rule) {
+        (Ok(resolved), _) => resolved,
+        (Err(NoImpact::Ambiguous(all)), Rule::Law(_)) => {
+            let n = all.len();
+            let note = format!("Taken as plastic, and of {n} outcomes as the one that leaves least energy.");
+            return Ok((complementarity::least(all), Some(note)));
+        }
+        (Err(e), _) => {
+            return Err(Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))
+        }
+    };
+    let note = (!resolved.notes.is_empty()).then(|| resolved.notes.join("; "));
+    Ok((resolved.impulses, note))
+}
+
+/// The impulses of an impact without restitution, on unilateral constraints that yield by a share of themselves.
+fn yielding(
+    problem: &ImpactProblem,
+    share: f64,
+    names: &str,
+) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+    let impulses = complementarity::compliant_regularization(problem, share)
+        .map_err(|e| Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))?;
+    let note = format!("Taken as plastic, e = 0, at touches that yield by {share:.0e} of themselves: of rigid ones no impulses were found that create no energy.");
+    Ok((impulses, Some(note)))
+}
+
+fn undecided(names: &str, alternatives: &[(ImpactLaw, complementarity::Impulses)]) -> Trouble {
+    let outcomes: Vec<String> = alternatives
+        .iter()
+        .map(|(law, impulses)| {
+            let speeds: Vec<String> =
+                impulses.after[..impulses.normal.len()].iter().map(|v| format!("{v:.6}")).collect();
+            format!("by {} they part at {} m/s", Rule::Law(*law).word(), speeds.join(", "))
+        })
+        .collect();
+    Trouble::new(
+        "simultaneous_impact",
+        format!(
+            "{names} strike at once, and rigid bodies do not decide what follows: {}; choose a rule, `impacts: newton`, `poisson` or `sequential`",
+            outcomes.join("; ")
+        ),
+    )
+}

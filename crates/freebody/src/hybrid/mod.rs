@@ -1,0 +1,129 @@
+//! The motion of a mechanism: the system that an integrator carries, and what is kept of a run.
+//!
+//! State y = [q, u, works]: coordinates, their rates, and the work of every force without a potential and of
+//! every prescribed motion, so that the energy ledger has the accuracy of the motion.
+
+mod cable_singularity;
+mod canonical;
+mod event_actions;
+mod guards;
+mod impacts;
+mod mode_changes;
+mod mode_resolution;
+mod parts;
+mod record;
+mod system;
+mod trajectory;
+
+pub use canonical::mass_matrix;
+pub use impacts::Rule;
+pub use mode_changes::{ContactImpulse, Impulses, ModeChange};
+pub use system::HybridSystem;
+pub use trajectory::{Ledger, Trajectory};
+
+use crate::builder::chosen;
+use crate::dynamics::{Route, Trouble, Workspace};
+use crate::error::CompileError;
+use crate::mechanism::Mechanism;
+use crate::mode::Mode;
+use crate::motion::{method, run, Method, Options};
+
+/// What may be chosen about a simulation.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Name of the integrator.
+    pub method: String,
+    /// Tolerances and steps.
+    pub options: Options,
+    /// How each instant is solved; None for the cheapest way.
+    pub route: Option<Route>,
+    /// What is done about impacts that the laws leave open.
+    pub impacts: Rule,
+    /// Whether contacts that jam by friction jump, instead of ending the run.
+    pub jam_by_impact: bool,
+}
+
+impl Settings {
+    /// Settings by their words: integrator, route (or `auto`), law of impacts, and answer to an impact without
+    /// collision of friction.
+    ///
+    /// # Errors
+    /// An unknown word.
+    pub fn named(words: [&str; 4], options: Options) -> Result<Settings, CompileError> {
+        let [method, route, impacts, painleve] = words;
+        let routes = [("auto", None)].into_iter().chain(Route::ALL.iter().map(|r| (r.0, Some(r.1))));
+        let rules = Rule::ALL.iter().copied();
+        Ok(Settings {
+            method: method.to_string(),
+            options,
+            route: chosen("route", route, routes)?,
+            impacts: chosen("law of impacts", impacts, rules)?,
+            jam_by_impact: chosen("answer to a jam of friction", painleve, [("stop", false), ("impact", true)])?,
+        })
+    }
+
+    /// The integrator chosen.
+    ///
+    /// # Errors
+    /// `unknown_method`.
+    pub fn integrator(&self) -> Result<&'static Method, Trouble> {
+        let known = crate::motion::METHODS.iter().map(|m| m.name);
+        method(&self.method).ok_or_else(|| {
+            let list = known.collect::<Vec<_>>().join(", ");
+            Trouble::new("unknown_method", format!("no integrator is called `{}`; there is {list}", self.method))
+        })
+    }
+}
+
+/// A state to start from: parameters, time, coordinates and rates.
+#[derive(Clone, Debug)]
+pub struct Start<'a> {
+    /// Parameters.
+    pub p: &'a [f64],
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: &'a [f64],
+    /// Rates.
+    pub u: &'a [f64],
+    /// What is in place and holds, where the motion goes on from another; None for that of the model's start.
+    pub mode: Option<&'a Mode>,
+}
+
+/// Carries a mechanism from a state to the time `until`, or to an event that ends the run.
+///
+/// `progress` is told the time now and then; the run ends when it answers false.
+///
+/// # Errors
+/// What keeps the run from starting; what ends it later is its outcome.
+pub fn simulate(
+    m: &Mechanism,
+    start: &Start,
+    until: f64,
+    settings: &Settings,
+    progress: &mut dyn FnMut(f64) -> bool,
+) -> Result<Trajectory, Trouble> {
+    m.check_state(start.p, start.t, start.q, start.u)?;
+    if !until.is_finite() {
+        return Err(Trouble::new("not_finite", format!("the run must end at a finite time, not at {until} s")));
+    }
+    let integrator = settings.integrator()?;
+    let mut workspace = Workspace::new(m, start.p);
+    workspace.prefer(settings.route);
+    workspace.place(start.t, start.q, start.u);
+    match start.mode {
+        Some(mode) => workspace.mode = mode.clone(),
+        None => workspace.take_row_offsets(),
+    }
+    let mut machine = HybridSystem::new(workspace, start.p);
+    machine.rule = settings.impacts;
+    machine.jam_by_impact = settings.jam_by_impact;
+    let mut y = machine.pack(start.q, start.u);
+    machine.freeze_branches(start.t, &y);
+    machine.set_scales(start.t, &y);
+    crate::motion::System::project(&mut machine, start.t, &mut y)?;
+    machine.begin(start, until, &mut y)?;
+    let opening = machine.energy(start.t, &y);
+    let run = run(&mut machine, integrator, (start.t, &y), until, &settings.options, progress);
+    Ok(Trajectory::new(machine, run, opening, settings.clone()))
+}

@@ -1,0 +1,128 @@
+//! What switched: the record of a motion's modes.
+
+use super::HybridSystem;
+use crate::dynamics::{Source, Trouble};
+use crate::mode::{ContactMode, Mode};
+use crate::plane::Vec2;
+
+/// Something that switched.
+#[derive(Clone, Debug)]
+pub struct ModeChange {
+    /// When, s.
+    pub t: f64,
+    /// One word: `impact`, `taut`, `lift-off`, `slack`, `contact`, `slip`, `stick`, `rest`, `released`, `engaged`,
+    /// `reset`.
+    pub kind: &'static str,
+    /// The contacts, stops, strings or parts concerned, by name.
+    pub of: Vec<String>,
+    /// Energy that it took, J.
+    pub lost: f64,
+    /// State vectors before and after, where it jumped.
+    pub states: Option<[Vec<f64>; 2]>,
+    /// Impulses, where there was an impact.
+    pub impulses: Option<Impulses>,
+    /// What else is to be said.
+    pub note: Option<String>,
+}
+
+/// The impulses of an impact.
+#[derive(Clone, Debug)]
+pub struct Impulses {
+    /// On the first body of each contact (the first end of a string), with its name, N·s.
+    pub groups: Vec<(String, Vec2)>,
+    /// Of each joint on its second body, N·s and N·m·s about its point.
+    pub joints: Vec<[f64; 3]>,
+    /// Each unilateral constraint with an impulse.
+    pub contacts: Vec<ContactImpulse>,
+    /// Contacts, stops and strings that were reached, and that what took part in the impact acts on, but that would
+    /// have had to pull.
+    pub unloaded: Vec<String>,
+    /// What was in place, with what took part in the impact held as it was held during the impact.
+    pub mode: Mode,
+}
+
+/// The impulse of a unilateral constraint, one of a contact's, a stop's or a string's.
+#[derive(Clone, Debug)]
+pub struct ContactImpulse {
+    /// The name of the contact, stop or string.
+    pub name: String,
+    /// Along the gap, N·s (N·m·s at an angle).
+    pub normal: f64,
+    /// Along the slide, N·s.
+    pub tangent: f64,
+    /// The coefficient of restitution.
+    pub restitution: f64,
+}
+
+impl HybridSystem<'_> {
+    /// Notes what changed of the mode, and begins another phase.
+    pub(super) fn record_mode_changes(&mut self, t: f64, before: &crate::mode::Mode) -> Result<(), Trouble> {
+        let m = self.workspace.m;
+        let (mut found, after): (Vec<(&'static str, String, Option<String>)>, _) = (vec![], &self.workspace.mode);
+        let touches =
+            |mode: &Mode, group: usize| m.groups[group].constraints.clone().any(|l| mode.contacts[l].mode.touches());
+        for (l, constraint) in m.unilateral.iter().enumerate() {
+            let group = &m.groups[constraint.group];
+            let string = group.word == "string";
+            let (was, is) = (before.contacts[l].mode, after.contacts[l].mode);
+            let elsewhere = || {
+                let stays = touches(before, constraint.group) && touches(after, constraint.group);
+                stays.then(|| "at one place; at another it touches".to_string())
+            };
+            let kind = match (was.touches(), is.touches()) {
+                (true, false) if string => "slack",
+                (true, false) => "lift-off",
+                (false, true) if self.had_impact(t, &group.name) => continue,
+                (false, true) if string => "taut",
+                (false, true) => "contact",
+                _ => match (was, is) {
+                    (was, ContactMode::Slip(_)) if was.sticks() => "slip",
+                    (ContactMode::Slip(_), is) if is.sticks() => "stick",
+                    (ContactMode::Slip(a), ContactMode::Slip(b)) if a != b => "reversal",
+                    _ => continue,
+                },
+            };
+            if !found.iter().any(|(k, name, _)| *k == kind && *name == group.name) {
+                let partial = matches!(kind, "lift-off" | "contact");
+                found.push((kind, group.name.clone(), elsewhere().filter(|_| partial)));
+            }
+        }
+        for friction in 0..m.joint_friction.len() {
+            let kind = match (before.joint_friction[friction], self.workspace.mode.joint_friction[friction]) {
+                (ContactMode::Stick, ContactMode::Slip(_)) => "slip",
+                (ContactMode::Slip(_), ContactMode::Stick) => "stick",
+                (ContactMode::Slip(a), ContactMode::Slip(b)) if a != b => "reversal",
+                _ => continue,
+            };
+            found.push((kind, Source::JointFriction(friction).name(m).to_string(), None));
+        }
+        for (kind, name, note) in found {
+            self.record(ModeChange { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note });
+        }
+        self.begin_phase(t, 0.0, 0.0);
+        Ok(())
+    }
+
+    /// The names of the contacts, stops and strings of unilateral constraints, each once.
+    pub(super) fn names(&self, limits: &[usize]) -> Vec<String> {
+        let m = self.workspace.m;
+        let mut of: Vec<String> = limits.iter().map(|&l| m.groups[m.unilateral[l].group].name.clone()).collect();
+        of.dedup();
+        of
+    }
+
+    /// Whether an impact of this instant has told of a unilateral constraint already.
+    pub(super) fn had_impact(&self, t: f64, name: &String) -> bool {
+        self.mode_changes.iter().rev().take_while(|c| c.t >= t).any(|c| c.impulses.is_some() && c.of.contains(name))
+    }
+
+    pub(super) fn record(&mut self, change: ModeChange) {
+        self.mode_changes.push(change);
+    }
+
+    /// Notes a jump of the velocities, with the energy that it took.
+    pub(super) fn record_jump(&mut self, change: ModeChange) {
+        self.begin_phase(change.t, 0.0, -change.lost);
+        self.record(change);
+    }
+}

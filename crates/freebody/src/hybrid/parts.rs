@@ -1,0 +1,102 @@
+//! Parts that are released and engaged during a motion, and rates that are given at once.
+
+use super::mode_changes::{Impulses, ModeChange};
+use super::HybridSystem;
+use crate::dynamics::Trouble;
+use crate::mechanism::{EventAction, Part};
+use crate::mode::ContactMode;
+
+impl HybridSystem<'_> {
+    /// Releases and engages parts and resets rates, as the actions of an event ask.
+    ///
+    /// # Errors
+    /// As [`HybridSystem::resolve_mode`].
+    pub(super) fn switch_parts(&mut self, t: f64, y: &mut [f64], actions: &[EventAction]) -> Result<bool, Trouble> {
+        let (mut switched, mut engaged) = (false, vec![]);
+        let before: f64 = self.energy(t, y).iter().sum();
+        for action in actions {
+            switched |= match action {
+                EventAction::Release(part) => self.put(t, *part, false),
+                EventAction::Engage(part) => {
+                    let put = self.put(t, *part, true);
+                    engaged.extend(put.then(|| self.workspace.m.name_of(*part).to_string()));
+                    put
+                }
+                _ => false,
+            };
+        }
+        let jump = self.energy(t, y).iter().sum::<f64>() - before;
+        if jump != 0.0 {
+            self.begin_phase(t, jump, 0.0);
+        }
+        switched |= self.reset(t, y, actions)?;
+        if switched {
+            self.close_engaged(t, y, engaged)?;
+            self.resolve_mode(t, y)?;
+        }
+        Ok(switched)
+    }
+
+    fn put(&mut self, t: f64, part: Part, there: bool) -> bool {
+        let changed = self.workspace.put(part, there);
+        if changed {
+            let of = vec![self.workspace.m.name_of(part).to_string()];
+            let kind = if there { "engaged" } else { "released" };
+            self.record(ModeChange { t, kind, of, lost: 0.0, states: None, impulses: None, note: None });
+        }
+        changed
+    }
+
+    /// Gives gauges their new rates, with the least change of momentum; answers whether any was asked for.
+    fn reset(&mut self, t: f64, y: &mut [f64], actions: &[EventAction]) -> Result<bool, Trouble> {
+        let n = self.workspace.m.freedom();
+        let mut contact = vec![];
+        for action in actions {
+            if let EventAction::Reset { gauge, of, rate } = action {
+                contact.push((gauge.clone(), of.clone(), self.read(&[rate], t, y)?[0]));
+            }
+        }
+        if contact.is_empty() {
+            return Ok(false);
+        }
+        let before = y.to_vec();
+        self.place(t, y);
+        let energy = self.workspace.kinetic_energy();
+        let (q, rest) = y.split_at_mut(n);
+        self.workspace.project_velocities_with(t, q, &mut rest[..n], &contact)?;
+        self.place(t, y);
+        let lost = energy - self.workspace.kinetic_energy();
+        let states = Some([before, y.to_vec()]);
+        let of = contact.into_iter().map(|(gauge, ..)| gauge).collect();
+        self.record_jump(ModeChange { t, kind: "reset", of, lost, states, impulses: None, note: None });
+        Ok(true)
+    }
+
+    /// Lets what was engaged take hold: a plastic impact of the joints.
+    fn close_engaged(&mut self, t: f64, y: &mut [f64], engaged: Vec<String>) -> Result<(), Trouble> {
+        let n = self.workspace.m.freedom();
+        self.place(t, y);
+        let energy = self.workspace.kinetic_energy();
+        // Unilateral constraints join in afterwards; the whole is the same impact, for what they do leaves the joints
+        // closed.
+        let mut limits = std::mem::take(&mut self.workspace.mode.contacts);
+        let contact = limits.clone();
+        limits.iter_mut().filter(|h| h.mode.carries()).for_each(|h| h.mode = ContactMode::ClosedUnloaded);
+        self.workspace.mode.contacts = limits;
+        let impact = self.workspace.engagement_impact()?;
+        let mode = self.workspace.mode.clone();
+        self.workspace.mode.contacts = contact;
+        let before = y.to_vec();
+        y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
+        self.place(t, y);
+        let lost = energy - self.workspace.kinetic_energy();
+        if lost.abs() <= 1e-14 * energy {
+            return Ok(());
+        }
+        let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
+        let impulses = Some(Impulses { groups: vec![], joints, contacts: vec![], unloaded: vec![], mode });
+        let states = Some([before, y.to_vec()]);
+        self.record_jump(ModeChange { t, kind: "impact", of: engaged, lost, states, impulses, note: None });
+        Ok(())
+    }
+}

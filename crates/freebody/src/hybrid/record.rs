@@ -1,0 +1,67 @@
+//! What is told of a run, as data.
+
+use super::mode_changes::{ContactImpulse, ModeChange};
+use super::{HybridSystem, Trajectory};
+use crate::mechanism::Mechanism;
+use crate::motion::{Kind, Outcome};
+use serde_json::{json, Value};
+
+impl Trajectory {
+    /// What happened, what switched, how the run ended and what it took.
+    pub fn record(&self, m: &Mechanism) -> Value {
+        json!({
+            "events": self.events.iter().map(|h| {
+                let kind = match h.kind {
+                    Kind::Crossing => "crossing",
+                    Kind::Touch => "touch",
+                    Kind::Opening => "start",
+                };
+                state(m, &h.y, json!({"name": m.events[h.index].name, "t": h.t, "kind": kind, "direction": h.direction}))
+            }).collect::<Vec<_>>(),
+            "changes": self.mode_changes.iter().map(|c| change(m, c)).collect::<Vec<_>>(),
+            "outcome": {
+                "name": self.outcome.name(), "ok": self.outcome.is_ok(), "t": self.steps.last(),
+                "sentence": self.sentence(m), "path": self.outcome.path(),
+            },
+            "stats": {
+                "accepted": self.counts[0], "rejected": self.counts[1], "evaluations": self.counts[2], "kinks": self.discontinuities,
+                "method": self.settings.method, "rtol": self.settings.options.rtol, "closure": self.worst_gap,
+                "stiff_since": self.stiff_since,
+            },
+        })
+    }
+
+    /// How it ended, with the names of the model.
+    fn sentence(&self, m: &Mechanism) -> String {
+        match &self.outcome {
+            Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
+            Outcome::Chatter { index } => format!(
+                "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
+                HybridSystem::switch_name(m, *index)
+            ),
+            other => other.to_string(),
+        }
+    }
+}
+
+/// What is told, with the coordinates and rates of a state vector.
+fn state(m: &Mechanism, y: &[f64], mut told: Value) -> Value {
+    let n = m.freedom();
+    told["q"] = json!(y[..n]);
+    told["u"] = json!(y[n..2 * n]);
+    told
+}
+
+fn change(m: &Mechanism, c: &ModeChange) -> Value {
+    let impacting = |s: &ContactImpulse| json!({"name": s.name, "normal": s.normal, "tangent": s.tangent, "restitution": s.restitution});
+    let impulses = c.impulses.as_ref().map(|i| {
+        let limits: Vec<_> = i.groups.iter().map(|(name, p)| json!([name, [p.x, p.y]])).collect();
+        let impacting: Vec<_> = i.contacts.iter().map(impacting).collect();
+        json!({"limits": limits, "joints": i.joints, "struck": impacting, "spared": i.unloaded})
+    });
+    let side = |i: usize| c.states.as_ref().map(|states| state(m, &states[i], json!({})));
+    json!({
+        "t": c.t, "kind": c.kind, "of": c.of, "lost": c.lost, "note": c.note, "impulses": impulses,
+        "before": side(0), "after": side(1),
+    })
+}

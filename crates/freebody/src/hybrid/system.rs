@@ -1,0 +1,409 @@
+//! A mechanism as a system of differential equations with events.
+
+use super::guards::{FRICTION_GUARDS, GUARDS};
+use super::impacts::Rule;
+use super::mode_changes::ModeChange;
+use crate::dynamics::{Observer, Trouble, Workspace};
+use crate::gauges::ModelExpr;
+use crate::kinematics::{curve_switch, Poses, State};
+use crate::mechanism::{Discontinuity, EventAction};
+use crate::mode::Mode;
+use crate::motion::{After, Canonical, EventRecord, EventSpec, System};
+use crate::plane::Vec2;
+
+/// Independence of the closing rows below which every stage of a step is brought onto the loops.
+const NEAR_SINGULAR: f64 = 0.1;
+
+/// A phase of the motion under one set of parameters and switches.
+#[derive(Clone, Debug)]
+pub struct Phase {
+    /// When it began, s.
+    pub from: f64,
+    /// Parameters.
+    pub p: Vec<f64>,
+    /// Arms of switches.
+    pub mode: Mode,
+    /// Energy that the change of parameters at its beginning put in, J.
+    pub jump: f64,
+    /// Energy that impacts and jumps of the velocities at its beginning put in, J: less than nothing for impacts.
+    pub impact: f64,
+}
+
+/// A mechanism in motion.
+pub struct HybridSystem<'m> {
+    pub(super) workspace: Workspace<'m>,
+    /// Forces whose work is integrated.
+    pub(super) worked: Vec<usize>,
+    /// Prescribed motions, whose work is integrated.
+    pub(super) driven: Vec<usize>,
+    /// Whether the work of friction is integrated.
+    pub(super) has_friction: bool,
+    /// Whether the work of springs of unilateral constraints is integrated.
+    pub(super) has_compliant_contacts: bool,
+    /// What is done about impacts that the laws leave open.
+    pub(super) rule: Rule,
+    /// Whether contacts that jam by friction jump, instead of ending the run.
+    pub(super) jam_by_impact: bool,
+    /// What has switched.
+    pub(super) mode_changes: Vec<ModeChange>,
+    /// Of every unilateral constraint, how it ran after the last step, if it is a taut string.
+    pub(super) taut_segments: Vec<Vec<Vec2>>,
+    /// The events of the start.
+    pub(super) initial_events: Vec<EventRecord>,
+    /// After the last bounce: what collided and what comes back first, and how long its flight lasts, s.
+    pub(super) bounce_interval: Option<(Vec<usize>, f64)>,
+    /// Sizes of forces, N, and of speeds, m/s.
+    pub(super) strength: f64,
+    pub(super) speed: f64,
+    /// Speed below which there is none, at the instant being resolved, m/s.
+    pub(super) rest_speed: f64,
+    /// Whether touches that are almost one may contradict each other by a little, at the instant being resolved.
+    pub(super) relaxed: bool,
+    /// Parameters that events have set.
+    pub(super) set: Vec<(usize, f64)>,
+    pub(super) phases: Vec<Phase>,
+    pub(super) worst_gap: f64,
+    /// Whether the loops are near a configuration where they lose independence.
+    near_singular: bool,
+    independence: f64,
+    scales: Vec<f64>,
+    /// Size of a guard, for its round-off.
+    roundoff_scale: f64,
+}
+
+impl<'m> HybridSystem<'m> {
+    /// A mechanism at given parameters.
+    pub fn new(workspace: Workspace<'m>, p: &[f64]) -> Self {
+        let m = workspace.m;
+        let worked = (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative());
+        let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
+        let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
+        let friction =
+            !m.joint_friction.is_empty() || m.unilateral.iter().any(|constraint| constraint.friction.is_some());
+        let presses = m.unilateral.iter().any(|constraint| constraint.soft.is_some());
+        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(friction) + usize::from(presses);
+        HybridSystem {
+            workspace,
+            worked,
+            driven,
+            has_friction: friction,
+            has_compliant_contacts: presses,
+            rule: Rule::Stop,
+            jam_by_impact: false,
+            mode_changes: vec![],
+            taut_segments: vec![],
+            initial_events: vec![],
+            bounce_interval: None,
+            strength: 1.0,
+            speed: 1.0,
+            rest_speed: 0.0,
+            relaxed: false,
+            set: m.overruled(p),
+            phases: vec![],
+            worst_gap: 0.0,
+            near_singular: false,
+            independence: 1.0,
+            scales: vec![1.0; size],
+            roundoff_scale: 1.0,
+        }
+    }
+
+    /// The state vector at the start.
+    pub fn pack(&self, q: &[f64], u: &[f64]) -> Vec<f64> {
+        let mut y = [q, u].concat();
+        y.resize(self.scales.len(), 0.0);
+        y
+    }
+
+    fn split<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
+        let n = self.workspace.m.freedom();
+        (&y[..n], &y[n..2 * n])
+    }
+
+    pub(super) fn place(&mut self, t: f64, y: &[f64]) {
+        let (q, u) = self.split(y);
+        self.workspace.place(t, q, u);
+    }
+
+    /// Goes to the state on the closed loops that is nearest to y. Close to a singular configuration a motion off
+    /// the loops, however little, is accelerated without bound; a motion on them is not.
+    fn place_closed(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        let (q, u) = self.split(y);
+        let (mut q, mut u) = (q.to_vec(), u.to_vec());
+        self.workspace.project_positions(t, &mut q, &u)?;
+        self.workspace.project_velocities(t, &q, &mut u)?;
+        self.workspace.place(t, &q, &u);
+        Ok(())
+    }
+
+    /// Freezes every switch at the arm it has now.
+    pub fn freeze_branches(&mut self, t: f64, y: &[f64]) {
+        self.place(t, y);
+        let m = self.workspace.m;
+        for discontinuity in &m.discontinuities {
+            let value = self.switching(discontinuity);
+            if let Discontinuity::Switch(switch, _) = discontinuity {
+                self.workspace.mode.freeze(*switch, value >= 0.0);
+            }
+        }
+    }
+
+    /// Begins the first phase of the motion, in the present mode.
+    pub fn open(&mut self) {
+        self.phases.clear();
+        self.begin_phase(f64::NEG_INFINITY, 0.0, 0.0);
+    }
+
+    pub(super) fn begin_phase(&mut self, from: f64, jump: f64, impact: f64) {
+        let (p, mode) = (self.workspace.n.p.clone(), self.workspace.mode.clone());
+        self.phases.push(Phase { from, p, mode, jump, impact });
+    }
+
+    /// The function whose zero is a discontinuity, at the present state.
+    fn switching(&self, discontinuity: &Discontinuity) -> f64 {
+        let at = self.workspace.at();
+        match discontinuity {
+            Discontinuity::Switch(switch, law) => law.switch(*switch, &State(at)),
+            Discontinuity::Knot(argument, x) => argument.eval::<f64, _>(&State(at)) - x,
+            Discontinuity::Bend(joint, switch) => curve_switch(at.m, at.n, *joint, at.coordinate(*joint, 0), *switch),
+        }
+    }
+
+    /// Learns the physical sizes of the state's components from the starting state.
+    pub fn set_scales(&mut self, t: f64, y: &[f64]) {
+        self.place(t, y);
+        let m = self.workspace.m;
+        let (n, length) = (m.freedom(), self.workspace.length);
+        let gravity = self.workspace.n.gravity.norm();
+        let (q, u) = self.split(y);
+        let unit = |i: usize| if m.coordinate(i).dimension == "m" { length } else { 1.0 };
+        let fastest = (0..n).map(|i| u[i].abs() / unit(i)).fold((gravity / length).sqrt(), f64::max);
+        let rate = if fastest > 0.0 { fastest } else { 1.0 };
+        let mut scales: Vec<f64> = (0..n).map(|i| unit(i).max(q[i].abs())).collect();
+        scales.extend((0..n).map(|i| unit(i) * rate));
+        let mass: f64 = self.workspace.n.mass.iter().sum::<f64>() + self.workspace.n.inertia[1..].iter().sum::<f64>();
+        let energy = (mass.max(1e-300) * length * rate * length * rate).max(self.workspace.kinetic_energy());
+        scales.resize(self.scales.len(), energy);
+        // A gap is told to the round-off of places.
+        let far = |i: usize| if m.coordinate(i).dimension == "m" { q[i].abs() / length } else { 0.0 };
+        self.roundoff_scale = 4.0 * (0..n).map(far).fold(1.0, f64::max);
+        self.scales = scales;
+        self.speed = length * rate;
+        self.strength = energy / length;
+    }
+
+    /// Kinetic and potential energy at a state.
+    pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
+        self.place(t, y);
+        [self.workspace.kinetic_energy(), self.workspace.potential_energy()]
+    }
+
+    /// Values of laws at a state.
+    pub(super) fn read(&mut self, laws: &[&ModelExpr], t: f64, y: &[f64]) -> Result<Vec<f64>, Trouble> {
+        let works = self.works(y);
+        let (q, u) = (y[..self.workspace.m.freedom()].to_vec(), self.split(y).1.to_vec());
+        let mut observer = Observer::new(&mut self.workspace, laws.iter().copied());
+        observer.place(t, &q, &u)?;
+        Ok(observer.read(laws, &works))
+    }
+
+    /// The works in the state vector, spread over all forces, then all drives, then that of friction.
+    pub(super) fn works(&self, y: &[f64]) -> Vec<f64> {
+        let m = self.workspace.m;
+        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
+        let tail = &y[2 * m.freedom()..];
+        if self.has_friction {
+            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
+        }
+        for (i, &f) in self.worked.iter().enumerate() {
+            works[f] = tail[i];
+        }
+        for (i, &d) in self.driven.iter().enumerate() {
+            works[m.forces.len() + d] = tail[self.worked.len() + i];
+        }
+        works
+    }
+}
+
+impl System for HybridSystem<'_> {
+    fn dim(&self) -> usize {
+        self.scales.len()
+    }
+
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+        let n = self.workspace.m.freedom();
+        if self.workspace.mode.resting {
+            dy.fill(0.0);
+            return Ok(());
+        }
+        if self.near_singular {
+            self.place_closed(t, y)?;
+        } else {
+            self.place(t, y);
+        }
+        self.check_taut_segments()?;
+        self.workspace.solve()?;
+        dy[..n].copy_from_slice(self.workspace.at().u);
+        self.workspace.accelerations(&mut dy[n..2 * n]);
+        for (i, &f) in self.worked.iter().enumerate() {
+            dy[2 * n + i] = crate::dynamics::unaccounted_power(self.workspace.at(), f);
+        }
+        if !self.driven.is_empty() {
+            let powers = self.workspace.drive_powers();
+            for (i, &d) in self.driven.iter().enumerate() {
+                dy[2 * n + self.worked.len() + i] = powers[d];
+            }
+        }
+        if self.has_friction {
+            dy[2 * n + self.worked.len() + self.driven.len()] = self.workspace.friction_power();
+        }
+        if self.has_compliant_contacts {
+            dy[self.scales.len() - 1] = self.workspace.compliant_power();
+        }
+        Ok(())
+    }
+
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
+        if !self.workspace.is_closed() || self.workspace.mode.resting {
+            return Ok(0.0);
+        }
+        let n = self.workspace.m.freedom();
+        let (q, rest) = y.split_at_mut(n);
+        let moved = self.workspace.project_positions(t, q, &rest[..n])?;
+        self.worst_gap = self.worst_gap.max(self.workspace.worst_gap());
+        self.independence = self.workspace.independence();
+        self.near_singular = self.independence < NEAR_SINGULAR;
+        let turned = self.workspace.project_velocities(t, q, &mut rest[..n])?;
+        self.note_taut_segments();
+        let rate = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
+        Ok(moved.max(turned / rate))
+    }
+
+    /// A gap of round-off size is a rate error of its size over the independence cubed: once for the positions, once
+    /// for the velocities, once for the accelerations that close it. Within a step the independence may fall to a
+    /// third.
+    fn noise(&self) -> f64 {
+        if self.near_singular {
+            100.0 * f64::EPSILON / (self.independence * self.independence * self.independence)
+        } else {
+            0.0
+        }
+    }
+
+    /// When the loops lose independence, from how fast they do so now.
+    fn singular_stage_gap(&mut self, t: f64, y: &[f64]) -> Option<f64> {
+        if !self.near_singular {
+            return None;
+        }
+        let n = self.workspace.m.freedom();
+        let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
+        let dt = 1e-3 * NEAR_SINGULAR / fastest;
+        let mut independence = |t: f64, y: &[f64]| {
+            self.place(t, y);
+            self.workspace.update_rows();
+            self.workspace.independence()
+        };
+        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
+        let (now, next) = (independence(t, y), independence(t + dt, &later));
+        let when = now * dt / (now - next);
+        (when > 0.0 && when.is_finite()).then_some(t + when)
+    }
+
+    /// Twice the first flight after a bounce.
+    fn horizon(&mut self) -> f64 {
+        self.bounce_interval.as_ref().map_or(f64::INFINITY, |(_, flight)| 2.0 * flight)
+    }
+
+    fn scale(&self, out: &mut [f64]) {
+        out.copy_from_slice(&self.scales);
+    }
+
+    fn switches(&self) -> usize {
+        let m = self.workspace.m;
+        m.events.len()
+            + m.discontinuities.len()
+            + GUARDS * m.unilateral.len()
+            + FRICTION_GUARDS * m.joint_friction.len()
+    }
+
+    fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
+        let m = self.workspace.m;
+        let laws: Vec<&ModelExpr> = m.events.iter().map(|e| &e.when).collect();
+        let values = if laws.is_empty() { vec![] } else { self.read(&laws, t, y)? };
+        out[..values.len()].copy_from_slice(&values);
+        if !m.discontinuities.is_empty() {
+            self.place(t, y);
+            for (i, discontinuity) in m.discontinuities.iter().enumerate() {
+                out[m.events.len() + i] = self.switching(discontinuity);
+            }
+        }
+        if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
+            self.guard_values(t, y, &mut out[m.events.len() + m.discontinuities.len()..])?;
+        }
+        Ok(())
+    }
+
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, Trouble> {
+        let first = self.workspace.m.events.len() + self.workspace.m.discontinuities.len();
+        Ok(i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)))
+    }
+
+    fn check(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        if self.workspace.m.unilateral.is_empty() {
+            return Ok(());
+        }
+        self.place(t, y);
+        self.workspace.check_gaps(t)
+    }
+
+    fn switch(&self, i: usize) -> EventSpec {
+        let m = self.workspace.m;
+        match m.events.get(i) {
+            Some(event) => EventSpec { is_positive: event.guard, ..EventSpec::event(event.direction) },
+            None if i < m.events.len() + m.discontinuities.len() => EventSpec::discontinuity(),
+            None => EventSpec::guard(self.roundoff_scale),
+        }
+    }
+
+    fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, Trouble> {
+        let m = self.workspace.m;
+        if m.events.get(i).is_some_and(|event| event.guard && self.is_spent(event)) {
+            return Ok(false);
+        }
+        let Some(condition) = m.events.get(i).and_then(|e| e.condition.as_ref()) else { return Ok(true) };
+        Ok(self.read(&[condition.as_expr()], t, y)?[0] > 0.5)
+    }
+
+    fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
+        let m = self.workspace.m;
+        let Some(event) = m.events.get(i) else {
+            match m.discontinuities.get(i - m.events.len()) {
+                Some(discontinuity) => self.switch_branch(discontinuity, t),
+                None => {
+                    let guard = i - m.events.len() - m.discontinuities.len();
+                    match guard.checked_sub(GUARDS * m.unilateral.len()) {
+                        None => self.switch_contact(guard / GUARDS, guard % GUARDS, t, y)?,
+                        Some(friction) => {
+                            self.switch_joint_friction(friction / FRICTION_GUARDS, friction % FRICTION_GUARDS, t, y)?
+                        }
+                    }
+                }
+            }
+            return Ok(After::Restart);
+        };
+        let changed = self.perform_actions(event, t, y)?;
+        let stops = event.then.iter().any(|d| matches!(d, EventAction::Stop));
+        Ok(match (stops, changed) {
+            (true, _) => After::Stop,
+            (_, false) => After::Continue,
+            _ => After::Restart,
+        })
+    }
+
+    fn canonical(&mut self) -> Option<&mut dyn Canonical> {
+        if self.workspace.is_closed() || !self.worked.is_empty() {
+            return None;
+        }
+        Some(self)
+    }
+}

@@ -1,0 +1,290 @@
+//! What is kept of a run, and how it is read.
+
+use super::mode_changes::ModeChange;
+use super::system::Phase;
+use super::{HybridSystem, Settings};
+use crate::dynamics::{Freedom, Instant, Observer, Route, Trouble, Workspace};
+use crate::gauges::ModelExpr;
+use crate::mechanism::Mechanism;
+use crate::mode::Mode;
+use crate::motion::{EventRecord, Outcome, Run};
+
+/// A finished run with dense output.
+pub struct Trajectory {
+    /// Times of the accepted steps, first and last included.
+    pub steps: Vec<f64>,
+    /// What happened on the way.
+    pub events: Vec<EventRecord>,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Accepted and rejected steps, rate evaluations.
+    pub counts: [usize; 3],
+    /// Number of discontinuities of force laws passed.
+    pub discontinuities: usize,
+    /// When the explicit method first looked stiff.
+    pub stiff_since: Option<f64>,
+    /// Largest gap of a loop after a step, relative to the characteristic length.
+    pub worst_gap: f64,
+    /// What was chosen.
+    pub settings: Settings,
+    /// What switched on the way.
+    pub mode_changes: Vec<ModeChange>,
+    has_friction: bool,
+    has_compliant_contacts: bool,
+    run: Run,
+    phases: Vec<Phase>,
+    opening: [f64; 2],
+    worked: Vec<usize>,
+    driven: Vec<usize>,
+}
+
+/// The energy ledger: columns and their values at each time, J.
+pub struct Ledger {
+    /// Names of the columns.
+    pub names: Vec<String>,
+    /// One row for each time.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Trajectory {
+    pub(super) fn new(machine: HybridSystem, run: Run, opening: [f64; 2], settings: Settings) -> Self {
+        let segments = &run.trajectory.segments;
+        let mut changes = machine.mode_changes;
+        // The end of a series of bounces is told after what it brought about.
+        changes.sort_by(|a, b| a.t.total_cmp(&b.t));
+        let mut steps: Vec<f64> = segments.iter().map(|s| s.t0).collect();
+        steps.push(run.t);
+        Trajectory {
+            steps,
+            events: machine.initial_events.into_iter().chain(run.events.iter().cloned()).collect(),
+            outcome: run.outcome.clone(),
+            counts: [run.accepted, run.rejected, run.evaluations],
+            discontinuities: run.discontinuities,
+            stiff_since: run.stiff_since,
+            worst_gap: machine.worst_gap,
+            settings,
+            phases: machine.phases,
+            opening,
+            has_friction: machine.has_friction,
+            has_compliant_contacts: machine.has_compliant_contacts,
+            mode_changes: changes,
+            worked: machine.worked,
+            driven: machine.driven,
+            run,
+        }
+    }
+
+    /// The last good time and the state then: t, q, u, parameters.
+    pub fn end(&self, m: &Mechanism) -> (f64, Vec<f64>, Vec<f64>, Vec<f64>) {
+        let n = m.freedom();
+        let y = &self.run.y;
+        (self.run.t, y[..n].to_vec(), y[n..2 * n].to_vec(), self.phases[self.phases.len() - 1].p.clone())
+    }
+
+    /// What is in place and holds at the end: a motion that goes on from there starts with it.
+    pub fn end_mode(&self) -> &Mode {
+        &self.phases[self.phases.len() - 1].mode
+    }
+
+    fn phase(&self, t: f64) -> &Phase {
+        let later = self.phases.partition_point(|s| s.from <= t);
+        &self.phases[later.max(1) - 1]
+    }
+
+    /// A balance with the parameters of a time; made anew only where they change.
+    fn workspace_at<'m>(&self, m: &'m Mechanism, t: f64, last: &mut Option<(f64, Workspace<'m>)>) {
+        let stretch = self.phase(t);
+        if last.as_ref().is_some_and(|(from, _)| *from == stretch.from) {
+            return;
+        }
+        let mut workspace = Workspace::new(m, &stretch.p);
+        workspace.mode = stretch.mode.clone();
+        *last = Some((stretch.from, workspace));
+    }
+
+    /// Goes through times: `visit` is given a balance placed on the closed loops, with the whole state vector.
+    fn each<'m>(
+        &self,
+        m: &'m Mechanism,
+        times: &[f64],
+        mut visit: impl FnMut(&mut Workspace<'m>, f64, &[f64]) -> Result<(), Trouble>,
+    ) -> Result<(), Trouble> {
+        let n = m.freedom();
+        let mut y = vec![0.0; self.run.y.len()];
+        let mut last = None;
+        for &t in times {
+            if t == self.run.t {
+                // After what happened there.
+                y.copy_from_slice(&self.run.y);
+            } else if !self.run.trajectory.at(t, &mut y) {
+                let (first, end) = (self.steps[0], self.run.t);
+                return Err(Trouble::new(
+                    "out_of_range",
+                    format!("t = {t} s is outside the run, {first} s to {end} s"),
+                ));
+            }
+            self.workspace_at(m, t, &mut last);
+            let (_, workspace) = last.as_mut().expect("made above");
+            if workspace.is_closed() && !workspace.mode.resting {
+                let (q, rest) = y.split_at_mut(n);
+                workspace.project_positions(t, q, &rest[..n])?;
+                workspace.project_velocities(t, q, &mut rest[..n])?;
+            }
+            workspace.place(t, &y[..n], &y[n..2 * n]);
+            visit(workspace, t, &y)?;
+        }
+        Ok(())
+    }
+
+    /// Coordinates and rates at times, on the closed loops.
+    ///
+    /// # Errors
+    /// `out_of_range`; `branch_lost`.
+    pub fn sample(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<f64>>, Trouble> {
+        let mut rows = vec![];
+        self.each(m, times, |_, _, y| {
+            rows.push(y[..2 * m.freedom()].to_vec());
+            Ok(())
+        })?;
+        Ok(rows)
+    }
+
+    /// Frame origin and angle of every body, in the order of the model, at times.
+    ///
+    /// # Errors
+    /// As [`Trajectory::sample`].
+    pub fn poses(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<[f64; 3]>>, Trouble> {
+        let bodies = m.listed_bodies();
+        let mut rows = vec![];
+        self.each(m, times, |workspace, _, _| {
+            rows.push(bodies.iter().map(|&b| workspace.frame(b)).collect());
+            Ok(())
+        })?;
+        Ok(rows)
+    }
+
+    /// Reactions (Fx, Fy, M) of every joint with whether they are determinate, at times.
+    ///
+    /// # Errors
+    /// As [`Trajectory::sample`], and what keeps an instant from being solved.
+    #[allow(clippy::type_complexity)]
+    pub fn reactions(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<([f64; 3], [bool; 3])>>, Trouble> {
+        let mut rows = vec![];
+        self.each(m, times, |workspace, _, _| {
+            workspace.solve()?;
+            let sure = workspace.determinacy().joints;
+            let loads = workspace.joint_loads();
+            rows.push(loads.iter().zip(sure).map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
+            Ok(())
+        })?;
+        Ok(rows)
+    }
+
+    /// Values of expressions at times.
+    ///
+    /// # Errors
+    /// As [`Trajectory::reactions`].
+    pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, Trouble> {
+        let n = m.freedom();
+        let mut rows = vec![];
+        self.each(m, times, |workspace, t, y| {
+            let works = self.works(m, y);
+            let mut observer = Observer::new(workspace, laws.iter().copied());
+            observer.place(t, &y[..n], &y[n..2 * n])?;
+            rows.push(observer.read(laws, &works));
+            Ok(())
+        })?;
+        Ok(rows)
+    }
+
+    /// Works since the start of all forces without a potential, then of all drives.
+    fn works(&self, m: &Mechanism, y: &[f64]) -> Vec<f64> {
+        let tail = &y[2 * m.freedom()..];
+        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
+        if self.has_friction {
+            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
+        }
+        for (i, &f) in self.worked.iter().enumerate() {
+            works[f] = tail[i];
+        }
+        for (i, &d) in self.driven.iter().enumerate() {
+            works[m.forces.len() + d] = tail[self.worked.len() + i];
+        }
+        works
+    }
+
+    /// The energy ledger at times: kinetic, potential, each work, changes of parameters, and what is left over.
+    ///
+    /// # Errors
+    /// As [`Trajectory::sample`].
+    pub fn ledger(&self, m: &Mechanism, times: &[f64]) -> Result<Ledger, Trouble> {
+        let mut names: Vec<String> = vec!["kinetic".into(), "potential".into()];
+        names.extend(self.worked.iter().map(|&f| m.forces[f].name.clone()));
+        names.extend(self.driven.iter().map(|&d| m.drives[d].name.clone()));
+        names.extend(self.has_friction.then(|| "friction".to_string()));
+        names.extend(self.has_compliant_contacts.then(|| "compliant contacts".to_string()));
+        names.extend(["parameter changes".into(), "impacts".into(), "balance".into()]);
+        let start: f64 = self.opening.iter().sum();
+        let mut rows = vec![];
+        self.each(m, times, |workspace, t, y| {
+            let (kinetic, potential) = (workspace.kinetic_energy(), workspace.potential_energy());
+            let works = &y[2 * m.freedom()..];
+            let jumps: f64 = self.phases.iter().filter(|s| s.from <= t).map(|s| s.jump).sum();
+            let impacts: f64 = self.phases.iter().filter(|s| s.from <= t).map(|s| s.impact).sum();
+            let left = kinetic + potential - start - works.iter().sum::<f64>() - jumps - impacts;
+            let mut row = vec![kinetic, potential];
+            row.extend_from_slice(works);
+            row.extend([jumps, impacts, left]);
+            rows.push(row);
+            Ok(())
+        })?;
+        Ok(Ledger { names, rows })
+    }
+
+    /// What `read` finds at one time, with what is in place and holds then.
+    ///
+    /// # Errors
+    /// As [`Trajectory::reactions`]; those of `read`.
+    pub fn at<T>(
+        &self,
+        m: &Mechanism,
+        t: f64,
+        read: impl Fn(&mut Workspace<'_>) -> Result<T, Trouble>,
+    ) -> Result<T, Trouble> {
+        let mut found = None;
+        self.each(m, &[t], |workspace, _, _| {
+            found = Some(read(workspace)?);
+            Ok(())
+        })?;
+        Ok(found.expect("one time was visited"))
+    }
+
+    /// What `read` finds during an impact, by its place among `changes`: with the rates before it, and held what took
+    /// part in the impact.
+    ///
+    /// # Errors
+    /// `no_blow`; those of `read`.
+    pub fn at_impact<T>(
+        &self,
+        m: &Mechanism,
+        change: usize,
+        read: impl Fn(&mut Workspace<'_>) -> Result<T, Trouble>,
+    ) -> Result<T, Trouble> {
+        let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
+        let Some((t, [before, _], impulses)) = found else {
+            return Err(Trouble::new("no_blow", format!("change {change} of the run is no blow")));
+        };
+        let mut workspace = Workspace::new(m, &self.phase(t).p);
+        workspace.mode = impulses.mode.clone();
+        workspace.place(t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
+        read(&mut workspace)
+    }
+
+    /// Everything about one time, and the degrees of freedom then.
+    ///
+    /// # Errors
+    /// As [`Trajectory::reactions`].
+    pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
+        self.at(m, t, |workspace| Ok((workspace.instant(route)?, workspace.freedom())))
+    }
+}

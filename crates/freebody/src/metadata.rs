@@ -1,0 +1,191 @@
+//! What a mechanism says of itself, as data for whoever shows it.
+
+use crate::bound_values::BoundValues;
+use crate::dynamics::{Count, Source};
+use crate::joints::{Joint as _, Kind};
+use crate::mechanism::{Drive, FrictionSource, Joint, Level, Mechanism, Part};
+use crate::mode::Mode;
+use serde_json::{json, Map, Value};
+
+/// The cards of all joints, forces and shapes.
+pub fn cards() -> Value {
+    let joints: Vec<_> = Kind::ALL.iter().map(|k| k.card()).chain([crate::compile::coupling_card()]).collect();
+    let forces: Vec<_> = crate::forces::ALL.iter().map(|f| f.card()).collect();
+    let shapes: Vec<_> =
+        crate::shapes::SHAPES.iter().map(|(word, _, sizes)| json!({"type": word, "sizes": sizes})).collect();
+    json!({"joints": joints, "forces": forces, "shapes": shapes})
+}
+
+/// Bodies, parameters, coordinates, joints, forces, motions, events and notes.
+pub fn metadata(m: &Mechanism) -> Value {
+    let (numbers, start) = (m.bind(&m.parameters_with(&[])), Mode::free(m));
+    json!({
+        "name": m.name,
+        "bodies": bodies(m, &numbers),
+        "parameters": parameters(m, &numbers),
+        "coordinates": coordinates(m, &numbers, true),
+        "closure_coordinates": coordinates(m, &numbers, false),
+        "joints": (0..m.joints.len()).map(|j| joint(m, &start, j)).collect::<Vec<_>>(),
+        "forces": (0..m.forces.len()).map(|f| force(m, &start, f)).collect::<Vec<_>>(),
+        "motions": motions(m, &start),
+        "limits": m.groups.iter().map(|g| json!({"name": g.name, "type": g.word, "engaged": g.engaged,
+            "first": m.bodies[g.ends[0]].name, "second": m.bodies[g.ends[1]].name})).collect::<Vec<_>>(),
+        "events": m.events.iter().map(|e| &e.name).collect::<Vec<_>>(),
+        "freedom": count(m, &start),
+        "notes": notes(m, &numbers),
+    })
+}
+
+fn bodies(m: &Mechanism, n: &BoundValues) -> Vec<Value> {
+    let entry = |&i: &usize| {
+        let body = &m.bodies[i];
+        // The mass centre is kept from the pin; tell it in the body's own frame.
+        let origin = m.sites.iter().position(|s| s.body == i).expect("every body has its origin as a site");
+        let centre = n.centre[i] - n.arms[origin];
+        json!({
+            "name": body.name, "particle": body.particle, "mass": n.mass[i],
+            "inertia": if body.particle { 0.0 } else { n.inertia[i] }, "centre": [centre.x, centre.y],
+        })
+    };
+    m.listed_bodies().iter().map(entry).collect()
+}
+
+fn parameters(m: &Mechanism, n: &BoundValues) -> Vec<Value> {
+    let entry = |(p, x): (&crate::mechanism::Parameter, &f64)| json!({"name": p.name, "unit": p.unit, "value": x});
+    m.parameters.iter().zip(&n.p).map(entry).collect()
+}
+
+/// Coordinates of the joints in the tree, or of those that close loops.
+fn coordinates(m: &Mechanism, n: &BoundValues, tree: bool) -> Vec<Value> {
+    let joints = m.joints.iter().filter(|j| j.child.is_some() == tree);
+    joints
+        .flat_map(|j| {
+            j.coordinates.iter().map(|c| {
+                json!({"name": c.name, "word": j.kind.card().coordinates[c.card].name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, n, j, c)})
+            })
+        })
+        .collect()
+}
+
+/// What a coordinate measures, in words.
+fn meaning(m: &Mechanism, n: &BoundValues, joint: &Joint, c: &crate::mechanism::Coordinate) -> String {
+    let [first, second] = m.ends(joint).map(|b| &m.bodies[b].name);
+    let what = joint.kind.card().coordinates[c.card].name;
+    let zero = n.values[c.zero];
+    let from = match (c.dimension, c.absolute || m.ends(joint)[0] == 0) {
+        ("rad", fixed) if fixed && zero != 0.0 => direction(zero.to_degrees()),
+        ("rad", false) if zero != 0.0 => format!("{} to `{first}`", direction_at(zero.to_degrees())),
+        _ if c.absolute => "the fixed x axis".to_string(),
+        _ => format!("`{first}`"),
+    };
+    let sense = match (c.dimension, c.sense < 0.0) {
+        ("rad", true) => ", clockwise",
+        ("rad", false) => ", counter-clockwise",
+        (_, true) => ", backward",
+        _ => "",
+    };
+    format!("{what} of `{second}` from {from} at `{}`{sense}", joint.name)
+}
+
+/// A fixed direction, by its angle to the x axis in degrees.
+fn direction(degrees: f64) -> String {
+    let named = [(-90.0, "straight down"), (90.0, "straight up"), (180.0, "the fixed −x axis")];
+    let is = |angle: f64| (degrees - angle).abs() < 1e-9;
+    named
+        .iter()
+        .find(|(angle, _)| is(*angle))
+        .map_or_else(|| format!("{} to the fixed x axis", direction_at(degrees)), |(_, words)| words.to_string())
+}
+
+fn direction_at(degrees: f64) -> String {
+    format!("the direction at {}°", (degrees * 1e9).round() / 1e9)
+}
+
+fn joint(m: &Mechanism, start: &Mode, index: usize) -> Value {
+    let j = &m.joints[index];
+    let card = j.kind.card();
+    let [first, second] = m.ends(j).map(|b| m.bodies[b].name.clone());
+    json!({
+        "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(),
+        "engaged": start.has(m.part_of(index)),
+        "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
+        "reaction": j.rows.iter().map(|&r| card.rows[r].load.name).collect::<Vec<_>>(), "couple": j.couple,
+    })
+}
+
+fn force(m: &Mechanism, start: &Mode, index: usize) -> Value {
+    let f = &m.forces[index];
+    json!({
+        "name": f.name, "type": f.word, "conservative": f.is_conservative(), "cases": f.has_cases(),
+        "engaged": start.has(Part::Force(index)),
+    })
+}
+
+fn motions(m: &Mechanism, start: &Mode) -> Vec<Value> {
+    let level = |l: Level| match l {
+        Level::Position => "position",
+        Level::Velocity => "velocity",
+        Level::Acceleration => "acceleration",
+    };
+    let motions = m.drives.iter().enumerate().filter(|(_, d)| !d.coupling);
+    let entry = |(i, d): (usize, &Drive)| {
+        let engaged = start.has(Part::Drive(i));
+        json!({"name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none(), "engaged": engaged})
+    };
+    motions.map(entry).collect()
+}
+
+/// Grübler's count at the start.
+fn count(m: &Mechanism, start: &Mode) -> Value {
+    let Count { bodies, rows, driven } = Count::of(m, start);
+    json!({"count": bodies as i64 - rows as i64, "bodies": bodies, "rows": rows, "driven": driven})
+}
+
+/// What is modelled, ignored and assumed.
+fn notes(m: &Mechanism, n: &BoundValues) -> Vec<String> {
+    let mut notes = m.notes.clone();
+    let massless: Vec<_> = m
+        .listed_bodies()
+        .into_iter()
+        .filter(|&i| n.mass[i] == 0.0)
+        .map(|i| format!("`{}`", m.bodies[i].name))
+        .collect();
+    if !massless.is_empty() {
+        notes.push(format!("Without mass: {}.", massless.join(", ")));
+    }
+    match n.gravity.norm() {
+        0.0 => notes.push("No gravity acts in the plane.".to_string()),
+        _ => notes.push(format!("Gravity is ({}, {}) m/s².", n.gravity.x, n.gravity.y)),
+    }
+    let joints = (0..m.joint_friction.len())
+        .filter(|&friction| matches!(m.joint_friction[friction].of, FrictionSource::Joint { .. }));
+    let rubbing: Vec<_> = joints.map(|friction| format!("`{}`", Source::JointFriction(friction).name(m))).collect();
+    notes.push(match rubbing.is_empty() {
+        true => "Bodies are rigid, joints are ideal: no friction, no clearance.".to_string(),
+        false => format!("Bodies are rigid; joints have no clearance, and no friction but {}.", rubbing.join(", ")),
+    });
+    notes.push(match m.groups.is_empty() {
+        true => "Bodies that no joint joins pass through each other: there are no contacts.".to_string(),
+        false => "Only what a contact, stop or string names can touch or hold; all else passes through.".to_string(),
+    });
+    if !m.closures.is_empty() {
+        let names: Vec<_> = m.closures.iter().map(|&j| format!("`{}`", m.joints[j].name)).collect();
+        notes.push(format!(
+            "Loops are closed at {}; the motion is carried by the other joints' coordinates.",
+            names.join(", ")
+        ));
+    }
+    notes
+}
+
+/// Named points in their bodies' frames, origins and mass centres among them: name → [body, x, y].
+pub fn places(m: &Mechanism, n: &BoundValues) -> Value {
+    let mut all = Map::new();
+    for (name, site) in &m.points {
+        let body = m.body_of(*site);
+        let origin = m.sites.iter().position(|s| s.body == body).expect("every body has its origin as a site");
+        let at = n.arms[*site] - n.arms[origin];
+        all.insert(name.clone(), json!([m.bodies[body].name, at.x, at.y]));
+    }
+    Value::Object(all)
+}

@@ -1,0 +1,216 @@
+//! What a run does about events: land on them, let them act, go on.
+
+use super::dense::Segment;
+use super::events::{Kind, Mark, Probe};
+use super::method::all_finite;
+use super::outcome::{EventRecord, Outcome};
+use super::run::{ending, Runner};
+use super::system::{After, Role, System};
+
+impl Runner<'_> {
+    /// The zeros on a segment that count, in order.
+    pub(super) fn search(&mut self, segment: &Segment) -> Result<Vec<Mark>, Outcome> {
+        if self.detector.is_idle() {
+            return Ok(Vec::new());
+        }
+        let system = &mut *self.system.system;
+        let marks = self.detector.search(system, segment).map_err(Outcome::Trouble)?;
+        let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
+        for mark in marks {
+            segment.at(mark.t, &mut y);
+            if counts(system, &mark, &y)? {
+                counting.push(mark);
+            }
+        }
+        Ok(counting)
+    }
+
+    /// Lets the events act that fall on the end of the run: a run that goes on from there does not see them.
+    pub(super) fn act_at_end(&mut self) -> Result<(), Outcome> {
+        if self.detector.is_idle() {
+            return Ok(());
+        }
+        let (values, h) = (self.switch_values(0.0)?, 1e-3 * self.steps.h);
+        let later = self.switch_values(h)?;
+        let (mut hits, system) = (Vec::new(), &mut *self.system.system);
+        for (index, side) in self.detector.crossing_here(&values, &later) {
+            let direction = side * h.signum() as i8;
+            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction };
+            if system.switch(index).role == Role::Event && counts(system, &hit, &self.now.y)? {
+                hits.push(hit);
+            }
+        }
+        self.act(&hits).map(|_| ())
+    }
+
+    /// Steps to the first crossing of `marks`, lets it act and goes on from there.
+    pub(super) fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
+        let crossings: Vec<Mark> = marks.iter().filter(|mark| mark.kind == Kind::Crossing).copied().collect();
+        let first = *crossings.first().expect("the caller saw one");
+        let (hits, later): (Vec<Mark>, Vec<Mark>) = crossings.into_iter().partition(|mark| is_tie(mark.t, first.t));
+        self.note_touches(&segment, marks, first.t);
+        self.step_onto(&segment, first, later.first().map_or(segment.t1, |mark| mark.t))?;
+        let has_jumped = self.act(&hits)?;
+        if has_jumped {
+            self.stepper.reset();
+            self.system.rate_of(&mut self.now).map_err(ending)?;
+            self.restart_steps();
+        }
+        self.look_around(&hits, has_jumped)
+    }
+
+    /// Tells the watcher on which side of zero all functions go on.
+    fn look_around(&mut self, hits: &[Mark], has_jumped: bool) -> Result<(), Outcome> {
+        let values = self.switch_values(0.0)?;
+        self.detector.stop_at(&values, has_jumped);
+        for hit in hits {
+            let side = match self.system.system.switch(hit.index).role {
+                Role::Guard => 1,
+                // An action may have turned the motion.
+                Role::Event if has_jumped => self.heading(hit.index, values[hit.index])?,
+                // A discontinuity has changed to the arm beyond.
+                Role::Event | Role::Discontinuity => hit.direction * self.sign() as i8,
+            };
+            self.detector.spend(hit.index, side, self.now.t);
+        }
+        Ok(())
+    }
+
+    /// Sign of the change of switching function `i` from its present `value`; 0 when it rests.
+    fn heading(&mut self, i: usize, value: f64) -> Result<i8, Outcome> {
+        let rise = self.switch_values(1e-3 * self.steps.h)?[i] - value;
+        Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
+    }
+
+    /// Makes a true step to a zero that was found on the dense output of a longer one, and once
+    /// more when the function is not yet zero there; not beyond `next`, where another one vanishes.
+    fn step_onto(&mut self, segment: &Segment, hit: Mark, next: f64) -> Result<(), Outcome> {
+        let (t0, t1) = (segment.t0.min(next), segment.t0.max(next));
+        let mut t = hit.t;
+        for _ in 0..3 {
+            if t == self.now.t {
+                return Ok(());
+            }
+            self.step_to(t)?;
+            let mut values = vec![0.0; self.system.system.switches()];
+            let system = &mut *self.system.system;
+            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::Trouble)?;
+            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::Trouble)?;
+            let better = (t - values[hit.index] / slope).clamp(t0, t1);
+            if better.is_nan() || (better - t).abs() <= 4.0 * f64::EPSILON * t.abs() {
+                break;
+            }
+            t = better;
+        }
+        let landed = self.segment()?;
+        self.push(landed);
+        Ok(())
+    }
+
+    /// Makes a step to `t`, which is known to be short enough.
+    fn step_to(&mut self, t: f64) -> Result<(), Outcome> {
+        self.next.t = t;
+        let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
+        attempt.map_err(ending)?;
+        self.project()
+    }
+
+    /// Lets the events at the present act; returns whether the state or the law changed.
+    fn act(&mut self, hits: &[Mark]) -> Result<bool, Outcome> {
+        let (before, mut has_jumped, mut stop) = (self.now.y.clone(), false, None);
+        for hit in hits {
+            let system = &mut *self.system.system;
+            let role = system.switch(hit.index).role;
+            self.chatter.note(hit.index, role, self.now.t)?;
+            let after = system.act(hit.index, self.now.t, &mut self.now.y);
+            let after = after.map_err(Outcome::Trouble)?;
+            match role {
+                Role::Discontinuity => self.run.discontinuities += 1,
+                Role::Event => self.run.events.push(event_record(hit, self.now.t, &before)),
+                Role::Guard => {}
+            }
+            has_jumped |= role != Role::Event || after == After::Restart;
+            if after == After::Stop {
+                stop.get_or_insert(hit.index);
+            }
+        }
+        all_finite(&self.now.y).map_err(ending)?;
+        match stop {
+            Some(index) => Err(Outcome::StoppedByEvent { index }),
+            None => Ok(has_jumped || self.now.y != before),
+        }
+    }
+
+    /// Records the touches before time `until`.
+    pub(super) fn note_touches(&mut self, segment: &Segment, marks: &[Mark], until: f64) {
+        let start = segment.t0;
+        for mark in marks.iter().filter(|mark| mark.kind == Kind::Touch) {
+            if (mark.t - start).abs() <= (until - start).abs() {
+                let mut y = vec![0.0; self.now.y.len()];
+                segment.at(mark.t, &mut y);
+                self.run.events.push(event_record(mark, mark.t, &y));
+            }
+        }
+    }
+
+    /// The switching functions at the present, or a time `h` further along its tangent.
+    fn switch_values(&mut self, h: f64) -> Result<Vec<f64>, Outcome> {
+        let system = &mut *self.system.system;
+        let mut values = vec![0.0; system.switches()];
+        let y: Vec<f64> = self.now.y.iter().zip(&self.now.dy).map(|(y, dy)| y + h * dy).collect();
+        system.switch_values(self.now.t + h, &y, &mut values).map_err(Outcome::Trouble)?;
+        Ok(values)
+    }
+}
+
+/// Whether the zero of a switching function counts, at the state there.
+fn counts(system: &mut dyn System, mark: &Mark, y: &[f64]) -> Result<bool, Outcome> {
+    let spec = system.switch(mark.index);
+    let is_passing = mark.kind == Kind::Touch && spec.role != Role::Event;
+    let other_way = spec.direction * mark.direction < 0;
+    Ok(!is_passing && !other_way && system.armed(mark.index, mark.t, y).map_err(Outcome::Trouble)?)
+}
+
+fn event_record(mark: &Mark, t: f64, y: &[f64]) -> EventRecord {
+    EventRecord { t, y: y.to_vec(), index: mark.index, kind: mark.kind, direction: mark.direction }
+}
+
+/// Whether two times are one instant.
+fn is_tie(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * (1.0 + b.abs())
+}
+
+/// How often one guard may act in one instant: an impact may call for others.
+const GUARDS: usize = 8;
+
+/// Guards against events that come ever more densely.
+pub(super) struct Chatter {
+    since: f64,
+    /// Indices of the events of this instant, and their time.
+    instant: (f64, Vec<usize>),
+    count: usize,
+}
+
+impl Chatter {
+    pub fn new(t: f64) -> Self {
+        Self { since: t, instant: (t, Vec::new()), count: 0 }
+    }
+
+    /// Refuses an event that happens twice in one instant, a guard that does so again and again, or too many in a short
+    /// time.
+    fn note(&mut self, index: usize, role: Role, t: f64) -> Result<(), Outcome> {
+        if !is_tie(t, self.instant.0) {
+            self.instant = (t, Vec::new());
+        }
+        if (t - self.since).abs() > 1e-9 {
+            (self.since, self.count) = (t, 0);
+        }
+        self.count += 1;
+        let before = self.instant.1.iter().filter(|&&i| i == index).count();
+        if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
+            return Err(Outcome::Chatter { index });
+        }
+        self.instant.1.push(index);
+        Ok(())
+    }
+}

@@ -1,0 +1,122 @@
+//! Kinematics in variables: every mass centre, a point seen from a moving body, and what loops and motions ask.
+
+use super::equation::linear_in;
+use super::vectors::{presented, tree};
+use super::SymbolicState;
+use crate::algebra::{Symbol, Variable};
+use crate::dynamics::{closing_rows, Row, Source, Trouble};
+use crate::joints::Joint as _;
+use crate::kinematics::Kinematics;
+use crate::plane::{Twist, Vec2};
+use crate::scalar::Scalar;
+use serde_json::{json, Value};
+
+impl SymbolicState<'_> {
+    /// Angle, position, velocity and acceleration of every body and its mass centre.
+    pub(super) fn kinematics(&self) -> Value {
+        let entry = |i: usize| {
+            let (body, twist, pin) = (&self.m.bodies[i], self.k.twist[i], self.bodies[i]);
+            let arm = self.arm(i);
+            json!({
+                "body": body.name, "particle": body.particle,
+                "mass": tree(self.n.mass[i]), "inertia": tree(self.n.inertia[i]),
+                "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(pin.w),
+                "r": self.vector(self.centre(i)), "v": self.vector(twist.at(arm)),
+                "a": self.vector(acceleration(pin, arm, twist.w)),
+            })
+        };
+        Value::Array(self.m.listed_bodies().into_iter().map(entry).collect())
+    }
+
+    /// Velocity and acceleration of a point through a body: what the body carries, what the point does against it, and
+    /// Coriolis's part. They add up to the whole.
+    pub(super) fn frame(&self, point: &str, body: &str) -> Result<Value, Trouble> {
+        let (site, frame) = (self.point(point)?, self.body(body)?);
+        let own = self.m.body_of(site);
+        let turn = self.k.pose[own].turn;
+        let arm = turn.apply(self.n.arms[site]);
+        let place = self.k.pose[own].at + arm;
+        let v = self.k.twist[own].at(arm);
+        let a = acceleration(self.bodies[own], arm, self.k.twist[own].w);
+        let (twist, pin, w) = (self.k.twist[frame], self.bodies[frame], self.k.twist[frame].w);
+        let reach = place - self.k.pose[frame].at;
+        let v_transport = twist.at(reach);
+        let v_relative = v - v_transport;
+        let a_transport = acceleration(pin, reach, w);
+        let coriolis = v_relative.perp() * w.scale(2.0);
+        Ok(json!({
+            "v": self.vector(v), "v_transport": self.vector(v_transport), "v_relative": self.vector(v_relative),
+            "a": self.vector(a), "a_transport": self.vector(a_transport), "a_coriolis": self.vector(coriolis),
+            "a_relative": self.vector(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(pin.w),
+        }))
+    }
+
+    /// What loops, motions and closed limits ask, told of the coordinates.
+    pub(super) fn rows(&self) -> Value {
+        Value::Array(self.closing().iter().map(|row| self.row(row)).collect())
+    }
+
+    /// What closes loops, prescribes motions and holds limits.
+    pub(super) fn closing(&self) -> Vec<Row<Symbol>> {
+        let mut rows = closing_rows(self.at(), Some(&self.bodies));
+        self.joint_origins(&self.k, &self.bodies, &mut rows);
+        rows
+    }
+
+    /// Tells the rows of joint origins along the fixed axes: from the first point to the second, with its rate and its
+    /// acceleration.
+    pub(super) fn joint_origins(&self, k: &Kinematics<Symbol>, bodies: &[Twist<Symbol>], rows: &mut [Row<Symbol>]) {
+        let place = |site: usize| -> [Vec2<Symbol>; 3] {
+            let body = self.m.body_of(site);
+            let (pose, twist) = (k.pose[body], k.twist[body]);
+            let arm = pose.turn.apply(self.n.arms[site]);
+            [pose.at + arm, twist.at(arm), acceleration(bodies[body], arm, twist.w)]
+        };
+        for row in rows {
+            let Source::Joint(joint, r) = row.source else { continue };
+            let joint = &self.m.joints[joint];
+            if let Some(axis) = joint.kind.card().rows[r].pin {
+                let (first, second) = (place(joint.first.site), place(joint.second.site));
+                let [value, rate, bias] =
+                    std::array::from_fn(|i| [(second[i] - first[i]).x, (second[i] - first[i]).y][axis]);
+                (row.value, row.rate, row.bias) = (Some(value), Some(rate), bias);
+            }
+        }
+    }
+
+    fn row(&self, row: &Row<Symbol>) -> Value {
+        self.row_in(row, &self.unknowns())
+    }
+
+    /// A row with its acceleration as coefficients of unknowns.
+    pub(super) fn row_in(&self, row: &Row<Symbol>, unknowns: &[Variable]) -> Value {
+        let kind = match row.source {
+            Source::Joint(..) => "joint",
+            Source::Drive(drive) if self.m.drives[drive].coupling => "coupling",
+            Source::Drive(_) => "motion",
+            Source::Gap(limit) | Source::Friction(limit) => self.m.groups[self.m.unilateral[limit].group].word,
+            Source::JointFriction(_) => "friction",
+        };
+        // Of gears only the change counts: their place holds a constant of the assembly.
+        let phased = matches!(row.source, Source::Joint(j, r) if self.m.joints[j].kind.card().rows[r].is_relative);
+        let value = row.value.filter(|_| !phased);
+        json!({
+            "name": row.source.name(self.m), "kind": kind, "value": value.map(tree), "rate": row.rate.map(tree),
+            "acceleration": tree(row.bias), "linear": linear_in(row.bias, unknowns),
+        })
+    }
+}
+
+impl SymbolicState<'_> {
+    /// A vector in named unit directions.
+    pub(super) fn vector(&self, v: Vec2<Symbol>) -> Value {
+        let coordinates: Vec<Variable> =
+            (0..self.m.freedom()).map(|i| Variable::new(&self.m.coordinate(i).name, 0)).collect();
+        presented(v, &coordinates)
+    }
+}
+
+/// The acceleration of a point at an arm from a joint origin.
+pub(super) fn acceleration(pin: Twist<Symbol>, arm: Vec2<Symbol>, w: Symbol) -> Vec2<Symbol> {
+    pin.at(arm) - arm * (w * w)
+}
