@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 import freebody
 from freebody import Run
-from freebody.views.paint import frame_axes, paint
+from freebody.views.render import frame_axes, render
 from freebody.views.scene import of_run
 from freebody.views.style import INK, colour, quiet
 
@@ -29,9 +29,9 @@ def draw_motion(run: Run, ax: Axes) -> None:
     frame_axes(whole, ax)
     ax.set_axis_off()
     for t in GHOSTS:
-        for artist in paint(whole, ax, int(np.argmin(abs(run.t - t)))):
+        for artist in render(whole, ax, int(np.argmin(abs(run.t - t)))):
             artist.set(alpha=0.13, zorder=1)
-    paint(whole, ax)
+    render(whole, ax)
     for i, point in enumerate(TRACED):
         ax.plot(*run[point].T, color=colour(i), lw=1.4, zorder=1.5)
     for name, where in PINS.items():

@@ -16,9 +16,9 @@ import pytest
 
 import freebody as fb
 from freebody import catalogue
-from freebody.balances.states import RATES, others
+from freebody.equations.balances.perturbed_states import RATES, others
 from freebody.equations.derivation import derive
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.data import SymbolicState
 
 ROOT = Path(__file__).parents[1]
 SYSTEMS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}
@@ -69,9 +69,9 @@ def start(model: str):
 
 
 @cache
-def subject(model: str) -> Subject:
+def subject(model: str) -> SymbolicState:
     """A model at its start, for derivations."""
-    return Subject(mechanism(model).source(), start(model)[0])
+    return SymbolicState(mechanism(model).source(), start(model)[0])
 
 
 @cache
@@ -109,8 +109,8 @@ def _sheet(model, of, to_scale, column):
 
 
 @cache
-def elsewhere(model: str) -> tuple[Subject, ...]:
+def elsewhere(model: str) -> tuple[SymbolicState, ...]:
     """A model at its start, and at a state of the same mode at about each place near by: at rates and a time of its own, with
     closed what is closed, where the same things touch, are taut and slide the same way."""
     first = subject(model)
-    return first, *(Subject(first.source, state) for state in others(first.source, first.state)[::RATES])
+    return first, *(SymbolicState(first.source, state) for state in others(first.source, first.state)[::RATES])

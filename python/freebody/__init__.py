@@ -10,11 +10,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .compare import compare
     from .core import ExpressionError, Indeterminate, ModelError, MotionError
-    from .instant import Instant
     from .model import Mechanism, ModelFileError
-    from .run import Run
+    from .run.compare import compare
+    from .run.simulation import Run
+    from .solve.instant import Instant
 
 _HOMES = {
     "ExpressionError": "core",

@@ -75,9 +75,9 @@ class Fake:
         on = [{"body": b, "point": list(map(float, p)), "force": list(map(float, f)), "couple": c} for b, p, f, c in parts]
         card = {"name": component or kind, "reading": READINGS[component], "couple": component == "couple", **FACTS}
         axis = component if component in ("x", "y") else None
-        told = {"name": name, "path": f"{kind}s.{name}", "symbol": f"{name}.{card['reading']}", "kind": kind}
-        told |= {"axis": axis, "card": card, "number": None}
-        return {**told, "follows": None, "of": list(of), "on": on}
+        stated = {"name": name, "path": f"{kind}s.{name}", "symbol": f"{name}.{card['reading']}", "kind": kind}
+        stated |= {"axis": axis, "card": card, "number": None}
+        return {**stated, "follows": None, "of": list(of), "on": on}
 
     def _place(self, name):
         return self.bodies[name]["G"] if name in self.bodies else np.zeros(2)

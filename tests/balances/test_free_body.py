@@ -119,9 +119,9 @@ def test_the_accelerations_are_affine_in_those_of_the_coordinates(free):
 
 def test_what_is_not_determined_is_refused():
     fakes = planar.ladder(np.random.default_rng(2))
-    told = fakes.data()
-    told["loads"][0]["determinate"] = False
-    free = FreeBodies.read(told)
+    stated = fakes.data()
+    stated["loads"][0]["determinate"] = False
+    free = FreeBodies.read(stated)
     with pytest.raises(Indeterminate, match="floor"):
         free.acting("ladder")
 

@@ -9,9 +9,9 @@ import store
 from store import ANSWERED, every
 from test_smallest import MODELS, connected, null_space, states
 
-from freebody.balances.minimal import minimal_form, regular
-from freebody.balances.states import nearby
-from freebody.balances.system import problem
+from freebody.equations.balances.minimal import minimal_form, regular
+from freebody.equations.balances.perturbed_states import nearby
+from freebody.equations.balances.system import problem
 
 KEPT_OUT = {
     "free four-bar": 2,
@@ -112,9 +112,9 @@ def test_textbook_forms_have_their_textbook_names():
 def test_an_arm_from_a_file_and_how_it_is_told():
     form = store.mechanism("EX-ARM/model").minimal_form()
     assert titles(form) == ["AMB about elbow for forearm", "AMB about shoulder for upper + forearm"]
-    told = str(form)
-    assert "elbow.Fx, elbow.Fy: they act at elbow" in told
-    assert "they are internal to upper + forearm" in told
+    stated = str(form)
+    assert "elbow.Fx, elbow.Fy: they act at elbow" in stated
+    assert "they are internal to upper + forearm" in stated
 
 
 def test_the_force_of_a_motion_takes_the_place_of_the_acceleration_that_it_prescribes():

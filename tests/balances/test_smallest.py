@@ -8,9 +8,9 @@ import planar
 import pytest
 
 import freebody as fb
-from freebody.balances.smallest import smallest_set, virtual_power
-from freebody.balances.system import problem
 from freebody.core import FreeBodies, Indeterminate
+from freebody.equations.balances.smallest import smallest_set, virtual_power
+from freebody.equations.balances.system import problem
 
 MODELS = {
     "block on a slope": planar.block_on_slope,
@@ -105,9 +105,9 @@ def test_an_equation_and_its_reasons_name_every_unknown_that_touches_its_bodies_
                 load.symbol for load in free.loads if load.unknown and any(part.body in equation.bodies for part in load.on)
             }
             dropped = [name for item in equation.dropped for name in item.unknowns]
-            told = [name for name in (*equation.unknowns, *dropped) if not name.startswith("accel(")]
-            assert len(told) == len(set(told))
-            assert set(told) == touching
+            stated = [name for name in (*equation.unknowns, *dropped) if not name.startswith("accel(")]
+            assert len(stated) == len(set(stated))
+            assert set(stated) == touching
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -120,8 +120,8 @@ def test_an_equation_is_the_balance_of_its_bodies_about_its_point(name):
             for name, coefficient in equation.coefficients.items():
                 if name in names:
                     unit = names[name].unit(equation.bodies, equation.at if equation.kind == "AMB" else (0.0, 0.0))
-                    told = unit[2] if equation.kind == "AMB" else np.dot(unit[:2], equation.at)
-                    assert coefficient == pytest.approx(told, abs=1e-9)
+                    stated = unit[2] if equation.kind == "AMB" else np.dot(unit[:2], equation.at)
+                    assert coefficient == pytest.approx(stated, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -231,7 +231,7 @@ def test_what_is_not_unknown_or_not_determined_is_refused():
         smallest_set("Q", given)
     with pytest.raises(KeyError, match="follows from motions and loops"):
         smallest_set("crank.angle", given)
-    told = planar.ladder(np.random.default_rng(2)).data()
-    told["loads"][0]["determinate"] = False
+    stated = planar.ladder(np.random.default_rng(2)).data()
+    stated["loads"][0]["determinate"] = False
     with pytest.raises(Indeterminate, match=r"floor\.Fn"):
-        smallest_set("floor.Fn", [FreeBodies.read(told)])
+        smallest_set("floor.Fn", [FreeBodies.read(stated)])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import freebody as fb
-from freebody.balances.smallest import smallest_set
-from freebody.balances.states import nearby
 from freebody.core import FreeBodies
+from freebody.equations.balances.perturbed_states import nearby
+from freebody.equations.balances.smallest import smallest_set
 
 SYSTEMS = Path(__file__).parents[2] / "systems"
 

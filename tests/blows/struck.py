@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import freebody as fb
-from freebody.blow import Blow, blows
+from freebody.impact.impacts import Impact, impacts
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 
@@ -179,6 +179,6 @@ def mechanism(name: str) -> fb.Mechanism:
 
 
 @cache
-def struck(name: str, most: int = 3) -> list[Blow]:
+def struck(name: str, most: int = 3) -> list[Impact]:
     """Its first blows."""
-    return list(blows(mechanism(name).simulate()))[:most]
+    return list(impacts(mechanism(name).simulate()))[:most]

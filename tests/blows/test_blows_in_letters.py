@@ -8,8 +8,8 @@ from struck import ALL, mechanism, struck
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import topic
-from freebody.equations.topics.blow import after, blow
-from freebody.equations.topics.jumps import jumps
+from freebody.equations.topics.impact_equations import after, blow
+from freebody.equations.topics.impulse_momentum import jumps
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import replace
 

@@ -20,8 +20,8 @@ every_model = pytest.mark.parametrize("name", ALL)
 
 @cache
 def drawn(name):
-    [blow, *_] = struck(name)
-    return blow, impulse_diagram(blow)
+    [impact, *_] = struck(name)
+    return impact, impulse_diagram(impact)
 
 
 def acts(part):
@@ -30,10 +30,10 @@ def acts(part):
 
 @every_model
 def test_every_impulse_on_a_body_is_drawn_once_and_nothing_else(name):
-    blow, diagram = drawn(name)
+    impact, diagram = drawn(name)
     for cut in diagram.cuts:
         [body] = cut.group
-        due = Counter(load.symbol for load in blow.acting for part in load.on if part.body == body and acts(part))
+        due = Counter(load.symbol for load in impact.acting for part in load.on if part.body == body and acts(part))
         made = Counter(load.symbol for mark in cut.forces for load in mark.action.loads)
         assert made == due
         assert all("J_" in mark.action.label for mark in cut.forces)
@@ -41,13 +41,13 @@ def test_every_impulse_on_a_body_is_drawn_once_and_nothing_else(name):
 
 @every_model
 def test_two_sides_of_a_cut_are_equal_and_opposite(name):
-    blow, diagram = drawn(name)
+    impact, diagram = drawn(name)
     sides = defaultdict(list)
     for cut in diagram.cuts:
         for mark in cut.forces:
             if isinstance(mark, Arrow):
                 sides[mark.action.loads[0].symbol].append(mark)
-    pairs = [load for load in blow.acting if len({part.body for part in load.on} - {"ground"}) == 2 == len(load.on)]
+    pairs = [load for load in impact.acting if len({part.body for part in load.on} - {"ground"}) == 2 == len(load.on)]
     for load in pairs:
         if sides[load.symbol]:
             one, other = (mark.action for mark in sides[load.symbol])
@@ -57,27 +57,27 @@ def test_two_sides_of_a_cut_are_equal_and_opposite(name):
 
 @every_model
 def test_the_other_side_is_the_jump_of_momentum(name):
-    blow, diagram = drawn(name)
+    impact, diagram = drawn(name)
     for cut in diagram.cuts:
         [body] = cut.group
-        told = {mark.action.label for mark in cut.effective}
-        assert all(r"\Delta" in label for label in told)
-        struck_body = bool(blow.impulses.on(body)) and blow.impulses.bodies[body].mass > 0
-        assert bool(told) == struck_body
+        stated = {mark.action.label for mark in cut.effective}
+        assert all(r"\Delta" in label for label in stated)
+        struck_body = bool(impact.impulses.on(body)) and impact.impulses.bodies[body].mass > 0
+        assert bool(stated) == struck_body
 
 
 @every_model
 def test_what_is_absent_is_said_below(name):
-    blow, diagram = drawn(name)
+    impact, diagram = drawn(name)
     for cut in diagram.cuts:
-        assert [f"Absent: {sentence}." for sentence in blow.absent(*cut.group)] == list(cut.row.notes)
+        assert [f"Absent: {sentence}." for sentence in impact.absent(*cut.group)] == list(cut.row.notes)
 
 
 @every_model
 @pytest.mark.parametrize("scaled", [False, True])
 def test_no_two_labels_overlap(name, scaled):
-    [blow, *_] = struck(name)
-    figure = impulse_diagram(blow, scaled=scaled).figure
+    [impact, *_] = struck(name)
+    figure = impulse_diagram(impact, scaled=scaled).figure
     [axes] = figure.axes
     boxes = []
     for text in axes.texts:
@@ -90,8 +90,8 @@ def test_no_two_labels_overlap(name, scaled):
 
 @every_model
 def test_to_scale_the_arrows_add_up(name):
-    [blow, *_] = struck(name)
-    for cut in impulse_diagram(blow, scaled=True).cuts:
+    [impact, *_] = struck(name)
+    for cut in impulse_diagram(impact, scaled=True).cuts:
         if cut.row.per_newton is None or any("not determined" in note or "longer" in note for note in cut.row.notes):
             continue
         sums = [sum((mark.head - mark.tail for mark in marks if isinstance(mark, Arrow)), np.zeros(2))
@@ -103,12 +103,12 @@ def test_the_command_writes_a_picture(tmp_path):
     from struck import SYSTEMS
 
     model, file = str(SYSTEMS / "19.3.22" / "model.yaml"), tmp_path / "blow.svg"
-    done = CliRunner().invoke(app, ["diagram", model, "--blow", "1", "-o", str(file)])
+    done = CliRunner().invoke(app, ["diagram", model, "--impact", "1", "-o", str(file)])
     assert done.exit_code == 0, done.output
     assert "impulse diagrams" in file.read_text(encoding="utf-8")
-    wrong = CliRunner().invoke(app, ["diagram", model, "--blow", "7", "-o", str(file)])
+    wrong = CliRunner().invoke(app, ["diagram", model, "--impact", "7", "-o", str(file)])
     assert wrong.exit_code == 2 and "none of number 7" in wrong.output
-    placed = CliRunner().invoke(app, ["diagram", model, "--blow", "1", "--at", "xA=0", "-o", str(file)])
+    placed = CliRunner().invoke(app, ["diagram", model, "--impact", "1", "--at", "xA=0", "-o", str(file)])
     assert placed.exit_code == 2 and "--at takes a time" in placed.output
 
 

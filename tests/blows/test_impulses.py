@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from struck import ALL, CATALOGUE, TEXTS, mechanism, struck
 
 from freebody import catalogue
-from freebody.blow import NoBlow
+from freebody.impact.impacts import NoImpact
 
 every_model = pytest.mark.parametrize("name", ALL)
 CLOSE = 1e-9
@@ -15,55 +15,55 @@ are closed within 1e-10 of the mechanism's length."""
 
 
 def size(blow):
-    told = [load.value for load in blow.impulses.loads if load.determinate]
-    return max(map(abs, told))
+    stated = [load.value for load in blow.impulses.loads if load.determinate]
+    return max(map(abs, stated))
 
 
 @every_model
 def test_impulses_on_any_group_add_up_to_its_jump_of_momentum(name):
-    for blow in struck(name):
-        free = blow.impulses
+    for impact in struck(name):
+        free = impact.impulses
         if not all(load.determinate for load in free.loads):
             continue
         for group in [*((body,) for body in free.bodies), tuple(free.bodies)]:
             gap = free.acting(*group) - free.effective(*group)
-            assert np.abs(gap).max() < CLOSE * max(1.0, size(blow)), (group, gap)
+            assert np.abs(gap).max() < CLOSE * max(1.0, size(impact)), (group, gap)
 
 
 @every_model
 def test_impulses_of_contacts_strings_and_stops_are_those_of_the_run(name):
-    for blow in struck(name):
-        told = blow.change.impulses
-        for limit, (x, y) in told.contacts.items():
-            first = next(each["first"] for each in blow.run.about["limits"] if each["name"] == limit)
-            loads = [load for load in blow.impulses.loads if load.name == limit]
+    for impact in struck(name):
+        stated = impact.change.impulses
+        for limit, (x, y) in stated.contacts.items():
+            first = next(each["first"] for each in impact.run.about["limits"] if each["name"] == limit)
+            loads = [load for load in impact.impulses.loads if load.name == limit]
             if all(load.determinate for load in loads):
                 found = sum(load.acting([first])[:2] for load in loads)
-                assert_allclose(found, (x, y), atol=CLOSE * size(blow))
-        for stop, impulse in told.stops.items():
-            [load] = [load for load in blow.impulses.loads if load.name == stop]
+                assert_allclose(found, (x, y), atol=CLOSE * size(impact))
+        for stop, impulse in stated.stops.items():
+            [load] = [load for load in impact.impulses.loads if load.name == stop]
             assert load.value == pytest.approx(impulse, rel=CLOSE)
 
 
 @every_model
 def test_impulses_of_joints_are_those_of_the_run(name):
     """The run passes them from body to body along the tree; here every body has its balance."""
-    for blow in struck(name):
-        joints = {joint["name"]: joint for joint in blow.run.about["joints"]}
-        for joint, (x, y, _) in blow.change.impulses.joints.items():
-            loads = [load for load in blow.impulses.loads if load.name == joint and load.kind == "joint"]
+    for impact in struck(name):
+        joints = {joint["name"]: joint for joint in impact.run.about["joints"]}
+        for joint, (x, y, _) in impact.change.impulses.joints.items():
+            loads = [load for load in impact.impulses.loads if load.name == joint and load.kind == "joint"]
             if all(load.determinate for load in loads):
                 found = sum((load.acting([joints[joint]["second"]])[:2] for load in loads), np.zeros(2))
-                assert_allclose(found, (x, y), atol=CLOSE * size(blow), err_msg=joint)
+                assert_allclose(found, (x, y), atol=CLOSE * size(impact), err_msg=joint)
 
 
 @every_model
 def test_what_is_finite_has_no_impulse(name):
-    for blow in struck(name):
-        acting = {load.symbol for load in blow.impulses.loads}
-        assert not acting & {load.symbol for load in blow.finite}
-        weights = {load.of[-1] for load in blow.finite if load.kind == "weight"}
-        said = " ".join(blow.absent())
+    for impact in struck(name):
+        acting = {load.symbol for load in impact.impulses.loads}
+        assert not acting & {load.symbol for load in impact.finite}
+        weights = {load.of[-1] for load in impact.finite if load.kind == "weight"}
+        said = " ".join(impact.absent())
         assert all(f"weight of {body}" in said for body in weights)
 
 
@@ -81,17 +81,17 @@ def test_all_models_of_the_catalogue_with_a_blow_are_visited():
 
 def test_friction_on_two_feet_is_not_told():
     """A plate that lands flat and slides on neither: their friction together is known, not that of each."""
-    [blow] = struck("plate")
-    unknown = {load.symbol for load in blow.impulses.loads if not load.determinate}
+    [impact] = struck("plate")
+    unknown = {load.symbol for load in impact.impulses.loads if not load.determinate}
     assert unknown in ({"left.T", "right.T"}, set())
 
 
 def test_a_stop_tells_its_impulse():
     """A rod on a pin: (1 + e) I ω about the pin."""
-    [blow, *_] = struck("door")
-    before = blow.change.before.u["th"]
-    assert blow.change.impulses.stops == {"wall": pytest.approx(1.6 * 1.5**2 / 3 * abs(before), rel=1e-12)}
-    assert blow.change.impulses.contacts == {}
+    [impact, *_] = struck("door")
+    before = impact.change.before.u["th"]
+    assert impact.change.impulses.stops == {"wall": pytest.approx(1.6 * 1.5**2 / 3 * abs(before), rel=1e-12)}
+    assert impact.change.impulses.contacts == {}
 
 
 def test_what_lets_go_and_what_rubs_is_said():
@@ -106,7 +106,7 @@ def test_blows_are_chosen_by_number_name_and_time():
     second, fourth = wheel.blow(2), wheel.blow(1, of="foot[4]")
     assert second.change.of == ("foot[3]",) and fourth.change.of == ("foot[4]",)
     assert wheel.blow(1, at=second.change.t + 1e-6).change.t == fourth.change.t
-    with pytest.raises(NoBlow, match="1 blows of foot"):
+    with pytest.raises(NoImpact, match="1 blows of foot"):
         wheel.blow(2, of="foot[4]")
 
 

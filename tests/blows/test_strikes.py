@@ -12,10 +12,10 @@ from freebody.core import State
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.topics.blow import after, hammered
-from freebody.equations.topics.jumps import jumps
-from freebody.equations.topics.rows import Rows
-from freebody.strike import strike
+from freebody.equations.topics.impact_equations import after, hammered
+from freebody.equations.topics.impact_rows import Rows
+from freebody.equations.topics.impulse_momentum import jumps
+from freebody.impact.applied_impulse import strike
 from freebody.symbolic.simplify import equal
 
 BAT = """

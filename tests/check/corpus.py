@@ -19,9 +19,9 @@ from textbook import BOOKS, Book
 
 from freebody.check import Checker, Kind
 from freebody.check.case import Case
+from freebody.check.correction import Correction, corrections
 from freebody.check.language.spelling import spell
 from freebody.check.language.statements import Equation, letters
-from freebody.check.mend import Mend, mends
 from freebody.check.verdict import judged
 from freebody.check.vocabulary import Vocabulary
 from freebody.model import Mechanism
@@ -132,14 +132,14 @@ class Bench:
         case = self.checker.case(text, said)
         began = time.perf_counter()
         verdict = judged(case)
-        found = verdict.mends or tuple(mends(case, case.equations[0]))
+        found = verdict.mends or tuple(corrections(case, case.equations[0]))
         seconds = time.perf_counter() - began
         right = [self.same(before, self.checker.case(mend.equation, said).equations[0], rng) for mend in found]
         first = bool(right) and right[0]
         return Outcome(self.name, slip, spell(before), text, verdict.kind, any(right), first, _told(found), seconds)
 
 
-def _told(found: tuple[Mend, ...]) -> tuple[str, ...]:
+def _told(found: tuple[Correction, ...]) -> tuple[str, ...]:
     return tuple(str(mend) for mend in found)
 
 

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from freebody.check import Kind
 from freebody.check.file import judge, read
 from freebody.cli import app
-from freebody.model.errors import Complaint
+from freebody.model.errors import ModelProblem
 
 MODEL = """
 freebody: 1
@@ -53,7 +53,7 @@ def test_an_own_angle_from_another_axis(folder: Path) -> None:
 
 def test_what_a_file_may_hold_is_told(folder: Path) -> None:
     (folder / "bad.yaml").write_text("statements: [{id: A, say: x = 1}]")
-    with pytest.raises(Complaint, match="says"):
+    with pytest.raises(ModelProblem, match="says"):
         read(folder / "bad.yaml")
 
 
@@ -65,9 +65,9 @@ def test_the_command_ends_with_its_verdict(folder: Path) -> None:
     assert "true" in good.output
     bad = run(app, ["check", model, "2*l*phi'' = 3*g*cos(phi)", "--where", "phi=theta-pi/2", "--json"])
     assert bad.exit_code == 3
-    told = json.loads(bad.output)
-    assert told[0]["verdict"] == "wrong"
-    assert told[0]["mends"][0]["edits"][0]["kind"] == "sign"
+    stated = json.loads(bad.output)
+    assert stated[0]["verdict"] == "wrong"
+    assert stated[0]["mends"][0]["edits"][0]["kind"] == "sign"
     assert run(app, ["check", str(folder / "statements.yaml")]).exit_code == 0
 
 
@@ -76,7 +76,7 @@ def test_a_model_without_an_equation_is_told_so(folder: Path) -> None:
     assert run.exit_code == 2
     assert "no equation to check" in run.output
     (folder / "nothing.yaml").write_text("model: model.yaml")
-    with pytest.raises(Complaint, match="no statements"):
+    with pytest.raises(ModelProblem, match="no statements"):
         read(folder / "nothing.yaml")
 
 

@@ -11,8 +11,8 @@ import freebody as fb
 from freebody.check.language.dimensions import check_dimensions
 from freebody.check.language.parser import parse
 from freebody.check.language.sides import sides
-from freebody.check.letters import Letters, declarations
-from freebody.model.errors import Complaint
+from freebody.check.symbols import Letters, declarations
+from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
 
@@ -170,7 +170,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("name", "said", "what"), WRONG)
 def test_declarations_that_mean_nothing(model, name, said, what):
-    with pytest.raises(Complaint) as error:
+    with pytest.raises(ModelProblem) as error:
         Letters(model, {name: said})
     assert what in f"{error.value.what} {error.value.hint}"
 
@@ -180,5 +180,5 @@ def test_declarations_in_lines():
         "phi": "theta - alpha",
         "r_G/O": "position of rod.G",
     }
-    with pytest.raises(Complaint, match="declares no letter"):
+    with pytest.raises(ModelProblem, match="declares no letter"):
         declarations(["phi"])

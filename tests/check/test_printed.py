@@ -10,8 +10,8 @@ import pytest
 
 import freebody as fb
 from freebody.check import Checker, Kind
+from freebody.document.blocks import Block, Document, Equation, Matrices, MatrixEquation, Written
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.document import Block, Document, Equation, Matrices, MatrixEquation, Written
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 NAMED = (

@@ -47,8 +47,8 @@ def test_what_is_wrong_is_mended_or_shown(system: str) -> None:
 
 
 def test_no_statement_is_left_out() -> None:
-    told = {re.sub("[a-z]$", "", statement.id) for path in FILES.values() for statement in read(path).statements}
-    assert told == {f"{kind}-{number}" for kind, count in STATED.items() for number in range(1, count + 1)}
+    stated = {re.sub("[a-z]$", "", statement.id) for path in FILES.values() for statement in read(path).statements}
+    assert stated == {f"{kind}-{number}" for kind, count in STATED.items() for number in range(1, count + 1)}
 
 
 MENDS = {

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from freebody import cli
-from freebody.cli.mistakes import Mistake, explained
+from freebody.cli.user_errors import UserError, explained
 from freebody.core import ModelError, MotionError
 
 ROOT = Path(__file__).parents[2]
@@ -68,12 +68,12 @@ def test_run_as_json_is_json(command, tmp_path):
 def test_a_bad_end_is_code_3_and_says_when_and_where(command, bursting):
     done = command("run", bursting, "--no-report")
     assert done.exit_code == 3
-    told = " ".join(done.output.split())
+    stated = " ".join(done.output.split())
     assert (
-        "StepUnderflow, t = " in told
-        and ", at ball.x = " in told
-        and "the tolerance asks for" in told
-        and "Traceback" not in told
+        "StepUnderflow, t = " in stated
+        and ", at ball.x = " in stated
+        and "the tolerance asks for" in stated
+        and "Traceback" not in stated
     )
 
 
@@ -126,7 +126,7 @@ def test_a_wrong_model_is_told_with_a_hint(command, path):
 
 @pytest.mark.parametrize("text", ["theta", "=3", "theta=", ""])
 def test_a_change_needs_a_name_and_a_value(text):
-    with pytest.raises(Mistake):
+    with pytest.raises(UserError):
         cli.pairs([text])
 
 

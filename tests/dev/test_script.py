@@ -32,5 +32,5 @@ def test_help_is_the_same_whatever_it_is_called():
 def test_it_finds_its_folder_through_a_link_and_from_anywhere(tmp_path):
     link = tmp_path / "link"
     link.symlink_to(ROOT / "dev")
-    told = subprocess.run([link], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-    assert told == usage()
+    stated = subprocess.run([link], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    assert stated == usage()

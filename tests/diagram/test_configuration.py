@@ -14,7 +14,7 @@ from freebody.equations.topics import topic
 from freebody.model import Mechanism
 from freebody.views.diagram.configuration import Configuration, Places
 from freebody.views.diagram.names import letter
-from freebody.views.measures import measures
+from freebody.views.dimension_lines import measures
 from freebody.views.sketch import sketch_of_state
 
 HEAD = """
@@ -98,8 +98,8 @@ def test_every_body_is_placed_by_itself(model):
 @pytest.mark.parametrize("model", ["GEN-FOURBAR/model", "19.3.20/model", "S19.19/model"])
 def test_the_sketch_with_constraints_has_their_coordinates(model):
     made = mechanism(model).equations("constraints")
-    told = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
-    assert sorted(letter(name) for name in told) == sorted(each.text for each in drawn(model, Places).scenery.dimensions)
+    stated = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
+    assert sorted(letter(name) for name in stated) == sorted(each.text for each in drawn(model, Places).scenery.dimensions)
     html = made.document.html()
     assert html.count("<svg") == 1 and "[Figure" not in html
 

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from freebody.cli import app
 from freebody.model import Mechanism
 from freebody.views.diagram.gallery import write_gallery
-from freebody.views.diagram.layout import Ink, Label, placed
+from freebody.views.diagram.layout import Label, Obstacles, placed
 from freebody.views.diagram.names import letter
 from freebody.views.diagram.paper import round_below
 from freebody.views.diagram.rows import MARGIN
@@ -132,14 +132,14 @@ def test_the_list_of_forces_is_printed_and_adds_up():
     """Forces at their points and couples, times the values, give m a at G and the moment about it."""
     done = CliRunner().invoke(app, ["diagram", "systems/GEN-FOURBAR/model.yaml", "--json", "--of", "bc", "--of", "ab+bc"])
     assert done.exit_code == 0, done.output
-    for told in json.loads(done.output):
-        effective, sums = told["effective"], np.zeros(3)
-        for load in told["loads"]:
+    for stated in json.loads(done.output):
+        effective, sums = stated["effective"], np.zeros(3)
+        for load in stated["loads"]:
             for part in load["on"]:
                 (x, y), (fx, fy) = np.subtract(part["point"], effective["about"]), part["force"]
                 sums += load["value"] * np.array([fx, fy, part["couple"] + x * fy - y * fx])
         assert sums == pytest.approx([*effective["force"], effective["moment"]], rel=1e-9, abs=1e-9)
-        assert {load["letter"] for load in told["loads"]} >= {"C_x", "C_y"}
+        assert {load["letter"] for load in stated["loads"]} >= {"C_x", "C_y"}
 
 
 def test_a_pdf_has_pages(tmp_path):
@@ -175,7 +175,7 @@ def test_the_page_shows_the_first_blow_of_every_kind(tmp_path):
 
 def test_labels_of_one_place_make_room_for_each_other():
     wanted = [Label(f"label {i}", np.zeros((1, 2)), 9.0, "k") for i in range(12)]
-    found = placed(wanted, Ink.of((np.zeros((1, 2)), 1.0)))
+    found = placed(wanted, Obstacles.of((np.zeros((1, 2)), 1.0)))
     for i, a in enumerate(found):
         for b in found[:i]:
             assert (np.abs(a.centre - b.centre) >= a.half + b.half - 1e-9).any()

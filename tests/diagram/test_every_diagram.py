@@ -14,7 +14,7 @@ from store import diagram as drawn
 
 from freebody.core import FreeBodies
 from freebody.equations import Letter, Letters, Sym, latex
-from freebody.naming import Symbols
+from freebody.solve.symbols import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.layout import AIR, extent
 from freebody.views.shapes import dense
@@ -31,7 +31,7 @@ def free_bodies(model):
 
 
 @cache
-def told(model):
+def stated(model):
     return free_bodies(model)["loads"]
 
 
@@ -69,14 +69,14 @@ def acts(on):
 
 def still(model):
     """Known loads that are 0 at the instant: they have a direction only a little further on."""
-    return {load["symbol"] for load in told(model) if not any(acts(on) for on in load["on"])}
+    return {load["symbol"] for load in stated(model) if not any(acts(on) for on in load["on"])}
 
 
 @every_model
 def test_every_load_on_a_body_is_drawn_once(model):
     for cut in drawn(model).cuts:
         [body] = cut.group
-        due = Counter(load["symbol"] for load in told(model) for on in load["on"] if on["body"] == body and acts(on))
+        due = Counter(load["symbol"] for load in stated(model) for on in load["on"] if on["body"] == body and acts(on))
         assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in still(model)}) == due
 
 
@@ -123,7 +123,7 @@ def test_a_load_has_one_letter_on_diagrams_and_in_equations(model):
 
 
 def sliding(model):
-    return [load for load in told(model) if load["follows"]]
+    return [load for load in stated(model) if load["follows"]]
 
 
 @pytest.mark.parametrize("model", ["S19.15/model", "S19.15/free"])
@@ -150,7 +150,7 @@ def test_friction_that_slides_is_against_the_sliding(model):
 def test_what_acts_within_a_group_is_not_drawn(model):
     [cut] = drawn(model, "all").cuts
     outer = [
-        load for load in told(model) if "ground" in load["of"] or any(on["body"] == "ground" and acts(on) for on in load["on"])
+        load for load in stated(model) if "ground" in load["of"] or any(on["body"] == "ground" and acts(on) for on in load["on"])
     ]
     due = Counter(load["symbol"] for load in outer for on in load["on"] if on["body"] in cut.group and acts(on))
     assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in still(model)}) == due
@@ -164,7 +164,7 @@ def test_two_sides_of_a_cut_are_equal_and_opposite(model):
             for load in mark.action.loads:
                 sides[load.symbol].append(mark)
     pairs = [
-        load["symbol"] for load in told(model) if len({on["body"] for on in load["on"]} - {"ground"}) == 2 == len(load["on"])
+        load["symbol"] for load in stated(model) if len({on["body"] for on in load["on"]} - {"ground"}) == 2 == len(load["on"])
     ]
     for symbol in pairs:
         one, other = sides[symbol]
@@ -173,7 +173,7 @@ def test_two_sides_of_a_cut_are_equal_and_opposite(model):
 
 
 def test_there_are_cuts_between_bodies_to_be_equal_and_opposite():
-    assert sum(len({on["body"] for on in load["on"]} - {"ground"}) == 2 for load in told("GEN-FOURBAR/model")) == 4
+    assert sum(len({on["body"] for on in load["on"]} - {"ground"}) == 2 for load in stated("GEN-FOURBAR/model")) == 4
 
 
 def test_the_motor_of_an_elbow_is_internal_to_both_arms():

@@ -9,7 +9,7 @@ from matplotlib.mathtext import MathTextParser
 from store import SYSTEMS, every, mechanism, start
 
 import freebody as fb
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.data import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.printers.latex import latex
 from freebody.views.diagram import diagram
@@ -42,7 +42,7 @@ def drawn(source, state, free):
 def test_a_law_is_what_acts_along_its_arrow(model):
     """Its letters put to numbers give the force, or the couple, of the load as data."""
     source, state, free = moved(model)
-    laws, subject = Laws(source, state, free), Subject(source, state)
+    laws, subject = Laws(source, state, free), SymbolicState(source, state)
     actions = drawn(source, state, free)
     assert actions
     for action in actions:
@@ -62,11 +62,11 @@ def test_what_is_more_than_a_letter_is_told_and_can_be_printed(model, column):
     source, state, free = moved(model)
     parser = MathTextParser("path")
     for cut in diagram(source, state, free, column=column).cuts:
-        told = " ".join(cut.row.laws)
+        stated = " ".join(cut.row.laws)
         for mark in cut.forces:
             size = Laws(source, state, free).size(mark.action) if mark.action.kind == "force" else None
             if size is not None:
-                assert (f"{mark.action.label} =" in told) == (latex(size) != mark.action.label)
+                assert (f"{mark.action.label} =" in stated) == (latex(size) != mark.action.label)
         for line in cut.row.laws:
             width, *_ = parser.parse(line, dpi=72)
             assert 0 < width <= 1.7 * (column - 2 * MARGIN)  # at 12 pt of the default font, where notes have 8

@@ -8,10 +8,10 @@ import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
 
 from freebody.check.language.glyphs import glyphs
+from freebody.document.blocks import Document, Equation
 from freebody.equations import latex
-from freebody.equations.document import Document, Equation
-from freebody.symbolic.printers.breaking import lines, width
 from freebody.symbolic.printers.latex import sides_latex
+from freebody.symbolic.printers.line_breaking import lines, width
 from freebody.symbolic.tree import ZERO, add, minus, mul, power
 
 TH1, TH2, X, M1, M2, L, G = map(sym, ("theta1", "theta2", "x", "m1", "m2", "l", "g"))

@@ -14,10 +14,10 @@ import pytest
 
 import freebody as fb
 from freebody.check import Checker, Kind
+from freebody.document.blocks import Document, Equation, Matrices, Written, is_tree
 from freebody.equations import equation_latex
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Document, Equation, Matrices, Written, is_tree
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Sym
@@ -66,7 +66,7 @@ def states(mechanism: fb.Mechanism, seed: int) -> Iterator[SimpleNamespace]:
         p = core.bind(dict(zip(names, start.p * rng.uniform(0.6, 1.7, len(names)), strict=True)))
         q, u = start.q + rng.uniform(-0.2, 0.6, len(start.q)), rng.uniform(-2, 2, len(start.u))
         state = type(start)(p, 0.0, q, u)
-        yield SimpleNamespace(state=state, subject=Subject(mechanism.source(), state), instant=core.instant(state))
+        yield SimpleNamespace(state=state, subject=SymbolicState(mechanism.source(), state), instant=core.instant(state))
 
 
 @pytest.mark.parametrize("seed", SEEDS)

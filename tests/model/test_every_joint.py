@@ -8,9 +8,9 @@ import pytest
 import freebody as fb
 from freebody.check import Checker, Kind
 from freebody.core import cards
+from freebody.document.blocks import Document, Equation
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.document import Document, Equation
-from freebody.results import quote
+from freebody.run.records import quote
 
 BODIES = """
 freebody: 1

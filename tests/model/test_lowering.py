@@ -13,7 +13,7 @@ from freebody.core import CompiledModel, ModelError
 from freebody.model import lower, reading, syntax
 from freebody.model.errors import ModelFileError
 from freebody.model.mechanism import Mechanism
-from freebody.results import ReportItem
+from freebody.run.records import ReportItem
 
 
 def lowered(text: str, file: str | None = None) -> lower.Lowered:

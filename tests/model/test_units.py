@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from freebody.model import syntax, units
-from freebody.model.errors import Complaint
+from freebody.model.errors import ModelProblem
 from freebody.model.units import Dimension
 
 TABLE = {
@@ -56,7 +56,7 @@ def test_no_quantities(text):
 
 @pytest.mark.parametrize("text", ["3 fot", "2 kelvin", "1 V", "5 degC", "2 c"])
 def test_what_is_no_unit_of_mechanics(text):
-    with pytest.raises(Complaint, match="no unit"):
+    with pytest.raises(ModelProblem, match="no unit"):
         units.quantity(text)
 
 
@@ -77,7 +77,7 @@ def test_units_inside_expressions(text):
 
 @pytest.mark.parametrize("text", ["x/2 m", "1/3 ft", "x^2 m"])
 def test_units_that_could_belong_to_two_things(text):
-    with pytest.raises(Complaint, match="two ways"):
+    with pytest.raises(ModelProblem, match="two ways"):
         units.rewrite(text)
 
 
@@ -86,7 +86,7 @@ KNOWN = {"l": "m", "m": "kg", "k": "N/m", "T": "N*m", "theta": "rad", "w": "rad/
 
 def measured(text: str) -> Dimension | None:
     expression = syntax.parse(text)
-    return syntax.Measure(expression, lambda name: units.unit(KNOWN[name]).dimension if name in KNOWN else None).of(
+    return syntax.DimensionLine(expression, lambda name: units.unit(KNOWN[name]).dimension if name in KNOWN else None).of(
         expression.tree
     )
 
@@ -131,7 +131,7 @@ def test_bare_numbers_and_parameters_fit_anywhere(text):
     "text", ["l + m", "l < m", "sin(l)", "exp(T)", "l^m", "l^u", "min(l, T)", "if(1 < 2, l, m)", "l - 3 kg", "2 m + 1 kg"]
 )
 def test_what_does_not_fit(text):
-    with pytest.raises(Complaint):
+    with pytest.raises(ModelProblem):
         measured(text)
 
 

@@ -28,8 +28,8 @@ def motion(text: str, until: float, settings: Mapping[str, object] | None = None
 
 def changes(run: fb.Run, *kinds: str) -> list[SimpleNamespace]:
     """What switched, in order of time; only of these kinds, if any are given."""
-    told = [SimpleNamespace(**change) for change in run.motion.record["changes"]]
-    return [change for change in told if not kinds or change.kind in kinds]
+    stated = [SimpleNamespace(**change) for change in run.motion.record["changes"]]
+    return [change for change in stated if not kinds or change.kind in kinds]
 
 
 def kinds(run: fb.Run) -> list[tuple[str, tuple[str, ...]]]:

@@ -26,11 +26,11 @@ def test_a_spinning_disk_bounces(v, w):
     run = motion(SUPERBALL, 0.5, v=v, w=w)
     slip, push = v - 0.1 * w, 1.8 * 2
     drag = math.copysign(min(0.2 * push, abs(slip) / 3), slip)
-    (blow,) = changes(run, "impact")
-    assert blow.t == pytest.approx(0.1, abs=1e-14)
-    assert blow.after["u"] == pytest.approx([v - drag, 0.8 * 2, -(w + 2 * drag / 0.1)], abs=1e-12)
-    before, after = (1 / 2 * u[0] ** 2 + 1 / 2 * u[1] ** 2 + 0.005 / 2 * u[2] ** 2 for u in (blow.before["u"], blow.after["u"]))
-    assert blow.lost == pytest.approx(before - after, abs=1e-12)
+    (impact,) = changes(run, "impact")
+    assert impact.t == pytest.approx(0.1, abs=1e-14)
+    assert impact.after["u"] == pytest.approx([v - drag, 0.8 * 2, -(w + 2 * drag / 0.1)], abs=1e-12)
+    before, after = (1 / 2 * u[0] ** 2 + 1 / 2 * u[1] ** 2 + 0.005 / 2 * u[2] ** 2 for u in (impact.before["u"], impact.after["u"]))
+    assert impact.lost == pytest.approx(before - after, abs=1e-12)
 
 
 DISKS = """
@@ -46,10 +46,10 @@ initial: {one.x: -1 m, one.y: b, two.x: 0, two.y: 0, rates: {one.x: 2, one.angle
 def test_smooth_disks_strike_off_centre(b):
     """Along the line of centres (1 + e) μ v cos β is exchanged, sin β = b/(R + r); across it, and of the spins, nothing."""
     run = motion(DISKS, 1, b=b)
-    (blow,) = changes(run, "impact")
+    (impact,) = changes(run, "impact")
     sine = b / 0.25
     cosine = math.sqrt(1 - sine**2)
-    assert blow.t == pytest.approx((1 - 0.25 * cosine) / 2, abs=1e-12)
+    assert impact.t == pytest.approx((1 - 0.25 * cosine) / 2, abs=1e-12)
     push = 1.7 * 0.75 * 2 * cosine * np.array([-cosine, sine])
     assert run.u[-1] == pytest.approx([2 + push[0], push[1], 3, -push[0] / 3, -push[1] / 3, 0], abs=1e-12)
 
@@ -83,16 +83,16 @@ def test_what_holds_of_any_blow(law):
             continue
         run = model(STICK, a=a, mu=mu, e=e, vx=vx, vy=vy, w=w).simulate(until=1e-3, impacts=law)
         assert run.outcome.ok, run.outcome.sentence
-        blow = changes(run, "impact")[0]
+        impact = changes(run, "impact")[0]
         struck += 1
-        px, py = dict(blow.impulses["limits"])["tip"]
-        u0, u1 = np.array(blow.before["u"]), np.array(blow.after["u"])
+        px, py = dict(impact.impulses["limits"])["tip"]
+        u0, u1 = np.array(impact.before["u"]), np.array(impact.after["u"])
         inertia = 1.5 / 12
         assert u1 - u0 == pytest.approx([px / 1.5, py / 1.5, (arm[0] * py - arm[1] * px) / inertia], abs=1e-11)
         assert py >= 0 and abs(px) <= mu * py * (1 + 1e-9) + 1e-12
         energy = np.array([0.75, 0.75, inertia / 2])
-        assert blow.lost == pytest.approx(energy @ (u0**2 - u1**2), abs=1e-11)
-        assert blow.lost > -1e-12
+        assert impact.lost == pytest.approx(energy @ (u0**2 - u1**2), abs=1e-11)
+        assert impact.lost > -1e-12
         slip, parting = u1[0] - u1[2] * arm[1], u1[1] + u1[2] * arm[0]
         assert parting >= -1e-12
         if law == "poisson":

@@ -68,8 +68,8 @@ def test_a_leash_goes_taut(m1, m2, e):
     assert (after[1] - after[0]) @ along == pytest.approx(-e * jump, abs=1e-12)
     momentum = [m2 * 2, m1 * 0.3]
     for end in (t / 2, t, 2.0):
-        told = [run.evaluate(f"momentum_{axis}()", end) for axis in "xy"]
-        assert told == pytest.approx(momentum, abs=1e-11)
+        stated = [run.evaluate(f"momentum_{axis}()", end) for axis in "xy"]
+        assert stated == pytest.approx(momentum, abs=1e-11)
     if e == 0:
         swing = float(across @ [2, -0.3])
         assert after[0] @ along == pytest.approx(float(along @ momentum) / (m1 + m2), abs=1e-12)

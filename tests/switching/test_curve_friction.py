@@ -54,9 +54,9 @@ def test_a_bead_swings_in_a_rough_hoop_until_it_sticks(v):
         # As a swing to the right: from where the last one ended, on the left.
         start, side = -abs(stops[-1]), -math.copysign(1, stops[-1])
         stops.append(side * brentq(lambda phi, at=start: squared_speed(phi, at, 0.0, 0.2, 0.5), start + 1e-3, math.pi / 2))
-    told = changes(run)
-    assert [c.kind for c in told] == ["reversal"] * (len(stops) - 1) + ["stick"]
-    assert [run.evaluate("phi", c.t) for c in told] == pytest.approx(stops, abs=1e-8)
+    stated = changes(run)
+    assert [c.kind for c in stated] == ["reversal"] * (len(stops) - 1) + ["stick"]
+    assert [run.evaluate("phi", c.t) for c in stated] == pytest.approx(stops, abs=1e-8)
     assert run.evaluate("rate(phi)", 6) == 0
 
 
@@ -130,9 +130,9 @@ def test_a_crank_turns_its_rubbing_slider_back_at_the_dead_points(guide):
     """There the slide stops and nothing can hold it: the crank goes through, at θ = π, 2π …"""
     text = CRANK.replace("GUIDE", guide).replace("RATES", "rates: {theta: 30}")
     run = motion(text, 0.9, {"rtol": 1e-11})
-    told = changes(run)
-    assert len(told) >= 2 and {c.kind for c in told} == {"reversal"}
-    assert [run.evaluate("theta", c.t) for c in told] == pytest.approx([math.pi * (k + 1) for k in range(len(told))], abs=1e-9)
+    stated = changes(run)
+    assert len(stated) >= 2 and {c.kind for c in stated} == {"reversal"}
+    assert [run.evaluate("theta", c.t) for c in stated] == pytest.approx([math.pi * (k + 1) for k in range(len(stated))], abs=1e-9)
 
 
 @pytest.mark.parametrize("guide", ["slot, along: ground.way", "curved_slot, along: ground.curve"])

@@ -20,9 +20,9 @@ def test_an_event_at_the_end_belongs_to_the_run_that_ends_there():
     whole = model(FALL).simulate(until=1.5)
     first = model(FALL).simulate(until=0.5)
     then = first.continue_(until=1.5)
-    told = [(event.name, event.t) for event in whole.events]
-    assert told == [("clock", 0.5), ("level", pytest.approx(1.0, abs=1e-12))]
-    assert [(event.name, event.t) for run in (first, then) for event in run.events] == told
+    stated = [(event.name, event.t) for event in whole.events]
+    assert stated == [("clock", 0.5), ("level", pytest.approx(1.0, abs=1e-12))]
+    assert [(event.name, event.t) for run in (first, then) for event in run.events] == stated
     assert first.end.u[0] == 1 and first["rate(ball.x)"][-1] == 1
     assert then.evaluate("ball.x", 1.5) == pytest.approx(1.0, abs=1e-12)
     assert abs(first.energy.balance).max() < 1e-12 and first.energy["impacts"][-1] == pytest.approx(0.5)

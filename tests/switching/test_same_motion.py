@@ -45,8 +45,8 @@ class World:
     def section(self, items: dict[str, str]) -> str:
         """Items under the names of this world, in its order."""
         old = World().names
-        told = [f"  {self.names[old.index(k)]}: {self.renamed(v)}" for k, v in items.items()]
-        return "\n".join(told[::-1] if self.backwards else told)
+        stated = [f"  {self.names[old.index(k)]}: {self.renamed(v)}" for k, v in items.items()]
+        return "\n".join(stated[::-1] if self.backwards else stated)
 
     def renamed(self, text: str) -> str:
         for i, name in enumerate(World().names):
@@ -121,9 +121,9 @@ def plain() -> fb.Run:
 
 
 def test_there_is_much_to_see(plain):
-    told = [change.kind for change in changes(plain)]
-    assert len(told) > 10
-    assert {"impact", "taut", "slip", "stick", "slack"} & set(told) >= {"impact", "taut"}
+    stated = [change.kind for change in changes(plain)]
+    assert len(stated) > 10
+    assert {"impact", "taut", "slip", "stick", "slack"} & set(stated) >= {"impact", "taut"}
     assert imbalance(plain) < 1e-9
 
 

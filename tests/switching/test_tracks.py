@@ -45,8 +45,8 @@ def test_a_valley_of_line_arc_and_line(shape, words):
     r, share = BODIES[shape]
     share = share if "rough" in words else 0.0
     run = motion(valley(shape, words), 4, {"rtol": 1e-11})
-    told = kinds(run)
-    assert told == [("contact", ("road",))]
+    stated = kinds(run)
+    assert stated == [("contact", ("road",))]
     a, rho = math.radians(40), 1 - r
     top = (1 - math.cos(a)) * rho + math.sin(a)
     speed = lambda fall: math.sqrt(2 * G * fall / (1 + share))

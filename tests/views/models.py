@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from freebody.core import CompiledModel, Settings
-from freebody.results import ReportItem
-from freebody.run import Run, simulate
+from freebody.run.records import ReportItem
+from freebody.run.simulation import Run, simulate
 
 from .fake import FakeMechanism
 

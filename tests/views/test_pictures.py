@@ -81,10 +81,10 @@ def test_rounded_hull_keeps_its_distance():
 
 def test_a_scene_is_data(four_bar):
     scene = of_run(four_bar, four_bar.t[::20])
-    told = json.loads(json.dumps(scene.to_json(), allow_nan=False))
-    assert [figure["name"] for figure in told["figures"]] == ["ground", "crank", "coupler", "rocker"]
-    assert len(told["poses"]) == len(told["t"]) and len(told["poses"][0]) == 12
-    assert told["pairs"][0]["kind"] == "spring" and [trace["name"] for trace in told["traces"]] == ["coupler.P"]
+    stated = json.loads(json.dumps(scene.to_json(), allow_nan=False))
+    assert [figure["name"] for figure in stated["figures"]] == ["ground", "crank", "coupler", "rocker"]
+    assert len(stated["poses"]) == len(stated["t"]) and len(stated["poses"][0]) == 12
+    assert stated["pairs"][0]["kind"] == "spring" and [trace["name"] for trace in stated["traces"]] == ["coupler.P"]
     assert scene.pair_lines(scene.pairs[0])[0][-1] == pytest.approx([1.25, 0.75])
 
 
@@ -110,9 +110,9 @@ def test_labels_keep_off_each_other():
 
 
 def test_a_drawing_names_everything(four_bar):
-    told = {text.get_text() for text in drawing(four_bar.source, four_bar.start).texts}
-    assert {"crank", "coupler", "rocker", "main bearing", "crank pin", "motor", "return spring", "coupler.P", "x", "y"} <= told
-    assert "θ = 57.3°" in told
+    stated = {text.get_text() for text in drawing(four_bar.source, four_bar.start).texts}
+    assert {"crank", "coupler", "rocker", "main bearing", "crank pin", "motor", "return spring", "coupler.P", "x", "y"} <= stated
+    assert "θ = 57.3°" in stated
 
 
 def test_gif_and_frames(pendulum, tmp_path):

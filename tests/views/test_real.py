@@ -9,7 +9,7 @@ import pytest
 from matplotlib.axes import Axes
 
 from freebody.model import Mechanism
-from freebody.run import Run
+from freebody.run.simulation import Run
 from freebody.views import plots
 from freebody.views.labels import Label, place_labels
 from freebody.views.peaks import peak_reactions

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from freebody.run import Run
+from freebody.run.simulation import Run
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html, write_report
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from freebody.compare import compare
 from freebody.core import Indeterminate
-from freebody.instant import Instant
-from freebody.results import ReportItem, Window, integral, maximum, plain, quote, symbol, unit_of
-from freebody.run import output_times
+from freebody.run.compare import compare
+from freebody.run.records import ReportItem, Window, integral, maximum, plain, quote, symbol, unit_of
+from freebody.run.simulation import output_times
+from freebody.solve.instant import Instant
 
 from .models import run_double_pendulum
 
@@ -83,8 +83,8 @@ def test_an_instant_tells_signs_ranks_and_refuses_the_indeterminate(indeterminat
     with pytest.raises(Indeterminate):
         _ = now.reactions["knee"].Fx
     assert float(now.reactions["knee"].least.Fx) == pytest.approx(indeterminate.reactions["knee"].least.Fx[0])
-    told = str(now)
-    assert all(word in told for word in ("phi1", "knee", "ground", "indeterminate", "1 degree of freedom", "can be pulled"))
+    stated = str(now)
+    assert all(word in stated for word in ("phi1", "knee", "ground", "indeterminate", "1 degree of freedom", "can be pulled"))
     assert now["accel(phi1)"] == pytest.approx(now.accelerations["phi1"])
 
 
@@ -129,9 +129,9 @@ def test_energy_closes_and_names_works(four_bar):
 
 
 def test_two_runs_compared(pendulum):
-    told = compare(pendulum, run_double_pendulum(until=1.5))
-    assert told.t[-1] == 1.5 and told.largest.relative < 1e-8 and not told.only
-    assert "phi1" in str(told) and told["phi1"].unit == "rad"
+    stated = compare(pendulum, run_double_pendulum(until=1.5))
+    assert stated.t[-1] == 1.5 and stated.largest.relative < 1e-8 and not stated.only
+    assert "phi1" in str(stated) and stated["phi1"].unit == "rad"
 
 
 def test_words_and_symbols():

@@ -5,8 +5,8 @@ import sys
 import numpy as np
 import pytest
 
-from freebody.compare import compare
-from freebody.run import Run
+from freebody.run.compare import compare
+from freebody.run.simulation import Run
 
 from .models import compiled
 

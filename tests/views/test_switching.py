@@ -6,17 +6,17 @@ import matplotlib
 import numpy as np
 import pytest
 
-from freebody.compare import compare
 from freebody.model import Mechanism
-from freebody.run import Run
+from freebody.run.compare import compare
+from freebody.run.simulation import Run
 from freebody.views import plots
 from freebody.views.animate import animate
-from freebody.views.flashes import LASTING
+from freebody.views.contact_glyphs import way
+from freebody.views.impact_markers import LASTING
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html
 from freebody.views.scene import of_run
 from freebody.views.style import IMPACT
-from freebody.views.touching import way
 
 matplotlib.use("Agg")
 
@@ -103,9 +103,9 @@ def test_changes_come_back_from_a_file(suffix, cut, run, tmp_path):
 
 
 def test_runs_are_compared_beside_what_switches(run):
-    told = compare(run, bouncing().simulate(until=1.3, rtol=1e-7))
-    assert told.largest.relative < 1e-5
-    assert not set(told.t) & {change.t for change in run.impacts} and not told.parting
+    stated = compare(run, bouncing().simulate(until=1.3, rtol=1e-7))
+    assert stated.largest.relative < 1e-5
+    assert not set(stated.t) & {change.t for change in run.impacts} and not stated.parting
     longer = compare(run, bouncing().simulate(until=1.6))
     assert longer.parting.endswith("nothing in the first, impact of floor in the second")
 
@@ -174,8 +174,8 @@ def test_what_is_slack_hangs_down():
 
 
 def test_the_drawing_names_strings_and_forces_of_contacts():
-    told = {text.get_text() for text in hanging().drawing().texts}
-    assert "cable: 29.43 N" in told
+    stated = {text.get_text() for text in hanging().drawing().texts}
+    assert "cable: 29.43 N" in stated
     m = bouncing()
     m.initial(**{"ball.y": 0})
     assert "floor: 19.62 N" in {text.get_text() for text in m.drawing().texts}
@@ -194,19 +194,19 @@ def test_an_instant_tells_its_contacts():
     assert after["cable.tension"] == 0 and after["load.y"] == 0
     m.report("pull just before", {"value": "cable.tension", "at": "before let go"})
     m.report("pull just after", "cable.tension @ let go")
-    told = m.simulate(until=0.01).report
-    assert told["pull just before"].value == pytest.approx(3 * G) and told["pull just after"].value == 0
+    stated = m.simulate(until=0.01).report
+    assert stated["pull just before"].value == pytest.approx(3 * G) and stated["pull just after"].value == 0
     assert [(change.kind, change.of) for change in opening.changes][-1] == ("released", ("cable",))
 
 
 def test_impacts_flash_up_in_films_where_they_strike(run, cut):
     """The ball strikes at its own place, the second time with the part of the impulse that the first left."""
-    first, second = of_run(run).flashes
+    first, second = of_run(run).impact_markers
     assert (first.t, second.t) == pytest.approx((FIRST, FIRST * (1 + 2 * PART)), abs=1e-9)
     assert first.at == pytest.approx((0, 0), abs=1e-9) and first.strength == 1
     assert second.strength == pytest.approx(np.sqrt(PART), rel=1e-9)
     assert [first.glow(first.t + dt, 0.2) for dt in (-1e-6, 0.0, 0.1, 0.2)] == pytest.approx([0, 1, 0.5, 0])
-    assert of_run(cut).flashes == []
+    assert of_run(cut).impact_markers == []
 
 
 def test_frames_show_an_impact_for_a_moment_of_the_film(run, tmp_path):

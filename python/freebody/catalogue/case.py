@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from freebody.catalogue.answers import Answer
-    from freebody.instant import Instant
     from freebody.model import Mechanism
-    from freebody.run import Run
+    from freebody.run.simulation import Run
+    from freebody.solve.instant import Instant
 
 RTOL = 1e-12  # of runs whose question or model does not ask for another
 
@@ -74,12 +74,12 @@ class Case:
     def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
         """The characteristic polynomial, in s, of small departures from rest, beside a closed form."""
         from freebody.catalogue.formulas import formula
-        from freebody.equations.document import Equation
+        from freebody.document.blocks import Equation
         from freebody.equations.topics import topic
 
         document = topic(self.mechanism(file), "linear", **at)
-        told = next(block for block in document.blocks if isinstance(block, Equation) and "characteristic" in str(block.name))
-        return formula("0", told.left, closed, against, document.letters)
+        stated = next(block for block in document.blocks if isinstance(block, Equation) and "characteristic" in str(block.name))
+        return formula("0", stated.left, closed, against, document.letters)
 
 
 def _name(file: str, *overruled: Mapping[str, Any] | None) -> str:

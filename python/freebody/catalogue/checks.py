@@ -12,7 +12,7 @@ from freebody.catalogue.answers import Answer, Question
 from freebody.catalogue.case import Case
 
 if TYPE_CHECKING:
-    from freebody.instant import Instant
+    from freebody.solve.instant import Instant
 
 ROUTES = ("minimal", "newton_euler", "constraints")
 STATES_OF_A_RUN = 4
@@ -60,7 +60,7 @@ def _ledgers(case: Case) -> Iterator[Answer]:
 
 def _states(case: Case) -> Iterator[tuple[str, list[Callable[[str], Instant]]]]:
     """Every instant that was asked for, and a few of every run, each to be solved by a route."""
-    from freebody.instant import Instant
+    from freebody.solve.instant import Instant
 
     for name, instant in case.instants.items():
         yield name, [partial(Instant, instant.core, instant.state)]

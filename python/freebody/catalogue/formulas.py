@@ -23,7 +23,7 @@ def formula(label: str, found: Tree, closed: str, against: str, letters: Letters
     """An answer in letters beside a closed form in the words of the model language, ``rate(theta)`` for a rate: both at random
     values of all letters, of which neither knows anything."""
     from freebody.equations.language import read_text
-    from freebody.symbolic.measured import shown
+    from freebody.symbolic.decimals import shown
     from freebody.symbolic.printers.text import text
     from freebody.symbolic.tree import evaluate, symbols
 

@@ -76,8 +76,8 @@ def show_totals(judged: Iterable[Judged], console: Console | None = None) -> Non
     """How many statements are true, how many are wrong, and whether all have the verdict that their file expects."""
     every = list(judged)
     counts = Counter(one.verdict.kind for one in every)
-    told = ", ".join(f"{counts[kind]} {kind.short}" for kind in Kind if counts[kind])
-    (console or Console()).print(Text(f"{len(every)} statements: {told}", "bold"))
+    stated = ", ".join(f"{counts[kind]} {kind.short}" for kind in Kind if counts[kind])
+    (console or Console()).print(Text(f"{len(every)} statements: {stated}", "bold"))
     if wrong := [one.statement.id for one in every if one.as_expected is False]:
         (console or Console()).print(Text(f"not as expected: {', '.join(wrong)}", "bold red"))
 

@@ -15,18 +15,18 @@ from freebody.check.file import Judged, judge
 def statements(systems: Iterable[System]) -> Iterator[tuple[System, list[Judged]]]:
     """The systems of which something is stated, each with its statements and their verdicts; several processes share the work.
 
-    Raises ``Complaint``.
+    Raises ``ModelProblem``.
     """
-    told = [system for system in systems if system.statements.exists()]
-    workers = min(os.cpu_count() or 1, len(told))
+    stated = [system for system in systems if system.statements.exists()]
+    workers = min(os.cpu_count() or 1, len(stated))
     if workers < 2:
-        yield from ((system, _judged(system.statements)) for system in told)
+        yield from ((system, _judged(system.statements)) for system in stated)
         return
     with ProcessPoolExecutor(workers) as pool:
         # Those of which most is stated first, so that no process is left alone with them at the end.
-        longest = sorted(told, key=lambda system: -system.statements.stat().st_size)
+        longest = sorted(stated, key=lambda system: -system.statements.stat().st_size)
         found = {system.id: pool.submit(_judged, system.statements) for system in longest}
-        yield from ((system, found[system.id].result()) for system in told)
+        yield from ((system, found[system.id].result()) for system in stated)
 
 
 def statements_json(results: Iterable[tuple[System, list[Judged]]]) -> list[dict[str, Any]]:

@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from freebody.model.errors import Complaint
+from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
 from .case import Case
 from .claims import claimed
 from .families import ALL, Family
 from .language.dimensions import DimensionError, check_dimensions
-from .letters import Letters
 from .meaning import StatementLetters
-from .truth import Truth
+from .motion_sampler import MotionSampler
+from .symbols import Letters
 from .verdict import Verdict, holds, judged, misfit
 
 if TYPE_CHECKING:
@@ -34,21 +34,21 @@ class Checker:
     def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0) -> None:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
-        self.truth = Truth(mechanism, seed)
+        self.sampler = MotionSampler(mechanism, seed)
         self.hypothesis = ALL
         self.mending = True
         self._run: Any = None
 
     def letters(self, declared: Declared | None = None) -> Letters:
-        """The letters of the model with own ones. Raises ``Complaint``."""
-        return Letters(self.mechanism, {**self.declared, **(declared or {})}, self.truth.gravity)
+        """The letters of the model with own ones. Raises ``ModelProblem``."""
+        return Letters(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity)
 
     def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
-        """A statement beside the motions that decide about it. Raises ``StatementError`` and ``Complaint``."""
+        """A statement beside the motions that decide about it. Raises ``StatementError`` and ``ModelProblem``."""
         known = self.letters(letters)
         program = known.read(text)
-        meaning = StatementLetters(known, program, self.truth)
-        return Case(program, meaning, self.truth, hypothesis or self.hypothesis, self.mending)
+        meaning = StatementLetters(known, program, self.sampler)
+        return Case(program, meaning, self.sampler, hypothesis or self.hypothesis, self.mending)
 
     def check(
         self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, mending: bool = True
@@ -56,7 +56,7 @@ class Checker:
         """The verdict about an equation, several lines of them, or a claim (see docs/check.md).
 
         ``hypothesis``: the motions of which it is said. Without ``mending`` it is only judged, which is quicker where it is wrong.
-        Raises ``StatementError`` and ``Complaint``.
+        Raises ``StatementError`` and ``ModelProblem``.
         """
         before = self.hypothesis, self.mending
         self.hypothesis, self.mending = hypothesis or self.hypothesis, mending and self.mending
@@ -90,8 +90,8 @@ class Checker:
             return self._run, times[name]
         try:
             return self._run, evaluate(name, {})
-        except Complaint:
-            raise Complaint(f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`") from None
+        except ModelProblem:
+            raise ModelProblem(f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`") from None
 
 
 def _in_figures(case: Case) -> Verdict | None:

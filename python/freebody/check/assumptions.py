@@ -124,8 +124,8 @@ def _holds(case: Case, equation: Equation, family: Family) -> bool:
 
 def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     """Families in words, equally mild ones together."""
-    truth, given = case.truth, case.hypothesis
-    zeros = [name for name, value in truth.free_parameters.items() if value == 0]
+    sampler, given = case.sampler, case.hypothesis
+    zeros = [name for name, value in sampler.free_parameters.items() if value == 0]
     held = dict(given.held)
 
     def with_zero(*names: str) -> Family:
@@ -135,11 +135,11 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
         *((f"{name} = 0, as in this model", with_zero(name)) for name in zeros),
         *([(f"{', '.join(f'{name} = 0' for name in zeros)}, as in this model", with_zero(*zeros))] if len(zeros) > 1 else ()),
     ]
-    others = [n for n in mattering(case) if n not in (*zeros, *truth.frictions, *truth.gravities)]
+    others = [n for n in mattering(case) if n not in (*zeros, *sampler.frictions, *sampler.gravities)]
     yield [
         ("at rest", replace(given, at_rest=True)),
-        *([("without gravity", replace(given, gravity=False))] if truth.gravities else ()),
-        *((f"{name} = 0 (no friction)", with_zero(name)) for name in truth.frictions),
+        *([("without gravity", replace(given, gravity=False))] if sampler.gravities else ()),
+        *((f"{name} = 0 (no friction)", with_zero(name)) for name in sampler.frictions),
         *((f"{name} = 0", with_zero(name)) for name in others),
     ]
     own = replace(given, numbers=True, zeros=False)
@@ -155,13 +155,13 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
 def mattering(case: Case) -> list[str]:
     """Free parameters that are more than numbers of the start, and may go far without opening a closed loop."""
     known = {text for n in case.meaning.vocabulary.parameters for text in case.meaning.texts(n)}
-    return [name for name in case.truth.free_parameters if name in known and not case.truth.shapes_loops(name)]
+    return [name for name in case.sampler.free_parameters if name in known and not case.sampler.shapes_loops(name)]
 
 
 def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:
     given = case.hypothesis
     for name in mattering(case) if not given.since else ():
-        if case.truth.free_parameters[name] == 0 or name in dict(given.held):
+        if case.sampler.free_parameters[name] == 0 or name in dict(given.held):
             continue
         for words, power in (("→ ∞", 1), ("→ 0", -1)):
             yield f"{name} {words}", tuple(replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)

@@ -13,8 +13,8 @@ from freebody.symbolic.tree import Sym
 
 from .families import ALL, Family, Samples
 from .language.statements import Equation, Program, inlined
+from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
-from .truth import SAMPLES, Truth
 from .vocabulary import Vocabulary
 
 
@@ -54,7 +54,7 @@ class Case:
 
     program: Program
     meaning: Meaning
-    truth: Truth
+    sampler: MotionSampler
     hypothesis: Family = ALL
     mending: bool = True
     known: dict[tuple[Family, int, int], Mapping[str, Array]] = field(default_factory=dict)
@@ -66,7 +66,7 @@ class Case:
 
     def samples(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Samples:
         """True states of a family. Raises ``NoMotion``."""
-        return self.truth.samples(family or self.hypothesis, count, fresh)
+        return self.sampler.samples(family or self.hypothesis, count, fresh)
 
     def values(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Mapping[str, Array]:
         """The letters on true states of a family. Raises ``NoMotion``."""

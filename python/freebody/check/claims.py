@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.model.errors import Complaint
-from freebody.results import Array
+from freebody.model.errors import ModelProblem
+from freebody.run.records import Array
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import sampled as evaluate
 from freebody.symbolic.tree import Sym
 
-from . import moments
+from . import timed_claims
 from .assumptions import first_order
 from .case import Case
 from .families import Family, Sample, Samples
@@ -36,7 +36,7 @@ _RUNS = 12
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
-    """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``Complaint``."""
+    """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
     given, claim = _defined(text.strip())
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
@@ -44,7 +44,7 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             return replace(judge(checker, {**declared, **given}, *said), text=text.strip())
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
-            raise Complaint(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
+            raise ModelProblem(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
     return None
 
 
@@ -61,7 +61,7 @@ def _defined(text: str) -> tuple[dict[str, str], str]:
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """Under a hypothesis."""
-    given = family(condition, checker.truth, lambda more: checker.letters({**declared, **more}))
+    given = family(condition, checker.sampler, lambda more: checker.letters({**declared, **more}))
     verdict = checker.check(statement, declared, given)
     return replace(verdict, assumption=condition) if verdict.ok else verdict
 
@@ -80,7 +80,7 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
 
 def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
     """In a limit: what is left shrinks with the parameter, or vanishes."""
-    given = family(limits, checker.truth, lambda more: checker.letters({**declared, **more}))
+    given = family(limits, checker.sampler, lambda more: checker.letters({**declared, **more}))
     if given.small:
         return _small(checker, declared, statement, limits, given)
     near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
@@ -131,33 +131,33 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
     except StatementError:
         try:
             return checker.case("quantity = 0", {**declared, "quantity": expression})
-        except Complaint:
+        except ModelProblem:
             pass
         raise
 
 
 def _along(checker: Checker, sample: Sample) -> Samples:
     """States along the motion that goes on from a true state."""
-    truth, state = checker.truth, sample.state
-    motion = truth.core.simulate(state, state.t + 1 / truth.rate, rtol=1e-11, max_steps=5000)
+    sampler, state = checker.sampler, sample.state
+    motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
     ends = motion.end.t
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     qs, us = motion.sample(times)
     states = [replace(state, t=float(t), q=q, u=u) for t, q, u in zip(times, qs, us, strict=True)]
-    return Samples(truth.core, [Sample(s, motion) for s in states], truth.parameter_names)
+    return Samples(sampler.core, [Sample(s, motion) for s in states], sampler.parameter_names)
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
     """The value of an expression, when some coordinates or rates are changed and all else stays."""
     case = _reading(checker, declared, expression)
     letters = checker.letters(declared)
-    node, truth = case.equations[0].left, checker.truth
+    node, sampler = case.equations[0].left, checker.sampler
     samples = case.samples()
     before, size = evaluate(node, case.meaning.values(samples)), magnitude(node, case.meaning.values(samples))
     for name in (n.strip() for n in names.split(",")):
         letter = parse_expression(name, letters.names)
-        moved = [_moved(truth, sample, letter) for sample in samples.samples]
-        after = evaluate(node, case.meaning.values(Samples(truth.core, moved, truth.parameter_names)))
+        moved = [_moved(sampler, sample, letter) for sample in samples.samples]
+        after = evaluate(node, case.meaning.values(Samples(sampler.core, moved, sampler.parameter_names)))
         change = np.abs(after - before) / np.maximum(size, 1e-300)
         if change.max() > 1e-8:
             k = int(np.argmax(change.reshape(len(change), -1).max(axis=1)))
@@ -168,21 +168,21 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
 
 def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: str, statement: str) -> Verdict:
     """The factors of unknowns in equations, when some coordinates or rates are changed and all else stays."""
-    case, known, truth = checker.case(statement, declared), checker.letters(declared).names, checker.truth
+    case, known, sampler = checker.case(statement, declared), checker.letters(declared).names, checker.sampler
     wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Sym)]
     samples = case.samples()
     before = [_factors(equation, wanted, case.values()) for equation in case.equations]
     for name in (n.strip() for n in names.split(",")):
         letter = parse_expression(name, known)
-        moved = Samples(truth.core, [_moved(truth, sample, letter) for sample in samples.samples], truth.parameter_names)
+        moved = Samples(sampler.core, [_moved(sampler, sample, letter) for sample in samples.samples], sampler.parameter_names)
         values = case.meaning.values(moved)
         for number, (equation, earlier) in enumerate(zip(case.equations, before, strict=True), 1):
             change = np.abs(_factors(equation, wanted, values) - earlier).max(axis=(0, 1))
             if change.max() > 1e-7 * np.abs(earlier).max():
                 place = f"the factor of {spell(wanted[int(np.argmax(change))])} in equation {number}"
                 return Verdict(Kind.WRONG, statement, f"{place} depends on {name}")
-    told = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(samples)} motions"
-    return Verdict(Kind.TRUE, statement, told)
+    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(samples)} motions"
+    return Verdict(Kind.TRUE, statement, stated)
 
 
 def _factors(equation: Equation, unknowns: Sequence[Sym], values: Mapping[str, Array]) -> Array:
@@ -202,17 +202,17 @@ def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -
             kind = verdict.kind if verdict.kind is Kind.UNDECIDABLE else Kind.WRONG
             return Verdict(kind, statement, f"`{text}`: {verdict.kind.value}", evidence=verdict.evidence)
         counts.append(sum(len(terms(equation, expand=True)) for equation in checker.case(text, declared).equations))
-    told = f"{counts[0]} terms against {counts[1]}, brackets multiplied out; all these equations are true"
-    return Verdict(Kind.TRUE if counts[0] < counts[1] else Kind.WRONG, statement, told)
+    stated = f"{counts[0]} terms against {counts[1]}, brackets multiplied out; all these equations are true"
+    return Verdict(Kind.TRUE if counts[0] < counts[1] else Kind.WRONG, statement, stated)
 
 
-def _moved(truth: Any, sample: Sample, letter: Any) -> Sample:
-    names = [c["name"] for c in truth.coordinates]
-    if not isinstance(letter, Sym) or letter.name not in names or letter.dots > 1 or truth.loops:
-        raise Complaint(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
+def _moved(sampler: Any, sample: Sample, letter: Any) -> Sample:
+    names = [c["name"] for c in sampler.coordinates]
+    if not isinstance(letter, Sym) or letter.name not in names or letter.dots > 1 or sampler.loops:
+        raise ModelProblem(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
     state, i = sample.state, names.index(letter.name)
     q, u = state.q.copy(), state.u.copy()
-    (u if letter.dots else q)[i] += 0.7 * (truth.rate if letter.dots else 1.0)
+    (u if letter.dots else q)[i] += 0.7 * (sampler.rate if letter.dots else 1.0)
     return Sample(replace(state, q=q, u=u))
 
 
@@ -275,9 +275,9 @@ _FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),
     (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),
-    (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), moments.same),
+    (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), timed_claims.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
-    (re.compile(r"at (.+?):(.+)", re.S), moments.at),
-    (re.compile(r"report:(.+)=(.+)", re.S), moments.report),
+    (re.compile(r"at (.+?):(.+)", re.S), timed_claims.at),
+    (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),
 )
 """Forms of claims, each with what judges it."""

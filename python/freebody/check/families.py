@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from freebody.core import CompiledModel, State
-from freebody.results import Array
+from freebody.run.records import Array
 
-from .declared import LOAD
 from .prestress import admissible, written_out
+from .user_symbols import LOAD
 
 
 class NoMotion(ValueError):
@@ -101,17 +101,17 @@ class Samples:
         lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and written_out(text, values) != text]
         state = sample.state
         if lost:
-            told = [written_out(texts[i], values) for i in lost]
-            row[lost] = self.core.evaluate(told, state)
+            stated = [written_out(texts[i], values) for i in lost]
+            row[lost] = self.core.evaluate(stated, state)
             self.loose |= {texts[i] for i in lost}
         return row
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
         if not self.weighed:
-            told = [self.core.free_bodies(s.state).bodies for s in self.samples]
-            for name in told[0]:
-                self.weighed[name] = np.array([row[name].mass for row in told]), np.array([row[name].inertia for row in told])
+            stated = [self.core.free_bodies(s.state).bodies for s in self.samples]
+            for name in stated[0]:
+                self.weighed[name] = np.array([row[name].mass for row in stated]), np.array([row[name].inertia for row in stated])
         return self.weighed
 
     def parameters(self, k: int) -> dict[str, float]:

@@ -11,7 +11,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 from ruamel.yaml import YAML, YAMLError
 
-from freebody.model.errors import Complaint
+from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
 from .api import Checker
@@ -81,25 +81,25 @@ WORDS = {
 
 
 def read(path: Path) -> Statements:
-    """The statements of a file. Raises ``Complaint``."""
+    """The statements of a file. Raises ``ModelProblem``."""
     try:
         data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
         if isinstance(data, dict) and "statements" not in data:
             what = "is a model, and there is no equation to check" if "freebody" in data else "holds no statements"
-            raise Complaint(
+            raise ModelProblem(
                 f"{path} {what}", f"give one, like `freebody check {path.name} \"m x'' = F\"`, or a file of `statements`"
             )
         return Statements.model_validate(data)
     except YAMLError as error:
-        raise Complaint(f"{path}: {error}") from None
+        raise ModelProblem(f"{path}: {error}") from None
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"])
-        raise Complaint(f"{path}: {place}: {first['msg']}", "see docs/check.md for what a file of statements holds") from None
+        raise ModelProblem(f"{path}: {place}: {first['msg']}", "see docs/check.md for what a file of statements holds") from None
 
 
 def judge(path: Path) -> Iterator[Judged]:
-    """The verdicts about all statements of a file, one by one. Raises ``Complaint`` where the file or a model cannot be read."""
+    """The verdicts about all statements of a file, one by one. Raises ``ModelProblem`` where the file or a model cannot be read."""
     given = read(path)
     checkers: dict[tuple[str, str], Checker] = {}
     for statement in given.statements:
@@ -120,15 +120,15 @@ def _one(
         mechanism.parameters.update(values)
         checkers[key] = Checker(mechanism, given.letters)
     verdict = judged_alone(checkers[key], statement.says, statement.letters)
-    told = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return replace(verdict, reason=f"{verdict.reason} ({told})") if told and not verdict.ok else verdict
+    stated = ", ".join(f"{name} = {value}" for name, value in values.items())
+    return replace(verdict, reason=f"{verdict.reason} ({stated})") if stated and not verdict.ok else verdict
 
 
 def judged_alone(checker: Checker, text: str, letters: Mapping[str, _SAID] | None = None) -> Verdict:
     """The verdict about one statement among many, which do not suffer if it cannot be read."""
     try:
         return checker.check(text, letters)
-    except (StatementError, Complaint) as error:
+    except (StatementError, ModelProblem) as error:
         return Verdict(Kind.UNREADABLE, text, str(error))
 
 

@@ -10,18 +10,18 @@ from functools import cached_property
 
 import numpy as np
 
-from freebody.model.errors import Complaint
+from freebody.model.errors import ModelProblem
 from freebody.model.units import Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Sym, walk
 
-from .declared import Meaning as One
 from .families import Samples
 from .language.dimensions import DimensionError, check_dimensions
 from .language.statements import Equation, Program
-from .letters import Letters
-from .truth import Truth
+from .motion_sampler import MotionSampler
+from .symbols import Letters
+from .user_symbols import Meaning as One
 from .vocabulary import Powers, Vocabulary
 
 _WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
@@ -41,8 +41,8 @@ _MANY = 12  # reactions, beyond which only those of the statement are thought of
 class StatementLetters:
     """What the letters of a program mean in a model. Raises ``StatementError`` at a letter without a meaning."""
 
-    def __init__(self, letters: Letters, program: Program, truth: Truth) -> None:
-        self.letters, self.truth, self.figures = letters, truth, False
+    def __init__(self, letters: Letters, program: Program, sampler: MotionSampler) -> None:
+        self.letters, self.sampler, self.figures = letters, sampler, False
         self.required = letters.require(program)
         named = {line.name for line in program.assignments}
         used = [n for n in walk(program) if isinstance(n, Sym) and n not in named]
@@ -61,7 +61,7 @@ class StatementLetters:
         one = self._one(letter)
         if one.kind in ("parameter", "gravity") or one.dimension is None:
             return value
-        size = self.truth.unit(one.dimension) * self.truth.rate**letter.dots
+        size = self.sampler.unit(one.dimension) * self.sampler.rate**letter.dots
         return np.zeros_like(value) if np.max(np.abs(value), initial=0.0) < _ROUND_OFF * size else value
 
     def fits(self, equation: Equation) -> bool:
@@ -123,8 +123,8 @@ class StatementLetters:
 
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
-        state = self.truth.first
-        loads = self.truth.core.free_bodies(state).loads
+        state = self.sampler.first
+        loads = self.sampler.core.free_bodies(state).loads
         named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
         known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
@@ -140,7 +140,7 @@ class StatementLetters:
     def _powers(self, letter: Sym) -> Powers | None:
         """The dimension of a letter; a parameter that is a bare number has none."""
         dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
-        return (0, 0, 0) if dimension is None and name in self.truth.free_parameters else _powers(dimension)
+        return (0, 0, 0) if dimension is None and name in self.sampler.free_parameters else _powers(dimension)
 
     def _is_angle(self, letter: Sym) -> bool:
         dimension = self._one(letter).dimension
@@ -149,7 +149,7 @@ class StatementLetters:
     @cached_property
     def _parameters(self) -> list[Sym]:
         own = [Sym(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
-        own.sort(key=lambda n: n.name not in self.truth.free_parameters)
+        own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
         made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
         return self._once([*made, *(n for n in own if n in self.used), *own])
 
@@ -166,7 +166,7 @@ class StatementLetters:
 
     @cached_property
     def _mechanics(self) -> str:
-        spec = self.truth.spec
+        spec = self.sampler.spec
         used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
         used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used])
         for parameter in reversed(spec["parameters"]):
@@ -177,17 +177,17 @@ class StatementLetters:
     def _is_fixed(self, letter: Sym) -> bool:
         """Whether it is made of parameters alone."""
         words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
-        return words <= {*self.truth.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+        return words <= {*self.sampler.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
     def _coordinates(self) -> list[Sym]:
         """Letters that measure the configuration, those of the statement first; the model's own where some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
-        own = [Sym(c["name"]) for c in self.truth.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        own = [Sym(c["name"]) for c in self.sampler.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
         declared = [Sym(name) for name in self.letters.of_kind("declared")]
         own += [n for n in declared if n not in movable and self._moves(n)]
-        missing = max(len(self.truth.coordinates) - len(movable), 0)
+        missing = max(len(self.sampler.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
     def _moves(self, letter: Sym) -> bool:
@@ -199,7 +199,7 @@ class StatementLetters:
             return False
         try:
             return all(one.needed(dots) for dots in (1, 2))
-        except Complaint:
+        except ModelProblem:
             return False
 
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from freebody.balances.groups import groups
-from freebody.balances.system import Problem, problem
-from freebody.balances.twists import named_twists
 from freebody.equations import Letters as Printed
 from freebody.equations import Tree, equation_text, read, symbols
+from freebody.equations.balances.groups import groups
+from freebody.equations.balances.system import Problem, problem
+from freebody.equations.balances.virtual_motions import named_motions
 from freebody.symbolic.tree import Sym
 
 from .families import NoMotion
@@ -50,28 +50,28 @@ def nearest(case: Case, equation: Equation) -> str:
         state = case.samples().samples[0].state
     except NoMotion:
         return ""
-    core = case.truth.core
+    core = case.sampler.core
     given = problem([core.free_bodies(state)])
     points = core.points(core.bind())
     asked = list(islice(_questions(given, points), _MOST))
     questions = [{**question, "terms": False, "momentum": False} for _, question in asked]
-    told = core.letters(state, [{"ask": "rows"}, *questions])
-    said = _said(case, equation, told.letters)
-    kinds = {name: entry["kind"] for name, entry in told.letters.items()}
+    stated = core.letters(state, [{"ask": "rows"}, *questions])
+    said = _said(case, equation, stated.letters)
+    kinds = {name: entry["kind"] for name, entry in stated.letters.items()}
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
-    found = [*_balances(asked, told.answers[1:]), *_rows(told.answers[0], max((s.dots for s in said), default=0))]
+    found = [*_balances(asked, stated.answers[1:]), *_rows(stated.answers[0], max((s.dots for s in said), default=0))]
     common = [each for each in found if (unknown & each.unknown if unknown else _rates(said) & _rates(each.unknown))]
     if not common:
         return ""
     best = min(common, key=lambda each: each.distance(said, unknown or _rates(said)))
-    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in told.letters.items()})
-    told = equation_text(best.left, best.right, table, width=_LONG)
-    return f"{best.words} reads: {told}" if len(told) < _LONG else f"{best.words} is too long to be told"
+    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in stated.letters.items()})
+    stated = equation_text(best.left, best.right, table, width=_LONG)
+    return f"{best.words} reads: {stated}" if len(stated) < _LONG else f"{best.words} is too long to be told"
 
 
 def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Balances of bodies that hang together, about points and along directions that have a name."""
-    twists, _ = named_twists(given, points)
+    twists, _ = named_motions(given, points)
     for group in groups(given)[0]:
         bodies = [given.bodies[i] for i in group]
         for twist in sorted(twists, key=lambda twist: twist.rank):

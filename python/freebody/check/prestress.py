@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from freebody.core import CompiledModel, Load, State
-from freebody.results import Array, quote
+from freebody.run.records import Array, quote
 
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 

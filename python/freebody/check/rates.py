@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from freebody.model import syntax
-from freebody.model.errors import Complaint
+from freebody.model.errors import ModelProblem
 
 _NEXT = {"rate": "accel", "vx": "ax", "vy": "ay", "omega": "alpha"}
 _MOVING = {*_NEXT, "speed", "accel", "ax", "ay", "alpha"}
@@ -11,20 +11,20 @@ _MOVING = {*_NEXT, "speed", "accel", "ax", "ay", "alpha"}
 
 def derivative(text: str, dots: int) -> str:
     """The text differentiated so many times by time: ``rate(…)`` and ``accel(…)`` of a configuration; what holds rates
-    already, once, by the rules of sums and products. Raises ``Complaint`` where the model language has no such quantity."""
+    already, once, by the rules of sums and products. Raises ``ModelProblem`` where the model language has no such quantity."""
     if not dots:
         return text
     tree = syntax.parse(text).tree
     if not _moves(tree):
         return _of_configuration(text, dots)
     if dots > 1:
-        raise Complaint(f"`{text}` holds rates; the derivative of its accelerations is not known to the model")
+        raise ModelProblem(f"`{text}` holds rates; the derivative of its accelerations is not known to the model")
     return _Rules(text).of(tree)
 
 
 def _of_configuration(text: str, dots: int) -> str:
     if dots > 2:
-        raise Complaint(f"a derivative of order {dots} is not known to the model", "at most accelerations are")
+        raise ModelProblem(f"a derivative of order {dots} is not known to the model", "at most accelerations are")
     return f"{('rate', 'accel')[dots - 1]}({text})"
 
 
@@ -61,7 +61,7 @@ class _Rules:
                 return f"({self.of(first)}" + "".join(f" {op} {self.of(part)}" for op, part in rest) + ")"
             case {"chain": [first, [(sign, _), *_] as rest]} if sign in "*/":
                 return self.product([("*", first), *rest])
-        raise Complaint(f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a letter for it, or write it out")
+        raise ModelProblem(f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a letter for it, or write it out")
 
     def product(self, parts: list[tuple[str, syntax.Tree]]) -> str:
         """Of each factor in turn; of one that divides, −ẋ/x²."""

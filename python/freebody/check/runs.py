@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from freebody.core import CompiledModel, Limit, State
-from freebody.results import Array, quote
+from freebody.run.records import Array, quote
 
-from .described import Described
 from .families import ALL, Family, Sample
+from .static_facts import StaticFacts
 
 _EXACT = 1e-13  # of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
@@ -29,7 +29,7 @@ BALANCED = 1e-11
 """Largest relative residual of a state that may judge: below it is round-off, above it a bad condition."""
 
 
-class OnRuns(Described):
+class OnRuns(StaticFacts):
     """The part of ``Truth`` that samples runs from the model's start, as long as nothing switches."""
 
     @cached_property
@@ -49,7 +49,7 @@ class OnRuns(Described):
         return [j["name"] for j in self.spec["joints"] if j.get("friction")]
 
     @cached_property
-    def _rubbing(self) -> list[str]:
+    def _frictional(self) -> list[str]:
         """The rates at which joints with friction slide."""
         first = {j["name"]: j["coordinates"][0] for j in self.about["joints"] if j["coordinates"]}
         return [f"rate({quote(first[name])})" for name in self._sticky if name in first]
@@ -175,9 +175,9 @@ class OnRuns(Described):
             (x.state, np.sign(round(np.nan_to_num(x.T), 12)) if x.state == "sliding" else 0)
             for x in motion.instant(state.t).limits.values()
         )
-        rubs = motion.evaluate(self._rubbing, np.array([state.t]))[0] if self._rubbing else np.empty(0)
+        has_friction = motion.evaluate(self._frictional, np.array([state.t]))[0] if self._frictional else np.empty(0)
         slow = 1e-9 * self.rate * min(self.length, 1.0)
-        sides = (float(np.sign(x)) if abs(x) > slow else 0.0 for x in rubs)
+        sides = (float(np.sign(x)) if abs(x) > slow else 0.0 for x in has_friction)
         return (*limits, *sides, self._places(state) if self._lies else 0)
 
     @cached_property

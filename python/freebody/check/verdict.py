@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.solve.rich_tables import PlainText
 from freebody.symbolic.errors import StatementError
-from freebody.tables import PlainText
 
 from .assumptions import assumption, linearised, tiny
 from .case import Case
+from .correction import Correction, corrections
 from .families import ALL, Family, NoMotion
 from .language.statements import Equation, letters
-from .mend import Mend, mends
 from .nearest import nearest
 from .residual import FAILS, HOLDS, Residual, residual, unreached
 
@@ -63,8 +63,8 @@ class Evidence:
     states: int
 
     def __str__(self) -> str:
-        told = {name: value for name, value in self.letters.items() if not (name in _UNITS and isinstance(value, Sequence))}
-        at = ", ".join(f"{name} = {_plain(value)}" for name, value in told.items())
+        stated = {name: value for name, value in self.letters.items() if not (name in _UNITS and isinstance(value, Sequence))}
+        at = ", ".join(f"{name} = {_plain(value)}" for name, value in stated.items())
         return f"at {at}: left {_plain(self.left)}, right {_plain(self.right)}"
 
 
@@ -78,7 +78,7 @@ class Verdict(PlainText):
     text: str
     reason: str = ""
     assumption: str = ""
-    mends: tuple[Mend, ...] = ()
+    mends: tuple[Correction, ...] = ()
     evidence: Evidence | None = None
     untested: tuple[str, ...] = ()
     true: str = ""
@@ -95,7 +95,7 @@ class Verdict(PlainText):
     def details(self) -> list[str]:
         """What is behind it, a line each."""
         lines = [self.reason] if self.reason else []
-        lines += [f"mend: {mend}" for mend in self.mends]
+        lines += [f"mend: {correction}" for correction in self.mends]
         if self.true:
             lines.append(self.true)
         if self.evidence and not self.ok:
@@ -117,7 +117,7 @@ def judged(case: Case) -> Verdict:
     worst = max(parts, key=lambda part: _ORDER.index(part.kind))
     which = [f"equation {i}: {p.kind.value}" for i, p in enumerate(parts, 1) if not p.ok]
     reason = "; ".join(which) or _sufficiency(case)
-    together = tuple(mend for part in parts for mend in part.mends)
+    together = tuple(correction for part in parts for correction in part.mends)
     assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
     untested = tuple(term for part in parts for term in part.untested)
     true = "\n  ".join(dict.fromkeys(part.true for part in parts if part.true))
@@ -166,23 +166,23 @@ def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) ->
     if not case.mending:
         return Verdict(Kind.DIMENSIONS, text, reason)
     try:
-        fixes = {equation: tuple(mends(case, equation)) for equation in equations}
+        fixes = {equation: tuple(corrections(case, equation)) for equation in equations}
     except NoMotion:
         return Verdict(Kind.DIMENSIONS, text, reason)
-    least = min((mend.size for found in fixes.values() for mend in found), default=np.inf)
+    least = min((correction.size for found in fixes.values() for correction in found), default=np.inf)
     inside = _in_figures(case, list(fixes)) if least > 1.5 else ()
-    if inside and min(mend.size for mend in inside) < least:
+    if inside and min(correction.size for correction in inside) < least:
         return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
     true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
-    return Verdict(Kind.DIMENSIONS, text, reason, mends=tuple(mend for found in fixes.values() for mend in found), true=true)
+    return Verdict(Kind.DIMENSIONS, text, reason, mends=tuple(correction for found in fixes.values() for correction in found), true=true)
 
 
-def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Mend, ...]:
+def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, ...]:
     """The mends of equations whose figures stand for measures in SI units; none where dimensions do not fit so, either."""
     other = replace(case, meaning=case.meaning.in_figures())
     if not all(other.meaning.fits(equation) for equation in equations):
         return ()
-    return tuple(mend for equation in equations if not _holds(other, equation) for mend in mends(other, equation))
+    return tuple(correction for equation in equations if not _holds(other, equation) for correction in corrections(other, equation))
 
 
 def _holds(case: Case, equation: Equation) -> bool:
@@ -217,14 +217,14 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     seen = evidence(case, equation, found)
     if not case.mending:
         return Verdict(Kind.WRONG, text, evidence=seen)
-    fixes = tuple(mends(case, equation))
+    fixes = tuple(corrections(case, equation))
     if small := linearised(case, equation):
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
-    if not any(mend.is_slip and len(mend.edits) == 1 for mend in fixes) and (assumed := assumption(case, equation)):
+    if not any(correction.is_slip and len(correction.edits) == 1 for correction in fixes) and (assumed := assumption(case, equation)):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         words, near = small
-        fixes = tuple(replace(mend, given=words) for mend in mends(near, equation))
+        fixes = tuple(replace(correction, given=words) for correction in corrections(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
     return Verdict(Kind.WRONG, text, "wrong, and no single or double edit mends it", evidence=seen, true=nearest(case, equation))

@@ -13,12 +13,12 @@ import typer
 from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
-from freebody.cli.mistakes import Guarded, Mistake
 from freebody.cli.models import moment, obtained, opened, pairs, simulated
+from freebody.cli.user_errors import Guarded, UserError
 
 if TYPE_CHECKING:
     from freebody.catalogue import Asked, System
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 BAD_END = 3
 
@@ -72,9 +72,9 @@ def run(
 
     done = simulated(model, changes, until=until, method=method, rtol=rtol)
     page = None if no_report else report or Path(f"{model.stem}.html")
-    runs = [(leg, files_of(leg, i, output, page)) for i, leg in enumerate(legs(done), 1)]
+    runs = [(stage, files_of(stage, i, output, page)) for i, stage in enumerate(legs(done), 1)]
     show.runs(runs, as_json)
-    if not all(leg.outcome.ok for leg, _ in runs):
+    if not all(stage.outcome.ok for stage, _ in runs):
         raise typer.Exit(BAD_END)
 
 
@@ -130,7 +130,7 @@ def diagram(
     to_scale: Annotated[bool, typer.Option("--to-scale", help="What acts at the instant, with a scale of forces.")] = False,
     effective: Annotated[bool, typer.Option("--effective/--no-effective", help="Draw m a and I alpha beside.")] = True,
     column: Annotated[float, typer.Option(metavar="MM", help="Width of the text in which it will stand.")] = 160.0,
-    blow: Annotated[
+    impact: Annotated[
         int | None,
         typer.Option(metavar="NUMBER", help="Impulses during this blow of the run, from 1; --at TIME counts from then."),
     ] = None,
@@ -140,12 +140,12 @@ def diagram(
     from freebody.cli import show
 
     (time, state), mechanism = moment(at), opened(model, changes)
-    if blow is None:
+    if impact is None:
         drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, column=column, **state)
     elif state:
-        raise Mistake("--blow is of the run, so --at takes a time", "change the start in the model")
+        raise UserError("--blow is of the run, so --at takes a time", "change the start in the model")
     else:
-        drawn = mechanism.impulse_diagram(of, blow, at=time, to_scale=to_scale, effective=effective, column=column)
+        drawn = mechanism.impulse_diagram(of, impact, at=time, to_scale=to_scale, effective=effective, column=column)
     if as_json:
         typer.echo(json.dumps(drawn.data, ensure_ascii=False, indent=1))
     if output or not as_json:
@@ -176,7 +176,7 @@ def compare(
 ) -> None:
     """How far two runs lie apart, column by column."""
     from freebody.cli import show
-    from freebody.compare import compare as compared
+    from freebody.run.compare import compare as compared
 
     show.comparison(compared(obtained(a), obtained(b)), as_json)
 
@@ -201,7 +201,7 @@ def systems(
         listed = catalogue.systems()
     except ModuleNotFoundError as missing:
         what = f"the catalogue checks its answers with other libraries, of which {missing.name} is missing"
-        raise Mistake(what, "pip install 'freebody[catalogue]'") from None
+        raise UserError(what, "pip install 'freebody[catalogue]'") from None
     if diagrams:
         pictured(chosen(identity), output)
         return
@@ -285,7 +285,7 @@ def chosen(identity: str | None) -> list[System]:
     try:
         return [catalogue.find(identity)]
     except KeyError as error:
-        raise Mistake(error.args[0], "freebody systems lists them") from None
+        raise UserError(error.args[0], "freebody systems lists them") from None
 
 
 def derived(system: System) -> None:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from freebody.cli.mistakes import Mistake
 from freebody.cli.models import opened
+from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
     from freebody.check import Verdict
@@ -33,14 +33,14 @@ def check(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
 ) -> None:
     """Say whether equations and claims are true of every motion of a model, and mend the wrong ones."""
-    from freebody.model.errors import Complaint
+    from freebody.model.errors import ModelProblem
 
     try:
-        told, fine = _statements(model, statements, where, changes, as_json) if statements else _file(model, as_json)
-    except Complaint as complaint:
-        raise Mistake(complaint.what, complaint.hint) from None
+        stated, fine = _statements(model, statements, where, changes, as_json) if statements else _file(model, as_json)
+    except ModelProblem as complaint:
+        raise UserError(complaint.what, complaint.hint) from None
     if as_json:
-        typer.echo(json.dumps(told, ensure_ascii=False, indent=1))
+        typer.echo(json.dumps(stated, ensure_ascii=False, indent=1))
     if not fine:
         raise typer.Exit(NOT_TRUE)
 
@@ -50,7 +50,7 @@ def _statements(
 ) -> tuple[list[Any], bool]:
     from freebody.check import Checker
     from freebody.check.file import as_json, judged_alone
-    from freebody.check.letters import declarations
+    from freebody.check.symbols import declarations
 
     checker, texts = Checker(opened(path, changes), declarations(where or [])), list(texts)
     verdicts = []
@@ -65,13 +65,13 @@ def _file(path: Path, quiet: bool) -> tuple[list[Any], bool]:
     """All statements of a file; fine where each is what the file expects, or true where it expects nothing."""
     from freebody.check.file import judge
 
-    told, fine = [], True
+    stated, fine = [], True
     for judged in judge(path):
-        told.append(judged.to_json())
+        stated.append(judged.to_json())
         fine &= judged.verdict.ok if judged.as_expected is None else judged.as_expected
         if not quiet:
             show(f"{judged.statement.id}: {judged.statement.says}", judged.verdict, judged.as_expected is False)
-    return told, fine
+    return stated, fine
 
 
 def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.mistakes import Mistake
 from freebody.cli.models import opened, pairs
+from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
+    from freebody.document.blocks import Document
     from freebody.equations.derivation.derive import Equations
-    from freebody.equations.document import Document
     from freebody.model import Mechanism
 
 
@@ -66,17 +66,17 @@ def equations(
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
     if limits and form is not Form.solved:
-        raise Mistake(f"--limit is not for --form {form.value}", "take --form solved")
+        raise UserError(f"--limit is not for --form {form.value}", "take --form solved")
     wanted = [name.strip() for each in want or () for name in each.split(",")]
     if form is not Form.solved and len(wanted) > 1:
-        raise Mistake("several unknowns are wanted", "ask for one, or take --form solved")
+        raise UserError("several unknowns are wanted", "ask for one, or take --form solved")
     if form is Form.solved:
         found = solved(opened(model), wanted, at_rest, pairs(fixed), pairs(limits))
     else:
         found = derived(opened(model), form.value, wanted[0] if wanted else None, at_rest, pairs(fixed))
     asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json)) if given]
     if len(asked) > 1:
-        raise Mistake("several ways to print are asked for", "take one of --latex, --markdown, --json")
+        raise UserError("several ways to print are asked for", "take one of --latex, --markdown, --json")
     kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
     _refuse(kind)
     if output:
@@ -93,12 +93,12 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
 
     if form in TOPICS:
         if want or at_rest:
-            raise Mistake(f"--for and --at-rest are not for --form {form}", f"it takes options by --set: {TOPICS[form].doc}")
+            raise UserError(f"--for and --at-rest are not for --form {form}", f"it takes options by --set: {TOPICS[form].doc}")
         return topic(mechanism, form, **fixed)
     try:
         return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed)
     except KeyError as error:
-        raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
+        raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
 
 def solved(mechanism: Mechanism, wanted: list[str], at_rest: bool, fixed: dict[str, str], limits: dict[str, str]) -> Document:
@@ -106,13 +106,13 @@ def solved(mechanism: Mechanism, wanted: list[str], at_rest: bool, fixed: dict[s
     try:
         return mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=fixed, limits=limits).document
     except KeyError as error:
-        raise Mistake(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
+        raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
 
 
 def _refuse(kind: str) -> None:
-    """Raises ``Mistake`` for a way of printing that there is not, by the ending of its file."""
+    """Raises ``UserError`` for a way of printing that there is not, by the ending of its file."""
     ways = ("txt", "tex", "md", "html", "json")
     if kind in ("py", "c"):
-        raise Mistake("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")
+        raise UserError("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")
     if kind not in ways:
-        raise Mistake(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")
+        raise UserError(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from freebody.cli.mistakes import Mistake
+from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 _AT_START = "look for laws without a value at the start, like 1/x at x = 0"
 
@@ -39,7 +39,7 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
         what = "\n  ".join([f"the run ends where it begins, t = {done.outcome.t:g} s: {sentence}", *more])
         if done.outcome.path:
             raise ModelFileError([Problem(mechanism.lowered().where(done.outcome.path), what, hint)])
-        raise Mistake(what, hint or _AT_START)
+        raise UserError(what, hint or _AT_START)
     return done
 
 
@@ -47,7 +47,7 @@ def obtained(path: Path) -> Run:
     """A saved run, or the run of a model."""
     if path.suffix not in (".nc", ".csv"):
         return simulated(path)
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
     return Run.load(path)
 
@@ -57,7 +57,7 @@ def pairs(texts: list[str] | None) -> dict[str, str]:
     split = [text.partition("=") for text in texts or []]
     for name, equals, value in split:
         if not (name.strip() and equals and value.strip()):
-            raise Mistake(f"{name!r} is not NAME=VALUE", "write it like 'theta=30 deg'")
+            raise UserError(f"{name!r} is not NAME=VALUE", "write it like 'theta=30 deg'")
     return {name.strip(): value.strip() for name, _, value in split}
 
 
@@ -65,5 +65,5 @@ def moment(at: list[str] | None) -> tuple[str | None, dict[str, str]]:
     """``["theta=30 deg"]`` → no time, coordinates; ``["200 ms"]`` → a time."""
     times = [text for text in at or [] if "=" not in text]
     if times and len(at or []) > 1:
-        raise Mistake("--at takes one time, or coordinates", "write it like --at '200 ms', or --at 'theta=30 deg'")
+        raise UserError("--at takes one time, or coordinates", "write it like --at '200 ms', or --at 'theta=30 deg'")
     return (times[0], {}) if times else (None, pairs(at))

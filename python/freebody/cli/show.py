@@ -19,10 +19,10 @@ from freebody.core import Indeterminate
 from freebody.views.peaks import Peak, peak_reactions
 
 if TYPE_CHECKING:
-    from freebody.compare import Comparison
     from freebody.core import Change
-    from freebody.instant import Instant, Reaction
-    from freebody.run import Run
+    from freebody.run.compare import Comparison
+    from freebody.run.simulation import Run
+    from freebody.solve.instant import Instant, Reaction
 
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3
@@ -100,8 +100,8 @@ def _ending(done: Run) -> Text:
         return Text.assemble(name, ": ", (f"{outcome.sentence}, t = {outcome.t:.6g} s", "green"), "\n")
     place = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in list(zip(done.coordinates, done.end.q, strict=True))[:6])
     where = f", at {place}" if place else ""
-    told = "\n  ".join(["", *outcome.sentence.split("; ")])
-    return Text.assemble(name, ": ", (f"{outcome.name}, t = {outcome.t:.6g} s", "bold red"), where, told, "\n")
+    stated = "\n  ".join(["", *outcome.sentence.split("; ")])
+    return Text.assemble(name, ": ", (f"{outcome.name}, t = {outcome.t:.6g} s", "bold red"), where, stated, "\n")
 
 
 def closure(done: Run) -> float:

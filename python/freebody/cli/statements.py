@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from freebody.cli.mistakes import Mistake
+from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
     from freebody.catalogue import System
@@ -19,7 +19,7 @@ def judged(systems: list[System], as_json: bool) -> None:
     """The verdicts about what is stated, in tables or as JSON. Ends with an error where one is not as expected."""
     from freebody.catalogue import show
     from freebody.catalogue.statements import statements, statements_json
-    from freebody.model.errors import Complaint
+    from freebody.model.errors import ModelProblem
 
     results = []
     try:
@@ -27,8 +27,8 @@ def judged(systems: list[System], as_json: bool) -> None:
             results.append((system, found))
             if not as_json:
                 show.show_statements(system, found)
-    except Complaint as complaint:
-        raise Mistake(complaint.what, complaint.hint) from None
+    except ModelProblem as complaint:
+        raise UserError(complaint.what, complaint.hint) from None
     every = [one for _, found in results for one in found]
     if as_json:
         typer.echo(json.dumps(statements_json(results), ensure_ascii=False, indent=1))

@@ -64,7 +64,7 @@ class LoadCard:
 @dataclass(frozen=True)
 class Card:
     """A joint or a force as a person writes it. ``rows`` are the loads by which a joint holds, ``parts`` those of a force;
-    ``rubs`` tells whether a joint can have friction along its first coordinate; ``glyph`` and ``outline`` how it is drawn, by a
+    ``has_friction`` tells whether a joint can have friction along its first coordinate; ``glyph`` and ``outline`` how it is drawn, by a
     glyph of the set or by strokes at both its points, in sizes of symbols."""
 
     type: str
@@ -73,7 +73,7 @@ class Card:
     coordinates: tuple[Coordinate, ...] = ()
     rows: tuple[LoadCard, ...] = ()
     parts: tuple[LoadCard, ...] = ()
-    rubs: bool = False
+    has_friction: bool = False
     glyph: str = ""
     outline: tuple[tuple[tuple[float, float], ...], ...] = ()
 
@@ -122,7 +122,7 @@ def _card(data: dict[str, Any]) -> Card:
     coordinates = (Coordinate(c["name"], c["dimension"] or "", c["turn"], c["line"], c["across"]) for c in data["coordinates"])
     rows, parts = (tuple(LoadCard(**load) for load in data[word]) for word in ("rows", "parts"))
     fields, outline = tuple(map(_field, data["fields"])), tuple(tuple(map(tuple, stroke)) for stroke in data["outline"])
-    return Card(data["type"], data["doc"], fields, tuple(coordinates), rows, parts, data["rubs"], data["glyph"], outline)
+    return Card(data["type"], data["doc"], fields, tuple(coordinates), rows, parts, data["has_friction"], data["glyph"], outline)
 
 
 def _field(data: dict[str, Any]) -> Field:

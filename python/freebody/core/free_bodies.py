@@ -173,8 +173,8 @@ class FreeBodies:
         with its moment about the mass centre. A value that is not determined is None."""
         about = self.centre(*group)
         x, y, moment = self.effective(*group, about=about)
-        told = {"force": [float(x), float(y)], "moment": float(moment), "about": list(about)}
-        return {"bodies": list(group), "loads": [_told(load, group) for load in self.on(*group)], "effective": told}
+        stated = {"force": [float(x), float(y)], "moment": float(moment), "about": list(about)}
+        return {"bodies": list(group), "loads": [_load_data(load, group) for load in self.on(*group)], "effective": stated}
 
     def balance_gap(self, *group: str) -> float:
         """How far the loads on a group are from its effective side, relative to the largest force, and the largest moment that
@@ -200,7 +200,7 @@ class FreeBodies:
                 raise KeyError(f"no body is called {name!r}; there are {', '.join(self.bodies)}")
 
 
-def _told(load: Load, group: Collection[str]) -> dict[str, Any]:
+def _load_data(load: Load, group: Collection[str]) -> dict[str, Any]:
     plain = {word: getattr(load, word) for word in ("name", "symbol", "kind", "component", "unknown", "determinate")}
     on = [asdict(part) for part in load.on if part.body in group]
     return plain | {"value": load.value if load.determinate else None, "of": list(load.of), "on": on}

@@ -4,8 +4,8 @@ SymPy is imported where it is first needed."""
 
 from __future__ import annotations
 
-from freebody.equations.code import generate
-from freebody.equations.document import (
+from freebody.codegen.functions import generate
+from freebody.document.blocks import (
     Bullets,
     Document,
     Equation,

@@ -9,26 +9,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.balances.states import nearby, others
-from freebody.balances.system import NotUnknown
 from freebody.core import State
-from freebody.equations.departures import is_natural, place_of
-from freebody.equations.derivation.balancing import blocks
+from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Side, Words, listed
+from freebody.equations.balances.perturbed_states import nearby, others
+from freebody.equations.balances.system import NotUnknown
+from freebody.equations.derivation.balance_text import blocks
+from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.sentences import lettered
-from freebody.equations.derivation.told import Row, Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Side, Words, listed
-from freebody.equations.enough import Enough, Search
-from freebody.equations.given import Given, given
-from freebody.equations.ratios import Ratios, driven, ratios
-from freebody.equations.ratios import blocks as of_ratios
+from freebody.equations.immobile_coordinates import held_still
+from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.solve import TooLarge, limit, solve
-from freebody.equations.still import held_still
-from freebody.instant import Instant
+from freebody.equations.substitutions import Substitutions, given
+from freebody.equations.sufficient_equations import Search, SufficientSet
+from freebody.equations.velocity_ratios import Ratios, driven, ratios
+from freebody.equations.velocity_ratios import blocks as of_ratios
+from freebody.solve.instant import Instant
+from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.measured import shown
-from freebody.symbolic.roots import distances, with_plain_roots
+from freebody.symbolic.radicals import distances, with_plain_roots
 from freebody.symbolic.simplify import PATIENCE, shortest
 from freebody.symbolic.to_sympy import to_sympy
 from freebody.symbolic.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, mul, negative, operations, power, symbols
@@ -105,7 +105,7 @@ def solve_in_letters(
     state = chosen.start(mechanism, at_rest, initial)
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
-    subject = Subject(mechanism.source(), state, at_rest)
+    subject = SymbolicState(mechanism.source(), state, at_rest)
     _require_limits(subject, chosen, limits or {})
     names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
     for given_more, named in _ways(subject, chosen, limits or {}):
@@ -116,7 +116,7 @@ def solve_in_letters(
     raise refusal
 
 
-def _require_limits(subject: Subject, chosen: Given, limits: Mapping[str, Any]) -> None:
+def _require_limits(subject: SymbolicState, chosen: Substitutions, limits: Mapping[str, Any]) -> None:
     """Raises ``ValueError`` for a limit of what is no letter or set, or to what is negative."""
     known = subject.letters.of_kind("parameter", "constant", "coordinate", "time")
     for name, to in limits.items():
@@ -132,7 +132,7 @@ def _require_limits(subject: Subject, chosen: Given, limits: Mapping[str, Any]) 
             raise ValueError(f"{name} cannot go to {to}: letters are taken to be positive; give 0, a positive number, or inf")
 
 
-def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[tuple[Given, bool]]:
+def _ways(subject: SymbolicState, chosen: Substitutions, limits: Collection[str]) -> Iterator[tuple[Substitutions, bool]]:
     """What is set; where that is too long, in loops with ratios of rates that are named, or at the places of the start that are so
     whatever the lengths are, first where strings and contacts are told that way; with all lengths and angles as numbers; with
     masses as well."""
@@ -151,7 +151,7 @@ def _ways(subject: Subject, chosen: Given, limits: Collection[str]) -> Iterator[
 
 
 def _answers(
-    subject: Subject, chosen: Given, names: Sequence[str], limits: Mapping[str, Any], patience: float, with_ratios: bool
+    subject: SymbolicState, chosen: Substitutions, names: Sequence[str], limits: Mapping[str, Any], patience: float, with_ratios: bool
 ) -> Answers:
     letters, wanted = subject.letters, {name: _letter(subject, name) for name in names}
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
@@ -169,25 +169,25 @@ def _answers(
         if x not in found:
             system = Search(subject, chosen, replace(held, follow={}), states).enough(x, found, labels)
             solution = _solved(subject, system, chosen, patience)
-            made += [*_told(subject, system, labels), *_asked(system.rows), *_where(system, chosen), *_shown(system, solution)]
+            made += [*_stated(subject, system, labels), *_asked(system.rows), *_where(system, chosen), *_shown(system, solution)]
             found |= solution
     values = {name: ratio.acceleration(x.name) if ratio and x.dots else found[x] for name, x in wanted.items()}
     named = ratio.letters() if ratio else {}
     checked = _check(subject, chosen, {x: values[name] for name, x in wanted.items()}, named)
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
-    told = (*said, *made, *_limits(subject, at, limits))
-    document = Document(tuple(lettered(block, letters) for block in told), letters)
+    stated = (*said, *made, *_limits(subject, at, limits))
+    document = Document(tuple(lettered(block, letters) for block in stated), letters)
     return Answers(values, wanted, named, at, letters, document, checked)
 
 
-def _ratios(subject: Subject, chosen: Given, wanted: Collection[Sym]) -> Ratios:
+def _ratios(subject: SymbolicState, chosen: Substitutions, wanted: Collection[Sym]) -> Ratios:
     """By what is driven, else by the first acceleration that is wanted, or by the first coordinate."""
     first = driven(subject) or next((x.name for x in wanted if x.dots), subject.coordinates[0]["name"])
     places = replace(chosen, follow={x: tree for x, tree in chosen.follow.items() if not x.dots})
     return ratios(subject, places.put, first)
 
 
-def _held(subject: Subject, held: Given) -> list[Block]:
+def _held(subject: SymbolicState, held: Substitutions) -> list[Block]:
     """What cannot move, and where it is."""
     still = [Sym(c["name"]) for c in subject.coordinates if held.is_still(Sym(c["name"], 1))]
     if not still:
@@ -199,7 +199,7 @@ def _held(subject: Subject, held: Given) -> list[Block]:
     return [Paragraph([*said, "."])]
 
 
-def _told(subject: Subject, system: Enough, labels: dict[str, str]) -> list[Block]:
+def _stated(subject: SymbolicState, system: SufficientSet, labels: dict[str, str]) -> list[Block]:
     """The balances that were not told before, numbered on."""
     made: list[Block] = []
     for stated in system.stated:
@@ -209,7 +209,7 @@ def _told(subject: Subject, system: Enough, labels: dict[str, str]) -> list[Bloc
     return made
 
 
-def _solved(subject: Subject, system: Enough, chosen: Given, patience: float) -> dict[Sym, Tree]:
+def _solved(subject: SymbolicState, system: SufficientSet, chosen: Substitutions, patience: float) -> dict[Sym, Tree]:
     letters = subject.letters
     unknowns = sorted(system.unknowns, key=lambda x: (x.dots == 0, letters.place(x.name)))
     matrix = [[each.coefficients.get(x, ZERO) for x in unknowns] for each in system.linear]
@@ -248,7 +248,7 @@ def _asked(rows: Sequence[Row]) -> list[Block]:
     return [Equation(row.acceleration, ZERO, f"With {names}" if i == 0 else "") for i, row in enumerate(rows)]
 
 
-def _where(system: Enough, chosen: Given) -> list[Block]:
+def _where(system: SufficientSet, chosen: Substitutions) -> list[Block]:
     """What letters of the equations are by others: parameters that are defined so, and what follows from what is closed."""
     stated = (each.balance.residual for each in system.stated)
     there = symbols(*stated, *(row.acceleration for row in system.rows))
@@ -260,14 +260,14 @@ def _where(system: Enough, chosen: Given) -> list[Block]:
     return [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(used)]
 
 
-def _shown(system: Enough, solution: Mapping[Sym, Tree]) -> list[Block]:
+def _shown(system: SufficientSet, solution: Mapping[Sym, Tree]) -> list[Block]:
     name: Words = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
     if system.known:
         name = ["With ", *listed(system.known), " as above"]
     return [Equation(x, shown(tree), name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
 
 
-def _letter(subject: Subject, name: str) -> Sym:
+def _letter(subject: SymbolicState, name: str) -> Sym:
     """The letter of something wanted."""
     plain = name.removeprefix("accel(").removesuffix(")")
     if plain in (c["name"] for c in subject.coordinates):
@@ -281,11 +281,11 @@ def _letter(subject: Subject, name: str) -> Sym:
     return Sym(exact[0].symbol)
 
 
-def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree], named: Mapping[Sym, Tree]) -> int:
+def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, Tree], named: Mapping[Sym, Tree]) -> int:
     """Holds the answers against numbers at the state and at others; says at how many."""
     rng, compared = np.random.default_rng(_SEED), 0
     for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS)), *_closed(subject, chosen)]:
-        there = state and _like(subject, Subject(subject.source, state, subject.at_rest))
+        there = state and _like(subject, SymbolicState(subject.source, state, subject.at_rest))
         if not there:
             continue
         numbers = dict(there.values)
@@ -299,7 +299,7 @@ def _check(subject: Subject, chosen: Given, values: Mapping[Sym, Tree], named: M
     return compared
 
 
-def _closed(subject: Subject, chosen: Given) -> list[State]:
+def _closed(subject: SymbolicState, chosen: Substitutions) -> list[State]:
     """States near by at which contacts and strings stay closed; none where a coordinate is set that could move."""
     if not subject.source.about["limits"] or any(c["name"] in chosen.trees.keys() - chosen.still for c in subject.coordinates):
         return []
@@ -308,7 +308,7 @@ def _closed(subject: Subject, chosen: Given) -> list[State]:
     return list(places.values() if subject.at_rest else found)[:_OTHERS]
 
 
-def _like(subject: Subject, there: Subject) -> Subject | None:
+def _like(subject: SymbolicState, there: SymbolicState) -> SymbolicState | None:
     """Another state of a subject, if the same loads act there, and what is closed is so."""
     from freebody.core import MotionError
 
@@ -320,12 +320,12 @@ def _like(subject: Subject, there: Subject) -> Subject | None:
     return there if same else None
 
 
-def _acting(subject: Subject) -> list[tuple[str, float]]:
+def _acting(subject: SymbolicState) -> list[tuple[str, float]]:
     """The loads, and in which sense those act that follow from others."""
     return [(load.symbol, float(np.sign(load.follows[1])) if load.follows else 0.0) for load in subject.free.loads]
 
 
-def _scale(there: Subject, x: Sym) -> float:
+def _scale(there: SymbolicState, x: Sym) -> float:
     """The largest of its kind, or among the terms that balance where all of a kind vanish."""
     free, state = there.free, there.state
     values = free.accelerations.values() if x.dots else [load.value for load in free.loads if load.unknown]
@@ -337,7 +337,7 @@ def _target(to: Any) -> float | Fraction:
     return float(to) if str(to).lstrip("-") == "inf" else Fraction(str(to))
 
 
-def _title(subject: Subject, chosen: Given) -> list[Block]:
+def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
     said = ["all rates are 0"] * subject.at_rest + chosen.said()
     made: list[Block] = [Heading(f"{subject.source.name}: answers in letters", 1)]
     if chosen.measured:
@@ -347,7 +347,7 @@ def _title(subject: Subject, chosen: Given) -> list[Block]:
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])
 
 
-def _limits(subject: Subject, found: Mapping[tuple[str, str], Tree], limits: Mapping[str, Any]) -> list[Block]:
+def _limits(subject: SymbolicState, found: Mapping[tuple[str, str], Tree], limits: Mapping[str, Any]) -> list[Block]:
     made: list[Block] = [Heading("Limits")] if found else []
     for letter, to in limits.items():
         goes = "∞" if str(to) == "inf" else str(to)

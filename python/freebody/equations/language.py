@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from freebody.model import syntax
-from freebody.symbolic.measured import exact
+from freebody.symbolic.decimals import exact
 from freebody.symbolic.tree import Fn, Num, Sym, Tree, add, minus, mul, negative, over, power
 
 _SAME = ("sin", "cos", "exp", "ln", "atan2", "abs", "sign")
@@ -18,7 +18,7 @@ class NoForm(ValueError):
 
 
 def read_text(text: str) -> Tree:
-    """``m*g*sin(theta) - c*rate(theta)`` as a tree; numbers with a unit are in SI. Raises ``NoForm``, ``Complaint``."""
+    """``m*g*sin(theta) - c*rate(theta)`` as a tree; numbers with a unit are in SI. Raises ``NoForm``, ``ModelProblem``."""
     return _tree(syntax.parse(text).tree)
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.equations.departures import Linearised, Matrix
-from freebody.equations.derivation.told import Subject
-from freebody.results import Array
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.linearization import Linearised, Matrix
+from freebody.run.records import Array
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import is_zero
@@ -34,7 +34,7 @@ class Modes:
     grows: bool
 
 
-def modes(subject: Subject, found: Linearised) -> Modes:
+def modes(subject: SymbolicState, found: Linearised) -> Modes:
     """The modes beside the numbers of a subject, so that nothing is so by chance."""
     m, c, k = (_beside(subject, part) for part in (found.mass, found.damping, found.stiffness))
     free = null_space(k)
@@ -81,7 +81,7 @@ def _is_symmetric(matrix: Matrix) -> bool:
     return all(equal(matrix[i][j], matrix[j][i]) for i in range(len(matrix)) for j in range(i))
 
 
-def _beside(subject: Subject, matrix: Matrix) -> Array:
+def _beside(subject: SymbolicState, matrix: Matrix) -> Array:
     rng = np.random.default_rng(_SEED)
     values = {x: v * (1 + _ASIDE * rng.uniform(-1, 1)) for x, v in subject.values.items()}
     return np.array([[float(evaluate(entry, values, subject.tables)) for entry in row] for row in matrix])

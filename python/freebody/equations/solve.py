@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from freebody.symbolic.decimals import is_measured, ratio, rational
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.measured import is_measured, ratio, rational
 from freebody.symbolic.simplify import PATIENCE, equal, shortest
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols

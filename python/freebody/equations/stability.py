@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.equations.solve import TooLarge
+from freebody.symbolic.decimals import is_measured
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.measured import is_measured
 from freebody.symbolic.simplify import shortest
 from freebody.symbolic.to_sympy import to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power

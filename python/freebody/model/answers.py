@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from freebody.results import BEFORE, ReportItem
+from freebody.run.records import BEFORE, ReportItem
 
 from . import start, units
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .names import suggestion
 from .schema import EXTREMES, Question
 from .units import Dimension
@@ -36,7 +36,7 @@ class Asked:
     unit: str = ""
 
     def with_parameters(self, values: Mapping[str, float]) -> ReportItem:
-        """The item with times as numbers. Raises ``Complaint``."""
+        """The item with times as numbers. Raises ``ModelProblem``."""
         over = None if self.over is None else (float(_time(self.over[0], values)), float(_time(self.over[1], values)))
         return ReportItem(self.label, self.value, self.how, _time(self.at, values), over, self.unit)
 
@@ -55,7 +55,7 @@ class Run:
     painleve: str = "stop"
 
     def with_parameters(self, values: Mapping[str, float]) -> Run:
-        """The settings as numbers. Raises ``Complaint``."""
+        """The settings as numbers. Raises ``ModelProblem``."""
         numbers = {name: getattr(self, name) for name in ("until", "rtol", "every", "max_step", "step")}
         return replace(self, **{n: None if v is None else start.evaluate(v, values) for n, v in numbers.items()})
 
@@ -91,7 +91,7 @@ class AnswerWriter:
             path: Path = ("report", label)
             try:
                 found.append(self._mapping(path, asked) if isinstance(asked, Question) else self._text(path, asked))
-            except Complaint as complaint:
+            except ModelProblem as complaint:
                 self.write.scope.complain(path, complaint.what, complaint.hint)
         return found
 
@@ -100,7 +100,7 @@ class AnswerWriter:
             kind, rest = statistic.groups()
             window = _OVER.fullmatch(rest)
             if "@" in rest:
-                raise Complaint(f"`{kind} of` looks at a whole run, not at a moment", "for a window write `over 1 s .. 2 s`")
+                raise ModelProblem(f"`{kind} of` looks at a whole run, not at a moment", "for a window write `over 1 s .. 2 s`")
             return self._item(path, kind, window[1] if window else rest, None, window.group(2, 3) if window else None, unit)
         expression, sign, moment = text.rpartition("@")
         return self._item(path, "value", expression if sign else text, moment.strip() if sign else None, None, unit)
@@ -131,7 +131,7 @@ class AnswerWriter:
     def _window_end(self, moment: Any) -> Moment:
         found = self._moment(moment)
         if isinstance(found, str) and not found.startswith("="):
-            raise Complaint(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
+            raise ModelProblem(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
         return found
 
     def _dimension(self, kind: str, dimension: Dimension | None) -> Dimension | None:
@@ -148,11 +148,11 @@ class AnswerWriter:
             return BEFORE + event
         try:
             number, dimension = self.write.number_of(moment)
-        except Complaint:
+        except ModelProblem:
             events = self.write.meanings.seen_from(self.write.scope, self.write.meanings.events)
-            raise Complaint(
+            raise ModelProblem(
                 f"`{moment}` is no moment", suggestion(moment, [*events, *_WORDS]) + "; or a time like `0.3 s`"
             ) from None
         if dimension is not None and not dimension.fits(units.TIME):
-            raise Complaint(f"a moment is a time (s); `{moment}` is {dimension.words()}", "write e.g. `@ 0.3 s`")
+            raise ModelProblem(f"a moment is a time (s); `{moment}` is {dimension.words()}", "write e.g. `@ 0.3 s`")
         return number if isinstance(number, float) else f"={number}"

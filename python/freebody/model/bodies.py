@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .arithmetic import Number, half
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .schema import Body, CurveShape, Marked, Piece, Shaped, Stretch
 from .tracks import circle, track
@@ -178,19 +178,19 @@ class BodyWriter:
                 centre = self._at((*path, "arc", "centre"), full, curve.arc.centre)
                 return circle(centre, self.write.number((*path, "arc", "radius"), curve.arc.radius, "m", "a radius"))
             return track(curve, lambda i, name: self._at((*path, i), full, name))
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             self.write.scope.complain(path, complaint.what, complaint.hint)
             return "s", "0"
 
     def _track(self, path: Path, full: str, stretches: list[Stretch]) -> Spec:
         """A curve of lines and arcs as a surface."""
         point = lambda i, name: self.write.point((*path, i), name, full)
-        told = []
+        stated = []
         for i, stretch in enumerate(stretches):
             to, centre = (stretch.line[1], None) if stretch.line is not None else (stretch.arc.to, point(i, stretch.arc.centre))
-            told.append({"to": point(i, to), "centre": centre})
+            stated.append({"to": point(i, to), "centre": centre})
         first = stretches[0].line
-        return {"start": point(0, first[0]) if first else "ground.O", "stretches": told}
+        return {"start": point(0, first[0]) if first else "ground.O", "stretches": stated}
 
     def _at(self, path: Path, full: str, name: str) -> list[Number]:
         return self._place(path, full, name)

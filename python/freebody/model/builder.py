@@ -9,18 +9,18 @@ from typing import Any
 from pydantic import ValidationError
 
 from freebody.core import CompiledModel
-from freebody.results import ReportItem
+from freebody.run.records import ReportItem
 
 from . import file, reading, schema
 from .answers import Run
-from .calls import Calls, called, caller
-from .errors import Complaint, ModelFileError, Path, Problem
+from .errors import ModelFileError, ModelProblem, Path, Problem
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .names import spell, suggestion
 from .scope import Folder
 from .source import Source
+from .source_locations import SourceLocations, called, caller
 from .start import Assembly, Start, initial_state, parameter_values
 
 
@@ -85,7 +85,7 @@ class Builder:
 
     def __init__(self, name: str = "", gravity: Any = None) -> None:
         self.model = schema.Model(freebody=schema.VERSION)
-        self._calls = Calls()
+        self._locations = SourceLocations()
         self._file: str | None = None
         self._text = ""
         self.others: dict[str, Builder] = {}
@@ -93,7 +93,7 @@ class Builder:
         self._lowered: tuple[str, Lowered] | None = None
         self._compiled: tuple[str, CompiledModel] | None = None
         self.ground = Ground(self, "ground", ("O",))
-        self._calls.note(())
+        self._locations.note(())
         if name:
             self._assign("name", name)
         if gravity is not None:
@@ -125,7 +125,7 @@ class Builder:
     @classmethod
     def _of(cls, model: schema.Model, source: Source | None, path: str | None) -> Any:
         made = cls()
-        made.model, made._calls, made._file = model, Calls(source), path
+        made.model, made._locations, made._file = model, SourceLocations(source), path
         made._text = source.text if source else ""
         for name in (model.ground or schema.Ground()).points:
             made.ground._has(name)
@@ -269,7 +269,7 @@ class Builder:
         marked = self.model.ground if body == "ground" else self.model.bodies[body]
         before = marked.written() if marked else {}
         changed = before | {section: before.get(section, {}) | {name: value}}
-        self._calls.note((*path, section, name))
+        self._locations.note((*path, section, name))
         if body == "ground":
             self._assign("ground", changed, note=False)
         else:
@@ -288,7 +288,7 @@ class Builder:
                 raise self.error(
                     (section, name), f"`{name}` is used twice in {section}", "give one of them another name", caller()
                 )
-            self._calls.note((section, name))
+            self._locations.note((section, name))
         # Validated alone, so that making many items takes linear time.
         made = self.validated({section: {name: plain(value)}}, (section, name))
         old[name] = getattr(made, section)[name]
@@ -297,7 +297,7 @@ class Builder:
 
     def _assign(self, section: str, value: Any, note: bool = True) -> None:
         if note:
-            self._calls.note((section,))
+            self._locations.note((section,))
         made = self.validated({section: plain(value)}, (section,))
         setattr(self.model, section, getattr(made, section))
         self._changed()
@@ -307,13 +307,13 @@ class Builder:
         try:
             return schema.Model.model_validate({"freebody": schema.VERSION} | data)
         except ValidationError as error:
-            found = [Problem(self._calls.where(at), what, hint) for at, what, hint, _ in reading.complaints(error)]
-            self._calls.made.pop(path, None)
+            found = [Problem(self._locations.where(at), what, hint) for at, what, hint, _ in reading.complaints(error)]
+            self._locations.made.pop(path, None)
             raise ModelFileError(found) from None
 
     def wrong(self, path: Path, what: str, hint: str) -> ModelFileError:
         """The error about an item, where it was written."""
-        return ModelFileError([Problem(self._calls.where(path), what, hint)])
+        return ModelFileError([Problem(self._locations.where(path), what, hint)])
 
     def error(self, path: Path, what: str, hint: str, at: tuple[str, int]) -> ModelFileError:
         """The error about an item, at a Python call."""
@@ -323,7 +323,7 @@ class Builder:
 
     def noted(self, path: Path) -> None:
         """Remembers that the item was made by the call that is being executed."""
-        self._calls.note(path)
+        self._locations.note(path)
         self._changed()
 
     def _changed(self) -> None:
@@ -333,7 +333,7 @@ class Builder:
         """The model in the core's terms. Raises ``ModelFileError`` with all that is wrong."""
         key = self.model.model_dump_json(by_alias=True, exclude_unset=True)
         if self._lowered is None or self._lowered[0] != key:
-            self._lowered = (key, lower(self.model, self._calls, self._file, self.others))
+            self._lowered = (key, lower(self.model, self._locations, self._file, self.others))
         return self._lowered[1]
 
     def compile(self) -> CompiledModel:
@@ -354,7 +354,7 @@ class Builder:
             start = Start(coordinates=start.coordinates, parameters=start.parameters)
         try:
             return initial_state(start, self.compile(), {**(initial or {}), **(changes or {})})
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             raise self.error((), complaint.what, complaint.hint, caller()) from None
 
     def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Run:

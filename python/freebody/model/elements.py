@@ -81,12 +81,12 @@ def _switches(card: cards.Card) -> dict[str, Any]:
     if card.presses:
         words["one_sided"] = (bool, Field(False, description="Whether it only pushes, and is released where it would pull."))
     if has_ends(card):
-        told = "What happens where the line ends: it is free and the joint released, or there are stops."
-        words["ends"] = (Literal["free", "stop"], Field(None, description=told))
+        stated = "What happens where the line ends: it is free and the joint released, or there are stops."
+        words["ends"] = (Literal["free", "stop"], Field(None, description=stated))
         words["end_restitution"] = (Number, Field(0, description="Restitution of the stops at the ends, 0 to 1."))
-    if card.rubs:
-        told = "Coefficient of sliding friction, by the size of the force that the joint carries."
-        words["friction"] = (Number, Field(None, description=told))
+    if card.has_friction:
+        stated = "Coefficient of sliding friction, by the size of the force that the joint carries."
+        words["friction"] = (Number, Field(None, description=stated))
         words["static_friction"] = (
             Number,
             Field(None, description="Coefficient of friction at rest; that of sliding by default."),

@@ -54,7 +54,7 @@ class ModelFileError(ValueError):
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
 
-class Complaint(Exception):
+class ModelProblem(Exception):
     """What is wrong and what to try, before the place is known."""
 
     def __init__(self, what: str, hint: str = "") -> None:
@@ -63,7 +63,7 @@ class Complaint(Exception):
         self.hint = hint
 
 
-class Consequence(Complaint):
+class Consequence(ModelProblem):
     """A complaint that only follows from another one, which is told elsewhere."""
 
 

@@ -9,7 +9,7 @@ from freebody.core import cards
 
 from . import syntax
 from .arithmetic import text
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .names import suggestion
 from .scope import Folder, Scope
 from .switches import Deeds, Event, listed
@@ -166,12 +166,12 @@ class EventWriter:
                 break
             marks |= fresh
         items = [(section, item) for section in _PARTS for item in self.spec[section]]
-        told = ("name", "type", "coordinates", "level")
+        stated = ("name", "type", "coordinates", "level")
         return [
             item["name"]
             for section, item in items
             if not (section == "joints" and _holds_nothing(item))
-            and named({word: value for word, value in item.items() if word not in told})
+            and named({word: value for word, value in item.items() if word not in stated})
         ]
 
     # -- numbers
@@ -210,8 +210,8 @@ class EventWriter:
             return
         try:
             if not self.folder.beside(file).exists():
-                raise Complaint(f"there is no file `{file}`", "the file of the other model is looked for beside this one")
-        except Complaint as complaint:
+                raise ModelProblem(f"there is no file `{file}`", "the file of the other model is looked for beside this one")
+        except ModelProblem as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
 
 
@@ -226,5 +226,5 @@ def _names(value: str) -> list[str]:
     """The names in a text, which is one or an expression of some."""
     try:
         return [value, *syntax.names(syntax.parse(value).tree)]
-    except Complaint:
+    except ModelProblem:
         return [value]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .names import replace_names, work_out_indices
 
 MAX_ITEMS = 100_000
@@ -23,7 +23,7 @@ class Expansion:
 
     ``whole`` works out a whole number of parameters. ``origin`` leads from the path of a written-out item to that of the
     item that made it. Problems go to ``complain`` with the path of the item as it stands in the file and whether its key is
-    meant; too many items raise ``Complaint``.
+    meant; too many items raise ``ModelProblem``.
     """
 
     def __init__(self, whole: Whole, complain: Complain) -> None:
@@ -65,14 +65,14 @@ class Expansion:
         variable = found[1]
         first, last = (self._index(text, index) for text in found.group(2, 3))
         if last - first >= MAX_ITEMS:
-            raise Complaint(f"`{key}` makes {last - first + 1} items", f"at most {MAX_ITEMS} are allowed")
+            raise ModelProblem(f"`{key}` makes {last - first + 1} items", f"at most {MAX_ITEMS} are allowed")
         for i in range(first, last + 1):
             yield from self._repeated(f"{key[: found.start()]}[{i}]{key[found.end() :]}", index | {variable: i})
 
     def _count(self) -> None:
         self.items += 1
         if self.items > MAX_ITEMS:
-            raise Complaint(f"repetitions make more than {MAX_ITEMS} items", "repeat fewer")
+            raise ModelProblem(f"repetitions make more than {MAX_ITEMS} items", "repeat fewer")
 
     def _index(self, text: str, index: dict[str, int]) -> int:
         return int(text) if text.strip().lstrip("-").isdecimal() else self.whole(_with_index(text, index))
@@ -84,7 +84,7 @@ class Expansion:
     def _guarded(self, source: Path, work: Callable[[], Any], otherwise: Any, at_key: bool = False) -> Any:
         try:
             return work()
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             self.complain(source, complaint.what, complaint.hint, at_key)
             return otherwise
 

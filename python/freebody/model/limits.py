@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .arithmetic import text
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .names import suggestion, unquote
 from .outlines import Outlines
 from .switches import Contact, Drum, Pulley, Stop, String, SurfaceShape
@@ -95,7 +95,7 @@ class LimitWriter:
         if full in meanings.bodies:
             try:
                 return self.outlines.of(full)
-            except Complaint as complaint:
+            except ModelProblem as complaint:
                 scope.complain(path, complaint.what, complaint.hint)
         elif line:
             return {"line": self.write.line(path, name)}

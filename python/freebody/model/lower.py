@@ -13,7 +13,7 @@ from freebody.core import CompiledModel, ModelError, cards
 from . import elements, meanings, scope, units
 from .answers import AnswerWriter, Asked, Run
 from .bodies import BodyWriter
-from .errors import Complaint, ModelFileError, Path, Problem, Where
+from .errors import ModelFileError, ModelProblem, Path, Problem, Where
 from .events import EventWriter
 from .guides import GuideWriter
 from .limits import LimitWriter
@@ -213,7 +213,7 @@ class _Sections:
         for i, value in enumerate(values):
             try:
                 found.append(self.scope.parameters.number(value))
-            except Complaint as complaint:
+            except ModelProblem as complaint:
                 self.scope.complain((*path, i), complaint.what, complaint.hint)
         return found
 

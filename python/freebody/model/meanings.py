@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from freebody.core import cards
 
 from . import elements, guides, syntax
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .names import TOKEN, fault, suggestion, unquote
 from .schema import Body
 from .scope import Scope, coordinate_names
@@ -38,7 +38,7 @@ class Meanings:
     events: set[str] = field(default_factory=set)
 
     def dimension(self, name: str, scope: Scope) -> Dimension | None:
-        """The dimension of a full name in an expression. Raises ``Complaint`` when it means nothing."""
+        """The dimension of a full name in an expression. Raises ``ModelProblem`` when it means nothing."""
         if name in self.values:
             return self.values[name][1]
         if name in syntax.CONSTANTS:
@@ -48,40 +48,40 @@ class Meanings:
             return syntax.part(name)
         raise self.unknown(name, scope)
 
-    def unknown(self, name: str, scope: Scope) -> Complaint:
+    def unknown(self, name: str, scope: Scope) -> ModelProblem:
         """The complaint about a name in an expression that means nothing."""
         short = name.removeprefix(scope.prefix)
         if name in self.points or name in self.bodies:
             kind = "point" if name in self.points else "body"
             readings = "`x`, `y`, `vx`, `distance`" if kind == "point" else "`angle`, `omega`"
-            return Complaint(
+            return ModelProblem(
                 f"`{short}` is a {kind}, not a number",
                 f"read it through a function such as {readings}: `{'x' if kind == 'point' else 'angle'}({short})`",
             )
-        return Complaint(
+        return ModelProblem(
             f"nothing is called `{short}`", suggestion(short, self.seen_from(scope, self.values), "parameters or coordinates")
         )
 
-    def place(self, name: str, kind: str, known: Iterable[str], scope: Scope) -> Complaint:
+    def place(self, name: str, kind: str, known: Iterable[str], scope: Scope) -> ModelProblem:
         """The complaint about a point, line or curve that does not exist."""
         short = name.removeprefix(scope.prefix)
         body, _, last = name.rpartition(".")
         if name in self.bodies:
             points = sorted(k for k in known if k.rpartition(".")[0] == name)
-            return Complaint(
+            return ModelProblem(
                 f"a {kind} is needed, and `{short}` is a body", f"write one of its {kind}s, e.g. `{points[-1]}`" if points else ""
             )
         if body in self.bodies:
             own = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == body]
-            return Complaint(
+            return ModelProblem(
                 f"`{body.removeprefix(scope.prefix)}` has no {kind} `{last}`", suggestion(last, own, f"{kind} of that body")
             )
         if body:
-            return Complaint(
+            return ModelProblem(
                 f"there is no body `{body.removeprefix(scope.prefix)}`",
                 suggestion(body.removeprefix(scope.prefix), self.seen_from(scope, self.bodies)),
             )
-        return Complaint(f"`{short}` is no {kind}", f"a {kind} is written `body.name`, e.g. `ground.O`")
+        return ModelProblem(f"`{short}` is no {kind}", f"a {kind} is written `body.name`, e.g. `ground.O`")
 
     def seen_from(self, scope: Scope, known: Iterable[str]) -> list[str]:
         """Full names as that file writes them."""

@@ -6,8 +6,8 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from freebody.analysis import Moving
 from freebody.core import cards
-from freebody.moving import Moving
 
 from . import elements, schema
 from .builder import Builder

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .arithmetic import Number, half, placed
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .schema import Body, Shaped
 from .writer import Writer
 
@@ -28,19 +28,19 @@ class Outlines:
         self.known: dict[str, Spec] = {}
 
     def of(self, body: str) -> Spec:
-        """The surface that a body is; its full name. Raises ``Complaint`` when its shape has none."""
+        """The surface that a body is; its full name. Raises ``ModelProblem`` when its shape has none."""
         if body not in self.known:
             self.known[body] = self._made(body)
         return self.known[body]
 
     def _made(self, full: str) -> Spec:
         if full == "ground":
-            raise Complaint("the ground has no outline", "name a line of it, e.g. `[ground.A, ground.B]`")
+            raise ModelProblem("the ground has no outline", "name a line of it, e.g. `[ground.A, ground.B]`")
         write, path, body = self.bodies[full]
         if not body.pieces:
             return self._surface(full, write, path, body, None)
         if len(body.pieces) > 1:
-            raise Complaint(f"`{full}` is of several pieces", "name the surface that is touched, e.g. `{polygon: [P, Q, R]}`")
+            raise ModelProblem(f"`{full}` is of several pieces", "name the surface that is touched, e.g. `{polygon: [P, Q, R]}`")
         key, piece = next(iter(body.pieces.items() if isinstance(body.pieces, dict) else enumerate(body.pieces)))
         here = (*path, "pieces", key)
         at = write.pair((*here, "at"), piece.at)
@@ -65,7 +65,7 @@ class Outlines:
                 corners = [write.pair((*path, "corners", i), corner) for i, corner in enumerate(shaped.corners)]
             case "rod":
                 ends = f"`{full}.start` and `{full}.end`"
-                raise Complaint(f"a rod like `{full}` has no outline", f"name the end that touches; {ends} are two contacts")
+                raise ModelProblem(f"a rod like `{full}` has no outline", f"name the end that touches; {ends} are two contacts")
             case _:
-                raise Complaint(f"`{full}` has no shape, so no outline", f"name the point or line of `{full}` that touches")
+                raise ModelProblem(f"`{full}` has no shape, so no outline", f"name the point or line of `{full}` that touches")
         return {"polygon": [point(i, corner) for i, corner in enumerate(corners, 1)]}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from . import syntax, units
-from .errors import Complaint, Consequence
+from .errors import Consequence, ModelProblem
 from .names import fault, suggestion
 from .units import Dimension
 
@@ -25,7 +25,7 @@ class Parameters:
     ) -> None:
         self.given = given
         self.overruled = dict(overruled or {})
-        self.faults: dict[str, Complaint] = {}
+        self.faults: dict[str, ModelProblem] = {}
         self._values = {name: value for name, (value, _) in self.overruled.items()}
         self._dimensions = {name: dimension for name, (_, dimension) in self.overruled.items()}
         self.children: dict[str, Parameters] = {}
@@ -37,13 +37,13 @@ class Parameters:
         return name in self.given or (isinstance(name, str) and self._child(name) is not None)
 
     def value(self, name: str) -> float:
-        """The value in SI. Raises ``Complaint``."""
+        """The value in SI. Raises ``ModelProblem``."""
         if child := self._child(name):
             return child[0].value(child[1])
         if name in self.faults:
             raise Consequence(f"the parameter `{name}` has no value", self.faults[name].what)
         if name not in self._values:
-            raise Complaint(f"there is no parameter `{name}`", suggestion(name, self.given, "parameters"))
+            raise ModelProblem(f"there is no parameter `{name}`", suggestion(name, self.given, "parameters"))
         return self._values[name]
 
     def dimension(self, name: str) -> Dimension | None:
@@ -53,7 +53,7 @@ class Parameters:
         return self._dimensions.get(name)
 
     def number(self, text: Number) -> float:
-        """The value of a number of the model: bare, a quantity or an expression of parameters. Raises ``Complaint``."""
+        """The value of a number of the model: bare, a quantity or an expression of parameters. Raises ``ModelProblem``."""
         if not isinstance(text, str):
             return float(text)
         if (found := units.quantity(text)) is not None:
@@ -61,14 +61,14 @@ class Parameters:
         return self._evaluated(text)
 
     def whole(self, text: str) -> int:
-        """The value of a whole number, for repetitions and indices. Raises ``Complaint``."""
+        """The value of a whole number, for repetitions and indices. Raises ``ModelProblem``."""
         value = self.number(text)
         if not abs(value) <= 1e9 or value != round(value):
-            raise Complaint(f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers")
+            raise ModelProblem(f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers")
         return round(value)
 
     def measured(self, text: Number) -> tuple[float, Dimension | None]:
-        """Value and dimension of a number of the model. Raises ``Complaint``."""
+        """Value and dimension of a number of the model. Raises ``ModelProblem``."""
         return self.number(text), self._dimension_of(text)
 
     def _order(self) -> list[str]:
@@ -76,11 +76,11 @@ class Parameters:
         for name, text in self.given.items():
             try:
                 if (what := fault(name)) or name in syntax.CONSTANTS:
-                    raise Complaint(
+                    raise ModelProblem(
                         what or f"`{name}` has a meaning of its own in expressions", "give the parameter another name"
                     )
                 uses[name] = self._uses(text)
-            except Complaint as complaint:
+            except ModelProblem as complaint:
                 self.faults[name] = complaint
                 uses[name] = []
         while True:
@@ -90,7 +90,7 @@ class Parameters:
                 circle = list(dict.fromkeys(reversed(error.args[1])))
                 shown = " → ".join([*circle, circle[0]])
                 for name in circle:
-                    self.faults[name] = Complaint(
+                    self.faults[name] = ModelProblem(
                         f"parameters are defined by one another in a circle: {shown}", "give one of them a number"
                     )
                     uses[name] = []
@@ -103,7 +103,7 @@ class Parameters:
     def _work_out(self, name: str) -> None:
         try:
             self._values[name], self._dimensions[name] = self.measured(self.given[name])
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             self.faults[name] = complaint
 
     def _dimension_of(self, text: Number) -> Dimension | None:
@@ -118,7 +118,7 @@ class Parameters:
         try:
             return float(syntax.evaluate(syntax.parse(text).tree, self.value))
         except (ArithmeticError, ValueError) as error:
-            raise Complaint(
+            raise ModelProblem(
                 f"`{text}` has no value: {error}", "check for a division by 0 or a root of a negative number"
             ) from None
 

@@ -67,10 +67,10 @@ def _check_version(origin: Source) -> None:
         origin.data["freebody"] = VERSION
 
 
-Complaint = tuple[Path, str, str, bool]
+ModelProblem = tuple[Path, str, str, bool]
 
 
-def complaints(error: ValidationError) -> Iterable[Complaint]:
+def complaints(error: ValidationError) -> Iterable[ModelProblem]:
     """What the schema says, as path, sentence, hint, and whether the key itself is meant."""
     for line in error.errors(include_url=False):
         path = place(line["loc"])

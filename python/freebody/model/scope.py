@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from freebody.core import cards
 
 from . import elements, reading
-from .errors import Complaint, Consequence, ModelFileError, Path, Problem, Where, path_text
+from .errors import Consequence, ModelFileError, ModelProblem, Path, Problem, Where, path_text
 from .expand import Expansion, repeats
 from .parameters import Parameters
 from .schema import Model
@@ -43,20 +43,20 @@ class Folder:
         return cls(here, here, (path,) if path else ())
 
     def beside(self, name: str) -> FilePath:
-        """A file by its name relative to here. Raises ``Complaint``."""
+        """A file by its name relative to here. Raises ``ModelProblem``."""
         path = (self.here / name).resolve()
         if FilePath(name).is_absolute() or not path.is_relative_to(self.root):
-            raise Complaint(f"the file `{name}` is outside the folder of the model", f"put it under {self.root}")
+            raise ModelProblem(f"the file `{name}` is outside the folder of the model", f"put it under {self.root}")
         return path
 
     def file(self, name: str) -> FilePath:
-        """The file of a part. Raises ``Complaint``."""
+        """The file of a part. Raises ``ModelProblem``."""
         path = self.beside(name)
         if path in self.opened:
             circle = " → ".join(p.name for p in (*self.opened[self.opened.index(path) :], path))
-            raise Complaint(f"model files are parts of one another in a circle: {circle}", "a mechanism cannot hold itself")
+            raise ModelProblem(f"model files are parts of one another in a circle: {circle}", "a mechanism cannot hold itself")
         if len(self.opened) >= MAX_DEPTH:
-            raise Complaint(f"parts are nested more than {MAX_DEPTH} deep")
+            raise ModelProblem(f"parts are nested more than {MAX_DEPTH} deep")
         return path
 
     def inside(self, path: FilePath) -> Folder:
@@ -137,7 +137,7 @@ def _written_out(
         parameters = Parameters(data["parameters"], overruled)
         expansion = Expansion(parameters.whole, complain)
         return parameters, Model.model_validate(expansion.of(data)), expansion.origin
-    except Complaint as complaint:
+    except ModelProblem as complaint:
         problems.append(Problem(places.where(()), complaint.what, complaint.hint))
     except ValidationError as error:
         scope = Scope("", model, places, parameters, problems, expansion.origin)
@@ -150,7 +150,7 @@ def _open_part(scope: Scope, name: str, folder: Folder) -> None:
     part = scope.model.parts[name]
     try:
         path = folder.file(part.file)
-    except Complaint as complaint:
+    except ModelProblem as complaint:
         return scope.complain(("parts", name, "file"), complaint.what, complaint.hint)
     try:
         model, source = reading.read(path)
@@ -184,7 +184,7 @@ def _overruled(scope: Scope, name: str, model: Model) -> dict[str, tuple[float, 
             continue
         try:
             found[parameter] = scope.parameters.measured(text)
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             scope.complain(path, complaint.what, complaint.hint)
     return found
 

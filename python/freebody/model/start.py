@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 from numpy.typing import NDArray
 
 from . import syntax, units
-from .errors import Complaint, Path
+from .errors import ModelProblem, Path
 from .meanings import Meanings
 from .names import suggestion
 from .schema import Initial
@@ -104,16 +104,16 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
     """Arguments for ``core.assemble``: the start of the model with ``overrides``.
 
     ``overrides`` maps coordinates and parameters to numbers or quantities (``{"phi2": "90 deg", "T": 2}``); the words
-    of ``initial`` (``rates``, ``guess``, ``points``, ``branch``, ``at_rest``) are understood as well. Raises ``Complaint``.
+    of ``initial`` (``rates``, ``guess``, ``points``, ``branch``, ``at_rest``) are understood as well. Raises ``ModelProblem``.
     """
     given = dict(overrides or {})
     words = {word: given.pop(word) for word in WORDS if word in given}
     unknown = [name for name in given if name not in start.coordinates and name not in start.parameters]
     if unknown:
         known = [*start.coordinates, *start.parameters, *WORDS]
-        raise Complaint(f"there is no coordinate or parameter `{unknown[0]}`", suggestion(unknown[0], known))
+        raise ModelProblem(f"there is no coordinate or parameter `{unknown[0]}`", suggestion(unknown[0], known))
     if words.get("at_rest") and words.get("rates"):
-        raise Complaint(*_RESTLESS)
+        raise ModelProblem(*_RESTLESS)
     p = core.bind({n: _plain(n, v, start.parameters[n], {}) for n, v in given.items() if n in start.parameters})
     values = parameter_values(core, p)
     fixed = dict(start.fixed) | {n: v for n, v in given.items() if n in start.coordinates}
@@ -138,7 +138,7 @@ def parameter_values(core: Any, p: NDArray[Any]) -> dict[str, float]:
 
 
 def evaluate(number: Any, values: Mapping[str, float]) -> float:
-    """A bare number, a quantity, or an expression of parameters with these values. Raises ``Complaint``."""
+    """A bare number, a quantity, or an expression of parameters with these values. Raises ``ModelProblem``."""
     return _plain("the number", number, None, values)
 
 
@@ -149,19 +149,19 @@ def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[
     if quantity is None:
         return float(syntax.evaluate(syntax.parse(number).tree, lambda n: _value(n, values)))
     if dimension is not None and not quantity.dimension.fits(dimension):
-        raise Complaint(f"`{name}` is {dimension.words()}; `{number}` is {quantity.dimension.words()}")
+        raise ModelProblem(f"`{name}` is {dimension.words()}; `{number}` is {quantity.dimension.words()}")
     return quantity.value
 
 
 def _value(name: str, values: Mapping[str, float]) -> float:
     if name not in values:
-        raise Complaint(f"there is no parameter `{name}`", suggestion(name, values))
+        raise ModelProblem(f"there is no parameter `{name}`", suggestion(name, values))
     return values[name]
 
 
 def _dimension(start: Start, name: str) -> Dimension | None:
     if name not in start.coordinates:
-        raise Complaint(f"there is no coordinate `{name}`", suggestion(name, start.coordinates))
+        raise ModelProblem(f"there is no coordinate `{name}`", suggestion(name, start.coordinates))
     return start.coordinates[name]
 
 
@@ -174,4 +174,4 @@ def _sign(sign: Any) -> int:
         return _SIGNS[sign]
     if sign in (1, -1):
         return int(sign)
-    raise Complaint(f"`{sign}` is no branch", "write `positive` or `negative`")
+    raise ModelProblem(f"`{sign}` is no branch", "write `positive` or `negative`")

@@ -13,7 +13,7 @@ from freebody import core
 from freebody.core import ExpressionError
 
 from . import units
-from .errors import Complaint
+from .errors import ModelProblem
 from .names import suggestion
 from .units import ANGLE, ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
 
@@ -35,15 +35,15 @@ class Expression:
 
 @lru_cache(maxsize=4096)
 def parse(text: str) -> Expression:
-    """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``). Raises ``Complaint``."""
+    """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``). Raises ``ModelProblem``."""
     rewritten = units.rewrite(text)
     try:
         tree = core.parse(rewritten.text)
     except UnicodeEncodeError:
-        raise Complaint("the expression holds a character that is none", "type it anew") from None
+        raise ModelProblem("the expression holds a character that is none", "type it anew") from None
     except ExpressionError as error:
         place, what = rewritten.text[error.start : error.end].strip(), error.what
-        raise Complaint(
+        raise ModelProblem(
             f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), error.hint
         ) from None
     return Expression(rewritten.text, tree, tuple(rewritten.numbers))
@@ -107,7 +107,7 @@ class Measure:
         self.tables = tables
 
     def of(self, tree: Tree) -> Dimension | None:
-        """The dimension of a tree; None when it fits anywhere. Raises ``Complaint``."""
+        """The dimension of a tree; None when it fits anywhere. Raises ``ModelProblem``."""
         match tree:
             case {"number": _}:
                 return next(self.numbers)
@@ -141,9 +141,9 @@ class Measure:
         self._must_be_number(self.of(exponent), exponent, "an exponent")
         try:
             power = Fraction(evaluate(exponent, _no_name)).limit_denominator(12)
-        except (Complaint, ArithmeticError, ValueError):
+        except (ModelProblem, ArithmeticError, ValueError):
             if base is not None and not base.is_number:
-                raise Complaint(
+                raise ModelProblem(
                     f"the exponent in `{self.text}` must be a number, because its base is {base.words()}",
                     "write the number itself",
                 ) from None
@@ -156,7 +156,7 @@ class Measure:
         if self.tables(name):
             return [self.of(a) for a in arguments] and None
         if name not in FUNCTIONS:
-            raise Complaint(f"no function is called `{name}`", suggestion(name, FUNCTIONS - set("xy")))
+            raise ModelProblem(f"no function is called `{name}`", suggestion(name, FUNCTIONS - set("xy")))
         found = [self.of(a) for a in arguments]
         first = found[0] if found else None
         if name in ("rate", "accel"):
@@ -182,7 +182,7 @@ class Measure:
     def _must_be_number(self, dimension: Dimension | None, tree: Tree, what: str) -> None:
         if dimension is not None and not dimension.is_number:
             hint = "check the units of the parameters"
-            raise Complaint(f"{what} must be an angle or a plain number; `{self._show(tree)}` is {dimension.words()}", hint)
+            raise ModelProblem(f"{what} must be an angle or a plain number; `{self._show(tree)}` is {dimension.words()}", hint)
 
     def _alike(self, a: Dimension | None, b: Dimension | None, left: Tree, right: Tree) -> Dimension | None:
         if a is None or b is None:
@@ -190,7 +190,7 @@ class Measure:
         if a.fits(b):
             return a
         both = f"`{self._show(left)}` is {a.words()} and `{self._show(right)}` is {b.words()}"
-        raise Complaint(f"in `{self.text}`, {both}: they cannot be added or compared", "check the units of the parameters")
+        raise ModelProblem(f"in `{self.text}`, {both}: they cannot be added or compared", "check the units of the parameters")
 
     def _show(self, tree: Tree) -> str:
         start, end = tree["span"]
@@ -220,7 +220,7 @@ def _is_root_or_pi(tree: Tree) -> bool:
 
 
 def _no_name(name: str) -> float:
-    raise Complaint(f"`{name}` is no number")
+    raise ModelProblem(f"`{name}` is no number")
 
 
 # -- values --------------------------------------------------------------------------------------
@@ -254,7 +254,7 @@ _CALLS: dict[str, Callable[..., float]] = {
 
 
 def evaluate(tree: Tree, value: Callable[[str], float]) -> float:
-    """The number of a tree of parameters only. Raises ``Complaint``, and ``ArithmeticError`` or ``ValueError`` like ``math``."""
+    """The number of a tree of parameters only. Raises ``ModelProblem``, and ``ArithmeticError`` or ``ValueError`` like ``math``."""
     match tree:
         case {"number": number}:
             return float(number)
@@ -271,7 +271,7 @@ def evaluate(tree: Tree, value: Callable[[str], float]) -> float:
         case {"call": [name, arguments]} if name in _CALLS:
             return _called(name, [evaluate(a, value) for a in arguments])
         case {"call": [name, _]}:
-            raise Complaint(f"`{name}(…)` changes with the motion; a number of the model depends on parameters only")
+            raise ModelProblem(f"`{name}(…)` changes with the motion; a number of the model depends on parameters only")
         case {"chain": [first, rest]}:
             total = evaluate(first, value)
             for operator, tree in rest:
@@ -284,4 +284,4 @@ def _called(name: str, arguments: list[float]) -> float:
     try:
         return _CALLS[name](*arguments)
     except TypeError:
-        raise Complaint(f"`{name}` does not take {len(arguments)} arguments") from None
+        raise ModelProblem(f"`{name}` does not take {len(arguments)} arguments") from None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from .arithmetic import Number, difference, text, worked
-from .errors import Complaint
+from .errors import ModelProblem
 from .schema import Stretch
 
 At = list[Number]
@@ -30,21 +30,21 @@ class _Leg:
 def track(stretches: list[Stretch], at: Callable[[int, str], At]) -> tuple[str, str]:
     """x and y of stretches one after another; ``s`` is the length of the way. Beyond its ends the track goes on as there.
 
-    ``at(i, name)`` gives the coordinates of a point of stretch ``i``. Raises ``Complaint``.
+    ``at(i, name)`` gives the coordinates of a point of stretch ``i``. Raises ``ModelProblem``.
     """
     if not stretches:
-        raise Complaint("a track needs a line or an arc", "write `[{line: [A, B]}]`")
+        raise ModelProblem("a track needs a line or an arc", "write `[{line: [A, B]}]`")
     legs: list[_Leg] = []
     end: At | None = None
     for i, stretch in enumerate(stretches):
         if stretch.line is not None:
             start, stop = (at(i, name) for name in stretch.line)
             if end is not None and start != end:
-                raise Complaint("the track has a gap", f"the line {stretch.line} must begin where the stretch before it ends")
+                raise ModelProblem("the track has a gap", f"the line {stretch.line} must begin where the stretch before it ends")
             legs.append(_line(start, stop))
             end = stop
         elif end is None:
-            raise Complaint(
+            raise ModelProblem(
                 "a track cannot begin with an arc", "an arc begins where the stretch before it ends: begin with a line"
             )
         else:

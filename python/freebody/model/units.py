@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
-from .errors import Complaint
+from .errors import ModelProblem
 from .names import NUMBER, TOKEN, nearest
 
 if TYPE_CHECKING:
@@ -192,7 +192,7 @@ def registered(text: str) -> Unit | None:
 
 @cache
 def unit(text: str) -> Unit:
-    """The unit of a text like ``kg*m^2/s``, ``N m`` or empty. Raises ``Complaint``."""
+    """The unit of a text like ``kg*m^2/s``, ``N m`` or empty. Raises ``ModelProblem``."""
     if not text.strip():
         return Unit(Fraction(1), NUMBER_ONLY)
     pieces = _pieces(text)
@@ -202,13 +202,13 @@ def unit(text: str) -> Unit:
     unknown = [p for p in pieces or [] if p[0].isalpha() and word(p) is None]
     near = nearest(unknown[0], _COMMON) if unknown else None
     what = f"there is no unit `{unknown[0]}`" if unknown else f"`{text}` is no unit"
-    raise Complaint(what, f"did you mean `{near}`?" if near else "units look like `mm`, `N*m`, `kg*m^2`, `m/s^2`, `deg`")
+    raise ModelProblem(what, f"did you mean `{near}`?" if near else "units look like `mm`, `N*m`, `kg*m^2`, `m/s^2`, `deg`")
 
 
 def quantity(text: str) -> Quantity | None:
     """The quantity that the whole text is, or None when it must be read as an expression.
 
-    Raises ``Complaint`` when a number stands with one word that is no unit.
+    Raises ``ModelProblem`` when a number stands with one word that is no unit.
     """
     found = _NUMBER.match(text)
     written = text[found.end() :].strip() if found else ""
@@ -230,7 +230,7 @@ class Rewritten(NamedTuple):
 
 
 def rewrite(text: str) -> Rewritten:
-    """The expression with each number directly followed by a unit (``30 deg``) in SI. Raises ``Complaint``."""
+    """The expression with each number directly followed by a unit (``30 deg``) in SI. Raises ``ModelProblem``."""
     tokens = list(TOKEN.finditer(text))
     out: list[str] = []
     numbers: list[Dimension | None] = []
@@ -245,7 +245,7 @@ def rewrite(text: str) -> Rewritten:
             if after < len(tokens) and tokens[after].lastgroup in ("name", "degree") and not _is_operator(tokens[after][0]):
                 name = tokens[after][0]
                 if before in ("/", "^"):
-                    raise Complaint(
+                    raise ModelProblem(
                         f"`{before}{piece} {name}` can be read in two ways",
                         f"write `{before}({piece} {name})` with the unit inside, or name the number under `parameters`",
                     )
@@ -261,7 +261,7 @@ def rewrite(text: str) -> Rewritten:
 
 
 def convert(text: str) -> tuple[float, Dimension]:
-    """How much SI one of the unit is, and its dimension: a printed figure is the SI value divided by it. Raises ``Complaint``."""
+    """How much SI one of the unit is, and its dimension: a printed figure is the SI value divided by it. Raises ``ModelProblem``."""
     size, dimension = unit(text)
     return float(size), dimension
 
@@ -271,7 +271,7 @@ def _literal(number: str, name: str) -> Unit:
     if found is None:
         near = nearest(name, _COMMON)
         hint = f"for a product write `{number}*{name}`" + (f"; or did you mean the unit `{near}`?" if near else "")
-        raise Complaint(f"after the number {number} stands `{name}`, which is no unit", hint)
+        raise ModelProblem(f"after the number {number} stands `{name}`, which is no unit", hint)
     return found
 
 

@@ -177,8 +177,8 @@ def one_of(what: str, hint: str, **kinds: Any) -> Any:
         member = Annotated[type_, Tag(f"<{word}>")]
         union = member if union is None else union | member
     # The message holds both sentences, because a context would make the type unhashable.
-    told = Discriminator(kind, custom_error_type="freebody", custom_error_message=f"{what}\n{hint}")
-    return Annotated[union, told]
+    stated = Discriminator(kind, custom_error_type="freebody", custom_error_message=f"{what}\n{hint}")
+    return Annotated[union, stated]
 
 
 Line = one_of(

@@ -6,7 +6,7 @@ from typing import Any
 
 from . import syntax, units
 from .arithmetic import Number
-from .errors import Complaint, Consequence, Path
+from .errors import Consequence, ModelProblem, Path
 from .meanings import Meanings
 from .names import TOKEN, replace_names, spell, suggestion, unquote
 from .scope import Scope
@@ -38,11 +38,11 @@ class Writer:
             found, dimension = self.number_of(value)
             self._check_dimension(path, value, dimension, unit)
             if positive and (size := self.scope.parameters.number(value)) < 0:
-                raise Complaint(f"{positive} cannot be negative; `{value}` is {size:g}", "check its sign")
+                raise ModelProblem(f"{positive} cannot be negative; `{value}` is {size:g}", "check its sign")
             return found
         except Consequence:
             return 0.0
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
             return 0.0
 
@@ -57,7 +57,7 @@ class Writer:
         """The value of a number of the model; None where it has none."""
         try:
             return self.scope.parameters.number(value)
-        except Complaint:
+        except ModelProblem:
             return None
 
     def pair(self, path: Path, values: list[Any], unit: str = "m") -> list[Number]:
@@ -74,7 +74,7 @@ class Writer:
             found, dimension = self.measured(text, local)
             self._check_dimension(path, text, dimension, unit)
             return found
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
             return "0"
 
@@ -82,11 +82,11 @@ class Writer:
         """The dimension of an expression; None when it fits anywhere or is wrong."""
         try:
             return self.measured(text)[1]
-        except Complaint:
+        except ModelProblem:
             return None
 
     def measured(self, text: Any, local: str = "") -> tuple[str, Dimension | None]:
-        """An expression with its dimension (None: fits anywhere). Raises ``Complaint``."""
+        """An expression with its dimension (None: fits anywhere). Raises ``ModelProblem``."""
         if not isinstance(text, str):
             return repr(float(text)), None
         if (quantity := units.quantity(text)) is not None:
@@ -101,7 +101,7 @@ class Writer:
         return expression.text, measure.of(expression.tree)
 
     def number_of(self, value: Any) -> tuple[Number, Dimension | None]:
-        """A number of the model with its dimension (None: fits anywhere). Raises ``Complaint``."""
+        """A number of the model with its dimension (None: fits anywhere). Raises ``ModelProblem``."""
         if not isinstance(value, str):
             return float(value), None
         if (quantity := units.quantity(value)) is not None:
@@ -111,7 +111,7 @@ class Writer:
             kind = self.meanings.values.get(name, ("constant" if name == "pi" else "",))[0]
             if name == "t" or kind not in ("parameter", "constant", ""):
                 what = "the time" if name == "t" else f"a {kind}"
-                raise Complaint(
+                raise ModelProblem(
                     f"`{name}` is {what}; this number cannot change with the motion", "it may depend on parameters only"
                 )
             if not kind:
@@ -130,7 +130,7 @@ class Writer:
         hint = f"write it in {wanted.unit()}, or in a unit of the same kind" if wanted.unit() else "write a plain number"
         if words and units.quantity(str(text)) is not None:
             hint = f"after a number, `{words[0]}` is read as a unit; for the parameter write a product, `*{words[0]}`"
-        raise Complaint(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
+        raise ModelProblem(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
 
     def _check_arguments(self, tree: syntax.Tree) -> None:
         match tree:
@@ -150,12 +150,12 @@ class Writer:
         kinds = wanted.rstrip("?")
         if len(arguments) != len(kinds) and not (wanted.endswith("?") and not arguments):
             shown = ", ".join(_KINDS[k] for k in kinds)
-            raise Complaint(
+            raise ModelProblem(
                 f"`{name}` takes {len(kinds)} argument{'s'[: len(kinds) > 1]}, not {len(arguments)}", f"write `{name}({shown})`"
             )
         for kind, argument in zip(kinds, arguments, strict=False):
             if "name" not in argument:
-                raise Complaint(f"`{name}` reads a {_KINDS[kind]}, not a number", "write its name")
+                raise ModelProblem(f"`{name}` reads a {_KINDS[kind]}, not a number", "write its name")
             self._known(argument["name"], _KINDS[kind])
 
     def _in_full(self, text: str) -> str:
@@ -220,7 +220,7 @@ class Writer:
             if body and self._is(self.meanings.alias.get(own, own), kind):
                 return self.meanings.alias.get(own, own)
             return self._known(self.full(name if "." in name or not body else own.removeprefix(self.scope.prefix)), kind)
-        except Complaint as complaint:
+        except ModelProblem as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
             return "ground" if kind == "body" else "ground.O"
 
@@ -235,11 +235,11 @@ class Writer:
             what = (
                 f"`{short}` is a point, and a body is needed" if name in self.meanings.points else f"there is no body `{short}`"
             )
-            raise Complaint(what, suggestion(short.split(".")[0], self.meanings.seen_from(self.scope, self.meanings.bodies)))
+            raise ModelProblem(what, suggestion(short.split(".")[0], self.meanings.seen_from(self.scope, self.meanings.bodies)))
         if kind == "string":
             short = name.removeprefix(self.scope.prefix)
             known = self.meanings.seen_from(self.scope, self._all(kind))
-            raise Complaint(f"there is no string `{short}`", suggestion(short, known, "strings"))
+            raise ModelProblem(f"there is no string `{short}`", suggestion(short, known, "strings"))
         raise self.meanings.place(name, kind, self._all(kind), self.scope)
 
     def _all(self, kind: str) -> Any:

@@ -9,9 +9,9 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from freebody.symbolic.decimals import is_measured, measured
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.measured import is_measured, measured
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.to_sympy import from_sympy
 from freebody.symbolic.tree import MINUS_ONE, Fn, Num, Tree, symbols, walk

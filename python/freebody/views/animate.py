@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.results import Array
-from freebody.views.flashes import LASTING
-from freebody.views.paint import frame_axes, paint, paint_flashes
+from freebody.run.records import Array
+from freebody.views.impact_markers import LASTING
+from freebody.views.render import frame_axes, render, render_markers
 from freebody.views.scene import Scene, of_run
 from freebody.views.style import axes, colour, quiet
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 
 def animate(run: Run, path: str | Path, fps: int = 30, speed: float = 1.0, traces: Sequence[str] | None = None) -> Path:
@@ -93,7 +93,7 @@ def _frames(scene: Scene, ax: Axes, lasting: float) -> Iterator[None]:
     for k, t in enumerate(scene.t):
         for artist in shown:
             artist.remove()
-        shown = paint(scene, ax, k) + paint_flashes(scene, ax, t, lasting)
+        shown = render(scene, ax, k) + render_markers(scene, ax, t, lasting)
         for line, path in zip(lines, paths, strict=True):
             line.set_data(*path[: k + 1].T)
         clock.set_text(f"t = {t:.2f} s")

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, State
-from freebody.results import Array, plain
+from freebody.run.records import Array, plain
 from freebody.views import shapes
+from freebody.views.contact_glyphs import string_label
+from freebody.views.dimension_lines import digits, dimension_lines, place_of
 from freebody.views.labels import Label, place_labels
-from freebody.views.measures import digits, measures, place_of
-from freebody.views.paint import frame_axes, paint
+from freebody.views.render import frame_axes, render
 from freebody.views.scene import Scene, drawn
 from freebody.views.sketch import Sketch, sketch_of_state
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, axes, colour, quiet
-from freebody.views.touching import string_label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,11 +37,11 @@ class _Drawing:
     def __init__(self, sketch: Sketch, scene: Scene, ax: Axes) -> None:
         self.sketch, self.scene, self.ax = sketch, scene, ax
         self.labels: list[Label] = []
-        self.ink: list[Array] = []
+        self.obstacles: list[Array] = []
 
     def line(self, points: Array, tone: str, arrow: bool = False, **look: Any) -> None:
         """A polyline, with an arrow head at its end."""
-        self.ink.append(points)
+        self.obstacles.append(points)
         self.ax.plot(*points.T, color=tone, **{"lw": 1.3, "zorder": 4, **look})
         if arrow:
             head = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 11}
@@ -49,7 +49,7 @@ class _Drawing:
 
     def everything(self) -> Array:
         """Places (k, 2) all along what is drawn."""
-        lines = [*_lines_of(self.scene), *self.ink]
+        lines = [*_lines_of(self.scene), *self.obstacles]
         return np.vstack([_dense(line, 0.4 * self.scene.size) for line in lines] or [np.zeros((1, 2))])
 
     def say(self, text: str, anchor: Array, tone: str = INK, **look: Any) -> None:
@@ -66,7 +66,7 @@ def drawing(source: CompiledModel, state: State, ax: Axes | None = None, layers:
         sheet = _Drawing(sketch, scene, ax)
         ax.set_axis_off()
         frame_axes(scene, ax, margin=6.0)
-        paint(scene, ax)
+        render(scene, ax)
         for layer in layers:
             _LAYERS[layer](sheet)
         _make_room(sheet)
@@ -96,15 +96,15 @@ def _dense(line: Array, step: float) -> Array:
 
 def _make_room(sheet: _Drawing) -> None:
     """Wider axes for arrows that leave them, and lower ones where something is drawn in the corners of axes and gravity."""
-    ax, ink, room = sheet.ax, sheet.everything(), 3.0 * sheet.scene.size
-    low, high = ink.min(axis=0) - room, ink.max(axis=0) + room
+    ax, obstacles, room = sheet.ax, sheet.everything(), 3.0 * sheet.scene.size
+    low, high = obstacles.min(axis=0) - room, obstacles.max(axis=0) + room
     x0, x1 = min(ax.get_xlim()[0], low[0]), max(ax.get_xlim()[1], high[0])
     y0, y1 = min(ax.get_ylim()[0], low[1]), max(ax.get_ylim()[1], high[1])
     box = ax.get_position(original=True)
     width, height = 72 * ax.figure.get_figwidth() * box.width, 72 * ax.figure.get_figheight() * box.height
     corner = _CORNER * max((x1 - x0) / width, (y1 - y0) / height)
-    beside = (ink[:, 0] < x0 + corner) | (ink[:, 0] > x1 - corner)
-    y0 = min(y0, ink[beside, 1].min(initial=np.inf) - corner)
+    beside = (obstacles[:, 0] < x0 + corner) | (obstacles[:, 0] > x1 - corner)
+    y0 = min(y0, obstacles[beside, 1].min(initial=np.inf) - corner)
     ax.set(xlim=(x0, x1), ylim=(y0, y1))
 
 
@@ -128,8 +128,8 @@ def _draw_points(sheet: _Drawing) -> None:
     seen = [place for place in used if place is not None]
     for name in sheet.sketch.at:
         place = sheet.sketch.place(name)
-        told = name.rpartition(".")[2] not in UNTOLD
-        if told and not any(np.allclose(place, other, atol=0.2 * sheet.scene.size) for other in seen):
+        stated = name.rpartition(".")[2] not in UNTOLD
+        if stated and not any(np.allclose(place, other, atol=0.2 * sheet.scene.size) for other in seen):
             seen.append(place)
             sheet.line(np.array([place, place]), INK, marker="o", ms=3)
             sheet.say(name, place, GREY, size=8.5)
@@ -137,7 +137,7 @@ def _draw_points(sheet: _Drawing) -> None:
 
 def _draw_coordinates(sheet: _Drawing) -> None:
     """Every coordinate from its zero to its value."""
-    for measure in measures(sheet.sketch):
+    for measure in dimension_lines(sheet.sketch):
         dashes: Any = (0, (4, 3)) if measure.angle else "-"
         for guide in measure.guides:
             sheet.line(guide, _MEASURE, lw=0.9 if measure.angle else 0.7, ls=dashes)
@@ -226,7 +226,7 @@ def _draw_axes_and_gravity(sheet: _Drawing) -> None:
         look = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
         end = (start[0] + way[0], start[1] + way[1])
         transform = _offset(ax, corner)
-        sheet.ink.append(ax.transData.inverted().transform(transform.transform([start, np.array(start) + 1.3 * np.array(way)])))
+        sheet.obstacles.append(ax.transData.inverted().transform(transform.transform([start, np.array(start) + 1.3 * np.array(way)])))
         ax.annotate("", end, start, xycoords=transform, textcoords=transform, arrowprops=look, annotation_clip=False)
         beyond = np.array(end) + 8 * np.array(way) / np.hypot(*way)
         ax.annotate(text, tuple(beyond), xycoords=transform, color=tone, ha="center", va="center", fontsize=9.5, style="italic")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views.style import INK
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.results import Array, Signal, Window, quote, refined
+from freebody.run.records import Array, Signal, Window, quote, refined
 
 if TYPE_CHECKING:
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 
 _ROUND_OFF = 1e-9  # of the largest of its kind: below it a reaction is what rounding left

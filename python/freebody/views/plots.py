@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from freebody.results import Array, quote, unit_of
+from freebody.run.records import Array, quote, unit_of
 from freebody.views.style import DASHES, GROUND, IMPACT, axes, colour, quiet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 _JUMPS = 500  # at most so many gaps in a curve
 

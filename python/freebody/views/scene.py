@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, State
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views import shapes
-from freebody.views.flashes import LASTING, Flash, flashes
+from freebody.views.contact_glyphs import draw_contacts, draw_strings
+from freebody.views.glyphs import draw_forces, draw_joints
+from freebody.views.impact_markers import LASTING, ImpactMarker, impact_markers
 from freebody.views.sketch import Cord, Figure, Pair, Sketch, Stroke, named_points, sketch_of_state
-from freebody.views.symbols import draw_forces, draw_joints
-from freebody.views.touching import draw_contacts, draw_strings
 
 if TYPE_CHECKING:
     from freebody.core import CompiledModel
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 _OWN_POINTS = ("origin", "G", "centre", "start")
 
@@ -40,7 +40,7 @@ class Scene:
     t: Array
     poses: Array
     traces: list[str]
-    flashes: list[Flash] = field(default_factory=list)
+    impact_markers: list[ImpactMarker] = field(default_factory=list)
 
     def index(self, body: str) -> int:
         """Place of a body's figure."""
@@ -109,7 +109,7 @@ class Scene:
                 for c in self.cords
             ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
-            "flashes": [{"t": flash.t, "rays": flash.rays(self.spark).round(digits).tolist()} for flash in self.flashes],
+            "flashes": [{"t": marker.t, "rays": marker.rays(self.spark).round(digits).tolist()} for marker in self.impact_markers],
             "lasting": LASTING,
         }
 
@@ -123,7 +123,7 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     shown = run if times is None else run.at(times)
     start = State(run.start.p, float(shown.t[0]), shown.q[0], shown.u[0])
     scene = drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
-    return replace(scene, flashes=flashes(run))
+    return replace(scene, impact_markers=impact_markers(run))
 
 
 def of_state(source: CompiledModel, state: State, traces: Sequence[str] | None = None) -> Scene:

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, Limit, MotionError, State, there
-from freebody.results import Array, quote
+from freebody.run.records import Array, quote
 from freebody.views import shapes
 
 if TYPE_CHECKING:
     from freebody.core import CompiledModel
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 
 @dataclass(frozen=True)
@@ -142,12 +142,12 @@ class Sketch:
     def line(self, place: Mapping[str, Any] | str) -> tuple[str, Array, Array]:
         """Body, point (2,) and unit direction (2,) of a line, in the body's frame."""
         named = {line["name"]: line["line"] for line in self.spec.get("lines", [])}
-        told: Mapping[str, Any] = named[place] if isinstance(place, str) else place
-        body, point = self.at[told["point"]]
-        if told.get("towards"):
-            along = self.at[told["towards"]][1] - point
+        stated: Mapping[str, Any] = named[place] if isinstance(place, str) else place
+        body, point = self.at[stated["point"]]
+        if stated.get("towards"):
+            along = self.at[stated["towards"]][1] - point
             return body, point, along / np.hypot(*along)
-        angle = self.number(told.get("angle") or 0.0)
+        angle = self.number(stated.get("angle") or 0.0)
         return body, point, np.array([np.cos(angle), np.sin(angle)])
 
     def seen_from(self, body: str, name: str) -> Array:

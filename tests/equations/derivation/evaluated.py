@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from freebody.balances.states import Closing
-from freebody.balances.system import alike
-from freebody.equations.derivation.told import Subject
+from freebody.equations.balances.perturbed_states import Closing
+from freebody.equations.balances.system import alike
+from freebody.equations.derivation.data import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Add, Sym, Tree
 
@@ -18,7 +18,7 @@ STEP = 2e-3
 smooth, and round-off leaves less than that."""
 
 
-def numbers(subject: Subject) -> dict[Sym, float]:
+def numbers(subject: SymbolicState) -> dict[Sym, float]:
     """The numbers of all letters, places of bodies among them, as the form with constraints has them."""
     found = dict(subject.values)
     for body in subject.free.bodies.values():
@@ -29,7 +29,7 @@ def numbers(subject: Subject) -> dict[Sym, float]:
     return found
 
 
-def rate(tree: Tree, subject: Subject, values: Mapping[Sym, float] | None = None) -> float:
+def rate(tree: Tree, subject: SymbolicState, values: Mapping[Sym, float] | None = None) -> float:
     """d/dt of an expression of coordinates and rates along the true motion; all other letters, time too, stay as they are."""
     values, names = values or numbers(subject), [c["name"] for c in subject.coordinates]
     h = STEP / max(1.0, *(abs(values[Sym(n, 1)]) for n in names), *(abs(values[Sym(n, 2)]) ** 0.5 for n in names))
@@ -42,7 +42,7 @@ def rate(tree: Tree, subject: Subject, values: Mapping[Sym, float] | None = None
     return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h)
 
 
-def other_parameters(subject: Subject) -> Subject | None:
+def other_parameters(subject: SymbolicState) -> SymbolicState | None:
     """The same mechanism with no parameter as it was, what is closed or touches still so; None where it cannot be."""
     source, start = subject.source, subject.state
     given = zip(source.about["parameters"], start.p, np.random.default_rng(4).uniform(0.05, 0.15, len(start.p)), strict=True)
@@ -51,7 +51,7 @@ def other_parameters(subject: Subject) -> Subject | None:
     q = closing.place(start.q)
     if q is None:
         return None
-    other = Subject(source, closing.moving(q, start.u, start.t))
+    other = SymbolicState(source, closing.moving(q, start.u, start.t))
     return other if alike(other.free, subject.free) else None
 
 

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import freebody as fb
 from freebody.cli import app
 from freebody.equations.derivation import conserved
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.data import SymbolicState
 from freebody.symbolic.collect import collected, factored, quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, mul, power, read, symbols
@@ -64,7 +64,7 @@ def test_letters_set_to_numbers_are_gone():
 def test_the_smallest_set_gives_what_the_full_solve_gives(wanted):
     mechanism = fb.load(ROOT / GUN)
     found = mechanism.equations(want=wanted)
-    values = numbers(Subject(mechanism.source(), mechanism.start()[0]))
+    values = numbers(SymbolicState(mechanism.source(), mechanism.start()[0]))
     matrix, right = (
         [[evaluate(x, values) for x in row] for row in rows] for rows in (found.mass_matrix, [found.right_hand_side])
     )
@@ -80,7 +80,7 @@ def test_what_is_not_unknown_is_told():
 @pytest.mark.parametrize("path", ["examples/four_bar.yaml", "systems/19.3.5/model.yaml", "systems/S19.18/model.yaml"])
 def test_energy_that_is_said_to_be_conserved_has_no_rate(path):
     mechanism = fb.load(ROOT / path)
-    subject = Subject(mechanism.source(), mechanism.start()[0])
+    subject = SymbolicState(mechanism.source(), mechanism.start()[0])
     assert abs(rate(conserved.total(subject), subject)) < 1e-9
 
 

@@ -7,9 +7,9 @@ import pytest
 from evaluated import numbers, off, other_parameters, rate
 from store import ANSWERED, derived, elsewhere, every, subject
 
+from freebody.document.blocks import Equation, is_tree
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.document import Equation, is_tree
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import add
 
@@ -105,8 +105,8 @@ def power(load, bodies):
 def same_signs(found, moved, values, tables):
     """A row of the matrix form is its printed equation, also in sign: both are off alike where the unknowns are others."""
     for part, row in zip(found.parts, found.content.system.residuals, strict=True):
-        printed, told = (evaluate(tree, values | moved, tables) for tree in (part.residual, row))
-        assert told == pytest.approx(printed, rel=1e-6, abs=1e-6), part.title
+        printed, stated = (evaluate(tree, values | moved, tables) for tree in (part.residual, row))
+        assert stated == pytest.approx(printed, rel=1e-6, abs=1e-6), part.title
 
 
 def agrees(found, values, tables):

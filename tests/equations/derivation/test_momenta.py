@@ -7,8 +7,8 @@ from store import ANSWERED, MODELS, elsewhere, every, mechanism, start, subject
 
 import freebody as fb
 from freebody.core import State
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.momenta import momenta
-from freebody.equations.derivation.told import Subject
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym
 
@@ -16,7 +16,7 @@ from freebody.symbolic.tree import Sym
 def told(text):
     """Bodies, the point or direction, and whether it turns, of all that is told of a model."""
     made = fb.Mechanism.loads(text)
-    found = momenta(Subject(made.source(), made.start()[0]))
+    found = momenta(SymbolicState(made.source(), made.start()[0]))
     return {("+".join(each.found.bodies), each.found.twist.name) for each in found}
 
 
@@ -39,7 +39,7 @@ def test_what_is_told_is_constant_along_a_simulated_motion(name):
     for each in found:
         values = []
         for t, q, u in zip(run.t, run.q, run.u, strict=True):
-            at = Subject(source, State(state.p, float(t), q, u))
+            at = SymbolicState(source, State(state.p, float(t), q, u))
             letters = at.values | dict(zip(map(Sym, names), q, strict=True))
             values.append(evaluate(each.momentum, letters, at.tables))
         assert np.ptp(values) < 1e-7 * max(1.0, np.abs(values).max())

@@ -43,8 +43,8 @@ def test_the_equations_hold_no_reaction_and_are_as_many_as_the_degrees_of_freedo
     rates = np.array([[evaluate(tree, values, first.tables) for tree in power.rates.values()] for power in found])
     held = [
         [row.coefficients[n] for n in names]
-        for row, told in zip(first.free.rows, first.rows, strict=True)
-        if told.kind != "motion"
+        for row, stated in zip(first.free.rows, first.rows, strict=True)
+        if stated.kind != "motion"
     ]
     if np.linalg.matrix_rank(held) == len(names) - len(found):
         assert np.linalg.matrix_rank(rates) == len(found)

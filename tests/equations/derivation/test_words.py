@@ -7,13 +7,13 @@ from evaluated import numbers
 from store import ANSWERED, every, subject
 
 import freebody as fb
-from freebody.balances.reasons import agree
-from freebody.balances.smallest import smallest_set
-from freebody.balances.states import nearby
 from freebody.core import GROUND
-from freebody.equations.derivation.opening import degrees, directions
-from freebody.equations.derivation.told import Subject
-from freebody.naming import load_words
+from freebody.equations.balances.perturbed_states import nearby
+from freebody.equations.balances.reasons import agree
+from freebody.equations.balances.smallest import smallest_set
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.derivation.preamble import degrees, directions
+from freebody.solve.symbols import load_words
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, minus, symbols
 
@@ -61,7 +61,7 @@ def written(tmp_path):
         path = tmp_path / "model.yaml"
         path.write_text(text)
         mechanism = fb.load(path)
-        return mechanism, Subject(mechanism.source(), mechanism.start()[0])
+        return mechanism, SymbolicState(mechanism.source(), mechanism.start()[0])
 
     return load
 
@@ -98,7 +98,7 @@ def test_directions_along_links_are_along_them(model):
 def test_degrees_of_freedom_are_the_accelerations_that_what_is_closed_leaves(model):
     """Rows of independent equations take one each: here by the null space, in the code by the rank."""
     at = subject(model)
-    rows = [row for row, told in zip(at.free.rows, at.rows, strict=True) if told.kind != "motion"]
+    rows = [row for row, stated in zip(at.free.rows, at.rows, strict=True) if stated.kind != "motion"]
     table = np.array([list(row.coefficients.values()) for row in rows]).reshape(-1, len(at.coordinates))
     sizes = np.linalg.svd(table, compute_uv=False)
     assert degrees(at) == len(at.coordinates) - int((sizes > 1e-7 * max(1.0, sizes.max(initial=0.0))).sum())

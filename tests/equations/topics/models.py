@@ -9,8 +9,8 @@ import numpy as np
 
 import freebody as fb
 from freebody.equations import from_sympy
-from freebody.equations.derivation.told import Subject
-from freebody.equations.given import given
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.substitutions import given
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 
@@ -20,16 +20,16 @@ def system(name: str) -> fb.Mechanism:
     return fb.load(SYSTEMS / name / "model.yaml")
 
 
-def random_subjects(mechanism: fb.Mechanism, number: int = 3, seed: int = 3) -> Iterator[Subject]:
+def random_subjects(mechanism: fb.Mechanism, number: int = 3, seed: int = 3) -> Iterator[SymbolicState]:
     """A mechanism at states near its start, its parameters, coordinates and (in open trees) rates moved at random."""
-    first = Subject(mechanism.source(), mechanism.start()[0])
+    first = SymbolicState(mechanism.source(), mechanism.start()[0])
     rng = np.random.default_rng(seed)
     found = 0
     for _ in range(10 * number):
         state = given(mechanism, {}).near(first, rng)
         if state is not None and found < number:
             found += 1
-            yield Subject(first.source, state)
+            yield SymbolicState(first.source, state)
     assert found == number
 
 

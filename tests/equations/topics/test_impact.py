@@ -7,8 +7,8 @@ from numpy.testing import assert_allclose
 import freebody as fb
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.topics.blow import after, blow
-from freebody.equations.topics.jumps import jumps
+from freebody.equations.topics.impact_equations import after, blow
+from freebody.equations.topics.impulse_momentum import jumps
 from freebody.symbolic.simplify import equal
 
 

@@ -9,7 +9,7 @@ import freebody as fb
 from freebody.cli import app
 from freebody.equations import Num, Sym, evaluate, symbols, to_sympy
 from freebody.equations.answers import Answers, solve_in_letters
-from freebody.equations.derivation.told import Subject
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.solve import TooLarge
 from freebody.symbolic.simplify import equal
 
@@ -155,7 +155,7 @@ def test_reactions_of_a_loop_by_its_accelerations() -> None:
     """The pin of a moving four-bar: its force is told by θ̈, β̈, φ̈, and these by ratios, at a state of the program's own."""
     mechanism = system("S19.21")
     answers = mechanism.solve_in_letters(["theta", "D.Fx"])
-    subject = Subject(mechanism.source(), mechanism.start()[0])
+    subject = SymbolicState(mechanism.source(), mechanism.start()[0])
     assert symbols(answers["D.Fx"]) & {Sym("theta", 2), Sym("phi", 2)}
     known = {x: v for x, v in subject.values.items() if x.dots < 2 and x.name != "D.Fx"}
     assert value(answers, "D.Fx", known) == pytest.approx(subject.values[Sym("D.Fx")], rel=1e-9)

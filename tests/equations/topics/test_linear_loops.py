@@ -12,10 +12,10 @@ from numpy.testing import assert_allclose
 
 import freebody as fb
 from freebody.core import State
-from freebody.equations.departures import Held, held, linearised, numbers, place_of
-from freebody.equations.derivation.told import Subject
-from freebody.equations.equilibrium import rest_near
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.linearization import Held, held, linearised, numbers, place_of
 from freebody.equations.topics import NotHere, topic
+from freebody.solve.equilibrium import rest_near
 from freebody.symbolic.evaluate import evaluate
 
 DAMPED = """
@@ -102,18 +102,18 @@ def leaning(more: str) -> tuple[fb.Mechanism, State]:
 CLOSED = {"slider-crank": lambda: slider_crank(theta="-80 deg"), "four-bar": four_bar, "platform on links": swing}
 
 
-def at_rest(make) -> tuple[fb.Mechanism, Subject, Held]:
+def at_rest(make) -> tuple[fb.Mechanism, SymbolicState, Held]:
     mechanism, state = make()
     rest = rest_near(mechanism.source(), state)
     assert rest is not None
-    subject = Subject(mechanism.source(), rest, at_rest=True).with_numbers(
+    subject = SymbolicState(mechanism.source(), rest, at_rest=True).with_numbers(
         [p["name"] for p in mechanism.source().about["parameters"]]
     )
     put = place_of(subject)
     return mechanism, subject, held(subject, linearised(subject, put), put)
 
 
-def frequency(subject: Subject, found: Held) -> float:
+def frequency(subject: SymbolicState, found: Held) -> float:
     m, k = numbers(subject, found.equations.mass), numbers(subject, found.equations.stiffness)
     return float(np.sqrt(np.linalg.eigvals(np.linalg.solve(m, k)).real.min()))
 
@@ -164,7 +164,7 @@ def test_a_small_swing_has_the_period_of_the_eigenvalue(name: str) -> None:
     assert_allclose(run[free][-2:] - lowest, [-beside, beside], atol=2 * beside**2)
 
 
-def guess(subject: Subject, free: str) -> dict[str, float]:
+def guess(subject: SymbolicState, free: str) -> dict[str, float]:
     return {c["name"]: float(x) for c, x in zip(subject.coordinates, subject.state.q, strict=True) if c["name"] != free}
 
 

@@ -65,13 +65,13 @@ def waiting(tmp_path: Path) -> fb.Mechanism:
 
 @pytest.mark.parametrize("form", ["minimal", "brute", "constraints", "lagrange", "linear"])
 def test_no_form_tells_of_what_is_not_in_place(tmp_path: Path, form: str) -> None:
-    told = []
+    stated = []
     for name, parts in (("bars", {}), ("waiting", PARTS)):
         model(tmp_path, name, **parts)
         done = CliRunner().invoke(app, ["equations", str(tmp_path / f"{name}.yaml"), "--form", form])
         assert done.exit_code == 0, done.output
-        told.append(done.output)
-    assert told[0] == told[1]
+        stated.append(done.output)
+    assert stated[0] == stated[1]
 
 
 def test_what_is_not_in_place_does_no_work(bars: fb.Mechanism, waiting: fb.Mechanism) -> None:

@@ -43,26 +43,26 @@ def said(text: str) -> str:
 
 def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
     """s² (s² + (M + m) g/(M l)) = 0: the mass centre keeps its speed. Meirovitch, Elements of Vibration Analysis, ch. 4, of semidefinite systems."""
-    told = said(CART)
-    assert "s² (s² + (M + m) g/(M l)) = 0" in told and "± √((M + m) g/(M l)) i" in told
-    assert "Nothing brings back x: with any small constant speed it drifts on" in told
-    assert "Apart from that small departures of x, θ stay small and oscillate" in told
+    stated = said(CART)
+    assert "s² (s² + (M + m) g/(M l)) = 0" in stated and "± √((M + m) g/(M l)) i" in stated
+    assert "Nothing brings back x: with any small constant speed it drifts on" in stated
+    assert "Apart from that small departures of x, θ stay small and oscillate" in stated
     run = fb.Mechanism.loads(CART).simulate(50.0, initial={"rates": {"x": 1e-3, "theta": 0}}, t_eval=[50.0])
     assert run["x"][-1] > 0.02 and abs(run["theta"][-1]) < 1e-3
 
 
 def test_a_cart_that_rubs_stays_where_it_comes_to_rest() -> None:
     """With −c ẋ the root 0 is single: nothing drifts, and the rest dies out, as the cart takes part in all of it."""
-    told = said(CART + DRAG)
-    assert "Nothing brings back x: a small departure stays as it is." in told and "drift" not in told
-    assert "Apart from that small departures of x, θ die out for all values" in told
+    stated = said(CART + DRAG)
+    assert "Nothing brings back x: a small departure stays as it is." in stated and "drift" not in stated
+    assert "Apart from that small departures of x, θ die out for all values" in stated
 
 
 def test_matrices_do_not_take_letters_of_the_model() -> None:
     """The mass M of the cart stands in the matrix 𝐌, the coordinate x in the vector 𝐱."""
     mechanism = fb.Mechanism.loads(CART)
-    told = topic(mechanism, "linear").text()
-    assert "𝐌 = ⎡ M + m  m l  ⎤" in told and "𝐱 = (x, θ)" in told and "𝐂 = 0" in told
+    stated = topic(mechanism, "linear").text()
+    assert "𝐌 = ⎡ M + m  m l  ⎤" in stated and "𝐱 = (x, θ)" in stated and "𝐂 = 0" in stated
     assert r"\mathbf{M} = \begin{bmatrix}" in topic(mechanism, "linear").latex()
 
 
@@ -88,18 +88,18 @@ def test_equal_pendulums(name: str) -> None:
 
 def test_upside_down_it_falls() -> None:
     """Upright the polynomial is s² (s² − (M + m) g/(M l))."""
-    told = " ".join(topic(fb.Mechanism.loads(CART), "linear", theta="180 deg").text().split())
-    assert "grow, whatever the values of the letters: it is unstable" in told
+    stated = " ".join(topic(fb.Mechanism.loads(CART), "linear", theta="180 deg").text().split())
+    assert "grow, whatever the values of the letters: it is unstable" in stated
 
 
 def test_two_equal_rods_hang_from_each_other() -> None:
     """ω² = (3 ± 6/√7) g/l. Timoshenko & Young, Advanced Dynamics, of two bars."""
     path = SYSTEMS / "19.3.28" / "model.yaml"
-    told = topic(fb.load(path), "linear", phi1=0, phi2=0).text()
+    stated = topic(fb.load(path), "linear", phi1=0, phi2=0).text()
     l = fb.load(path).start()[0].p[[p["name"] for p in fb.load(path).source().about["parameters"]].index("l")]
     for sign in (1, -1):
-        assert f"± {np.sqrt((3 + sign * 6 / np.sqrt(7)) * 9.81 / l):.5g} i" in told
-    assert told.count("± √(") == 2 and "stay small and oscillate for all values" in " ".join(told.split())
+        assert f"± {np.sqrt((3 + sign * 6 / np.sqrt(7)) * 9.81 / l):.5g} i" in stated
+    assert stated.count("± √(") == 2 and "stay small and oscillate for all values" in " ".join(stated.split())
 
 
 HAND = """
@@ -121,7 +121,7 @@ def test_a_hand_that_follows_a_law_is_part_of_what_is_left() -> None:
     l, p, d, x, v, g = 1.5, 30.0, 7.0, 1.0, 1.5, 9.81
     kappa = 3 / (2 * l)
     roots = np.roots([1, kappa * d - v, kappa * (p - g) - x, kappa * g * v, kappa * g * x])
-    told = said(HAND)
+    stated = said(HAND)
     for root in roots:
-        assert f"{abs(root.imag):.5g} i 1/s" in told, (root, told[-300:])
-    assert "the law of hold last" in told
+        assert f"{abs(root.imag):.5g} i 1/s" in stated, (root, stated[-300:])
+    assert "the law of hold last" in stated

@@ -174,9 +174,9 @@ joints: {roll: {type: rolling, circle: {centre: disk.centre, radius: r}, on: gro
 initial: {s: 0}
 """
     answers = fb.Mechanism.loads(rolling).solve_in_letters(["s", "roll.Fs"], limits={"alpha": 0, "r": "inf"})
-    told = str(answers)
-    assert equal(answers["s"], tree("2*g*sin(alpha)/3", "g alpha")) and "With s̈ as above" in told
-    assert told.count("α → 0:") == 1 and told.count("r → ∞:") == 1 and told.count("(1)") == 1
+    stated = str(answers)
+    assert equal(answers["s"], tree("2*g*sin(alpha)/3", "g alpha")) and "With s̈ as above" in stated
+    assert stated.count("α → 0:") == 1 and stated.count("r → ∞:") == 1 and stated.count("(1)") == 1
 
 
 def test_what_is_unknown_is_named_with_the_coordinates() -> None:

@@ -13,12 +13,12 @@ import freebody as fb
 from freebody.cli import app
 from freebody.cli.equations import Form
 from freebody.core import State
+from freebody.document.blocks import Equation
 from freebody.equations import Sym, evaluate, symbols
-from freebody.equations.departures import linearised, numbers
 from freebody.equations.derivation.coordinates import stated
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.derive import FORMS
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Equation
+from freebody.equations.linearization import linearised, numbers
 from freebody.equations.topics import TOPICS, NotHere, topic
 from freebody.equations.topics.common import moving_names, place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
@@ -30,7 +30,7 @@ TREES = ["19.3.1", "19.3.10", "19.3.15", "19.3.17", "19.3.20", "19.3.28", "EX-BL
 LOOPS = ["GEN-FOURBAR", "GEN-SLIDER", "S19.21", "S19.22"]
 
 
-def value(subject: Subject, tree: Tree, more: dict | None = None) -> float:
+def value(subject: SymbolicState, tree: Tree, more: dict | None = None) -> float:
     return float(evaluate(tree, subject.values | (more or {}), subject.tables))
 
 
@@ -70,7 +70,7 @@ def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict[str,
     state = mechanism.start()[0]
     rest = np.array([place.get(c["name"], 0.0) for c in mechanism.source().about["coordinates"]])
     still = State(state.p, 0.0, rest, np.zeros_like(state.u))
-    subject = Subject(mechanism.source(), still, at_rest=True)
+    subject = SymbolicState(mechanism.source(), still, at_rest=True)
     found = linearised(subject, {})
     m, c, k = (numbers(subject, matrix) for matrix in (found.mass, found.damping, found.stiffness))
     core, h = mechanism.compile(), 1e-6
@@ -112,9 +112,9 @@ def test_moving_frame(name: str) -> None:
     for subject in random_subjects(system(name), 2):
         bodies = [motion.body for motion in subject.motions]
         for body, point in pairwise(bodies):
-            told = subject.ask([{"ask": "frame", "point": f"{point}.G", "body": body}])[0]
+            stated = subject.ask([{"ask": "frame", "point": f"{point}.G", "body": body}])[0]
             parts = {
-                word: [value(subject, read(x)) for x in told[word]["xy"]] for word in told if word[0] in "va" and word != "alpha"
+                word: [value(subject, read(x)) for x in stated[word]["xy"]] for word in stated if word[0] in "va" and word != "alpha"
             }
             truth = subject.free.bodies[point]
             assert_allclose(np.add(parts["v_transport"], parts["v_relative"]), truth.v, atol=1e-10)

@@ -14,7 +14,7 @@ from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit, walk
 
 from ...model import units
-from ...model.errors import Complaint
+from ...model.errors import ModelProblem
 from .statements import Equation, Partial, Rate
 from .tokens import Names, Token
 
@@ -388,7 +388,7 @@ class Line:
         """The unit that a text is, read up to ``end``; None where it is none."""
         try:
             size = float(units.unit(written).size)
-        except Complaint:
+        except ModelProblem:
             return None
         self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
         return Unit(size, written.strip(), span=(start + len(written) - len(written.lstrip()), end))

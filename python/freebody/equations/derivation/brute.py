@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from freebody.equations.derivation import closing
-from freebody.equations.derivation.balancing import Stated
+from freebody.document.blocks import Block, Equation, Heading, Paragraph
+from freebody.equations.derivation import loop_closure
+from freebody.equations.derivation.balance_text import Stated
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Equation, Heading, Paragraph
 
 
-def brute(subject: Subject) -> Form:
+def brute(subject: SymbolicState) -> Form:
     """The form of a subject."""
     stated = _stated(subject)
     rows = subject.rows
     equations = [Printed(s.title, *s.sides, s.linear) for s in stated]
-    made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
-    form = Form.of(subject.letters, equations + closing.printed(rows), [])
+    made: list[Block] = loop_closure.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
+    form = Form.of(subject.letters, equations + loop_closure.printed(rows), [])
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(stated)))]
     body = ""
     for s in stated:
@@ -26,7 +26,7 @@ def brute(subject: Subject) -> Form:
     return Form(form.equations, tuple(made), form.system, form.reactions)
 
 
-def _stated(subject: Subject) -> list[Stated]:
+def _stated(subject: SymbolicState) -> list[Stated]:
     asked, places = [], []
     for body in subject.motions:
         asked += [{"ask": "equation", "bodies": [body.body], "along": axis} for axis in "xy"]
@@ -38,7 +38,7 @@ def _stated(subject: Subject) -> list[Stated]:
     return [Stated(b, *place, str(i)) for i, (b, place) in enumerate(zip(found, places, strict=True), 1)]
 
 
-def _introduction(subject: Subject, form: Form, number: int) -> str:
+def _introduction(subject: SymbolicState, form: Form, number: int) -> str:
     unknowns = form.system.unknowns
     moving, reactions = sum(1 for x in unknowns if x.dots), sum(1 for x in unknowns if not x.dots)
     parts = [f"{moving} acceleration{'s' * (moving != 1)}"] if moving else []

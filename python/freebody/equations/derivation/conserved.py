@@ -4,47 +4,47 @@ from __future__ import annotations
 
 import re
 
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.derivation import momenta
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
 from freebody.symbolic.tree import Sym, Tree, add, read, symbols
 
 _CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
 
 
-def section(subject: Subject, in_letters: bool = True) -> list[Block]:
+def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
     """Every quantity that stays constant, with its reason, or why none does; ``in_letters``: and what it is in the coordinates."""
     made: list[Block] = [Heading("Conserved quantities"), *(_energy(subject) if in_letters else _energy_words(subject))]
     return made + momenta.section(subject, in_letters)
 
 
-def energy(subject: Subject) -> tuple[Tree, Tree, str]:
+def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:
     """Kinetic and potential energy, and why their sum is not constant (empty if it is)."""
-    told = subject.ask([{"ask": "energy"}])[0]
-    kinetic, potential = read(told["kinetic"]), read(told["potential"])
-    return kinetic, potential, _losses(subject, told["without_potential"], symbols(kinetic, potential))
+    stated = subject.ask([{"ask": "energy"}])[0]
+    kinetic, potential = read(stated["kinetic"]), read(stated["potential"])
+    return kinetic, potential, _losses(subject, stated["without_potential"], symbols(kinetic, potential))
 
 
-def energies(subject: Subject) -> tuple[Written, Written]:
+def energies(subject: SymbolicState) -> tuple[Written, Written]:
     """How the kinetic and the potential energy are written."""
     kinetic, potential = (subject.symbols.quantity(f"E_{word[0]}", f"{word} energy") for word in ("kinetic", "potential"))
     made = (Written(name.unicode(), re.sub("(?<=^E_)([kp])$", r"\\mathrm{\1}", name.latex())) for name in (kinetic, potential))
     return next(made), next(made)
 
 
-def _losses(subject: Subject, without: list[str], letters: set[Sym]) -> str:
+def _losses(subject: SymbolicState, without: list[str], letters: set[Sym]) -> str:
     motions = [load.name for load in subject.free.loads if load.kind == "motion"]
     laws = {letter.name for letter, _ in subject.laws}
-    rubs = list(dict.fromkeys(load.name for load in subject.free.loads if load.follows or load.symbol in laws))
+    has_friction = list(dict.fromkeys(load.name for load in subject.free.loads if load.follows or load.symbol in laws))
     why = [f"{joined(names)} {'does' if len(names) == 1 else 'do'} work that no potential has" for names in [without] if names]
     why += [f"the motion of {joined(list(dict.fromkeys(motions)))} is prescribed, which takes work"] if motions else []
-    why += [f"{joined(rubs)} {'rubs' if len(rubs) == 1 else 'rub'}"] if rubs else []
+    why += [f"{joined(has_friction)} {'rubs' if len(has_friction) == 1 else 'rub'}"] if has_friction else []
     why += ["the potential depends on time"] if Sym("t") in letters else []
     return "; ".join(why)
 
 
-def _energy(subject: Subject) -> list[Block]:
+def _energy(subject: SymbolicState) -> list[Block]:
     kinetic, potential, why = energy(subject)
     left, right = energies(subject)
     made: list[Block] = [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
@@ -53,7 +53,7 @@ def _energy(subject: Subject) -> list[Block]:
     return [*made, Paragraph(_CONSERVED)]
 
 
-def _energy_words(subject: Subject) -> list[Block]:
+def _energy_words(subject: SymbolicState) -> list[Block]:
     *_, why = energy(subject)
     said = (
         f"is not conserved: {why}."
@@ -63,7 +63,7 @@ def _energy_words(subject: Subject) -> list[Block]:
     return [Paragraph(f"The sum of kinetic and potential energy {said}")]
 
 
-def total(subject: Subject) -> Tree | None:
+def total(subject: SymbolicState) -> Tree | None:
     """The energy, where it is conserved."""
     kinetic, potential, why = energy(subject)
     return None if why else add(kinetic, potential)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from freebody.equations.derivation import closing
+from freebody.document.blocks import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
+from freebody.equations.derivation import loop_closure
+from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.system import System
-from freebody.equations.derivation.told import Row, Subject
-from freebody.equations.document import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
 from freebody.equations.linear import Linear
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name, Renamed
@@ -32,24 +32,24 @@ _STARTS = {"place_x": "x", "place_y": "y", "angle": "phi", "x": "x", "y": "y", "
 """How a letter of the core begins: the long words where a parameter of the model has the usual name."""
 
 
-def constrained(subject: Subject) -> tuple[Form, Letters]:
+def constrained(subject: SymbolicState) -> tuple[Form, Letters]:
     """The form of a subject, and its letters: the places of the bodies are the coordinates here."""
-    told = subject.ask([{"ask": "constraints"}])[0]
-    names = told["coordinates"]
-    rows = [Row.read(each) for each in told["rows"]]
-    equations = [_balance(each) for each in told["balances"]]
+    stated = subject.ask([{"ask": "constraints"}])[0]
+    names = stated["coordinates"]
+    rows = [Row.read(each) for each in stated["rows"]]
+    equations = [_balance(each) for each in stated["balances"]]
     made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names)), _sketch(subject)]
     if rows:
-        made += closing.section(rows, names, everywhere=True)
+        made += loop_closure.section(rows, names, everywhere=True)
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
     letters = _letters(names, subject)
-    form = Form.of(letters, equations + closing.printed(rows), [])
+    form = Form.of(letters, equations + loop_closure.printed(rows), [])
     made += _in_blocks(form.system, len(equations))
     return replace(form, blocks=tuple(made)), letters
 
 
-def _sketch(subject: Subject) -> Figure:
+def _sketch(subject: SymbolicState) -> Figure:
     """The mechanism with the place of every body."""
     from freebody.views.diagram.configuration import Places
 
@@ -101,7 +101,7 @@ def _balance(data: dict) -> Printed:
     return Printed(f"{where} for {data['body']}", left, right, Linear.read(data["linear"]))
 
 
-def _letters(names: list[str], subject: Subject) -> Letters:
+def _letters(names: list[str], subject: SymbolicState) -> Letters:
     found: dict[str, Letter] = {}
     known, renamed = subject.letters, dict(subject.letters.renamed)
     for name in names:

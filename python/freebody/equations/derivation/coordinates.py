@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from freebody.core.cards import Coordinate, joints
-from freebody.equations.derivation.balancing import Stated, named_place, numbers, pin
-from freebody.equations.derivation.told import Balance, Subject
+from freebody.equations.derivation.balance_text import Stated, named_place, numbers, pin
+from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, is_zero
 
 
-def stated(subject: Subject) -> list[Stated]:
+def stated(subject: SymbolicState) -> list[Stated]:
     """One equation for every coordinate of the tree; no reaction of a joint of the tree is in any of them."""
     asked = [_question(subject, coordinate) for coordinate in subject.coordinates]
     found = subject.balances(asked)
@@ -24,20 +24,20 @@ def stated(subject: Subject) -> list[Stated]:
     ]
 
 
-def _sense(subject: Subject, name: str, balance: Balance) -> int:
+def _sense(subject: SymbolicState, name: str, balance: Balance) -> int:
     """The sign with which the acceleration of a coordinate stands in its balance: 0 where nothing is moved."""
     inertia = balance.linear.coefficients.get(Sym(name, 2), ZERO)
     return int(np.sign(evaluate(inertia, subject.values, subject.tables)))
 
 
-def _question(subject: Subject, coordinate: Mapping[str, Any]) -> dict[str, Any]:
+def _question(subject: SymbolicState, coordinate: Mapping[str, Any]) -> dict[str, Any]:
     joint = _joint(subject, coordinate)
     if _card(joint, coordinate).across and joint.get("reaction") and (carried := _particle(subject, joint)):
         return {"ask": "equation", "bodies": [carried], "along": {"across": _load(subject, joint["name"])}}
     return {"ask": "coordinate", "name": coordinate["name"]}
 
 
-def _particle(subject: Subject, joint: Mapping[str, Any]) -> str | None:
+def _particle(subject: SymbolicState, joint: Mapping[str, Any]) -> str | None:
     """The second body of a joint, if it is a particle that carries nothing."""
     name, about = joint["second"], subject.source.about
     particle = any(body["name"] == name and body["particle"] for body in about["bodies"])
@@ -45,17 +45,17 @@ def _particle(subject: Subject, joint: Mapping[str, Any]) -> str | None:
     return name if particle and not carries else None
 
 
-def _load(subject: Subject, joint: str) -> int:
+def _load(subject: SymbolicState, joint: str) -> int:
     return next(i for i, load in enumerate(subject.free.loads) if load.kind == "joint" and load.name == joint)
 
 
-def _joint(subject: Subject, coordinate: Mapping[str, Any]) -> Mapping[str, Any]:
+def _joint(subject: SymbolicState, coordinate: Mapping[str, Any]) -> Mapping[str, Any]:
     joints = subject.source.about["joints"]
     free = {"type": "free", "name": coordinate["joint"]}
     return next((joint for joint in joints if joint["name"] == coordinate["joint"]), free)
 
 
-def _place(subject: Subject, coordinate: Mapping[str, Any], balance: Balance) -> tuple[str, str]:
+def _place(subject: SymbolicState, coordinate: Mapping[str, Any], balance: Balance) -> tuple[str, str]:
     """The point or direction in words, and the word before it."""
     joint = _joint(subject, coordinate)
     card, name = joints()[joint["type"]], joint["name"]

@@ -8,16 +8,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.derivation import conserved, matrices, opening
+from freebody.document.blocks import Block, Document, Equation, Heading
+from freebody.equations.derivation import conserved, matrices, preamble
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
-from freebody.equations.derivation.lengths import readable
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.sentences import lettered
-from freebody.equations.derivation.told import Subject
-from freebody.equations.derivation.wanted import wanted
-from freebody.equations.document import Block, Document, Equation, Heading
+from freebody.equations.derivation.single_unknown import wanted
+from freebody.equations.derivation.size_limits import readable
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.tree import Sym, Tree, symbols
 
@@ -115,7 +115,7 @@ class Equations:
         return self.latex()
 
 
-def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> Equations:
+def derive(subject: SymbolicState, form: str = "minimal", want: str | None = None) -> Equations:
     """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
@@ -136,7 +136,7 @@ def derive(subject: Subject, form: str = "minimal", want: str | None = None) -> 
 
 @dataclass(frozen=True)
 class _Writer:
-    subject: Subject
+    subject: SymbolicState
     form: str
     letters: Letters
     content: Form
@@ -150,12 +150,12 @@ class _Writer:
         )
         first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
         if self.form != "constraints":
-            first += opening.configuration(self.subject)
-        blocks = (*first, *opening.letters(self.letters, used(body)), *body)
+            first += preamble.configuration(self.subject)
+        blocks = (*first, *preamble.letters(self.letters, used(body)), *body)
         return Document(tuple(lettered(readable(block), self.letters) for block in blocks), self.letters)
 
     def _body(self) -> list[Block]:
-        kinematics = [] if self.form == "constraints" else opening.kinematics(self.subject)
+        kinematics = [] if self.form == "constraints" else preamble.kinematics(self.subject)
         laws = [
             Equation(*law, "The law of friction, as the joint slides now" if not i else "")
             for i, law in enumerate(self.subject.laws)

@@ -8,9 +8,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from freebody.document.blocks import Vector, Words, Written
+from freebody.equations.derivation.data import Arrow, Motion
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.told import Arrow, Motion
-from freebody.equations.document import Vector, Words, Written
 from freebody.symbolic.collect import factored
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import Name, Taken, latex_name, subscript, unicode_name
@@ -122,9 +122,9 @@ class Directions:
     def vector(self, arrow: Arrow) -> Vector:
         """A vector in these directions and i, j."""
         parts: list[tuple[Tree, str]] = [(arrow.i, self.axes[0]), (arrow.j, self.axes[1])]
-        told = {part.angle: part for part in arrow.parts}
-        for pair in (pair for pair in self.pairs if pair.angle in told):
-            x, y = told[pair.angle].along, told[pair.angle].across
+        stated = {part.angle: part for part in arrow.parts}
+        for pair in (pair for pair in self.pairs if pair.angle in stated):
+            x, y = stated[pair.angle].along, stated[pair.angle].across
             for _ in range(pair.quarters):
                 x, y = y, negative(x)
             parts += [(x, pair.along), (y, pair.across)]

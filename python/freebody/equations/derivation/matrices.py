@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Words
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.result import Form
 from freebody.equations.derivation.system import System
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Equation, Heading, MatrixEquation, Paragraph, Words
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym
@@ -17,7 +17,7 @@ _SAME = 1e-9
 _LOPSIDED = "That it is not symmetric is no slip: its rows are these balances, not Lagrange's equations."
 
 
-def section(form: str, content: Form, subject: Subject) -> list[Block]:
+def section(form: str, content: Form, subject: SymbolicState) -> list[Block]:
     """Matrix form and first-order form."""
     system = content.system
     if not system.unknowns:
@@ -37,7 +37,7 @@ def section(form: str, content: Form, subject: Subject) -> list[Block]:
     return made
 
 
-def _is_symmetric(system: System, subject: Subject) -> bool:
+def _is_symmetric(system: System, subject: SymbolicState) -> bool:
     rows = np.array([[evaluate(entry, subject.values, subject.tables) for entry in row] for row in system.matrix], float)
     return bool(np.abs(rows - rows.T).max() <= _SAME * np.abs(rows).max())
 

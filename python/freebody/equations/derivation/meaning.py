@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from freebody.equations.derivation.told import Subject
-from freebody.naming import load_words
+from freebody.equations.derivation.data import SymbolicState
+from freebody.solve.symbols import load_words
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name
 
 
-def meanings(subject: Subject) -> Letters:
+def meanings(subject: SymbolicState) -> Letters:
     """All letters in the order of the model: coordinates, parameters, what the model leaves without a name, unknowns, time."""
     table = subject.table
     found = {c["name"]: Letter(c["name"], "coordinate", c["dimension"] or "", plain(c["doc"])) for c in subject.coordinates}

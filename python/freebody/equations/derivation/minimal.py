@@ -6,18 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from freebody.balances.equation import BalanceEquation
-from freebody.balances.minimal import MinimalForm, minimal_form
-from freebody.equations.derivation import closing, rubbing, virtual
-from freebody.equations.derivation.balancing import Stated, blocks, is_at
+from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Words
+from freebody.equations.balances.equation import BalanceEquation
+from freebody.equations.balances.minimal import MinimalForm, minimal_form
+from freebody.equations.derivation import bearing_friction, loop_closure, virtual
+from freebody.equations.derivation.balance_text import Stated, blocks, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
+from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.document import Block, Bullets, Heading, Paragraph, Words
-from freebody.naming import coefficient
+from freebody.solve.rich_tables import figure
+from freebody.solve.symbols import coefficient
 from freebody.symbolic.tree import Sym, operations, symbols
-from freebody.tables import figure
 
 _POINTS = 2
 """Points of bodies tried for one place."""
@@ -31,21 +31,21 @@ class _Chosen:
     search: MinimalForm | None
 
 
-def minimal(subject: Subject) -> Form:
+def minimal(subject: SymbolicState) -> Form:
     """The minimal form of a subject.
 
     In a tree these are the balances of the coordinates. With loops they are looked for among all connected sets of bodies; where
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows = subject.rows
     chosen = _chosen(subject)
-    added = rubbing.beside(subject, chosen.stated)
+    added = bearing_friction.beside(subject, chosen.stated)
     stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen.stated, *added], 1)]
     equations = [_printed(s) for s in stated]
-    form = Form.of(subject.letters, equations + closing.printed(rows), [])
-    made: list[Block] = closing.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
+    form = Form.of(subject.letters, equations + loop_closure.printed(rows), [])
+    made: list[Block] = loop_closure.section(rows, [c["name"] for c in subject.coordinates]) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, chosen)), *_friction(subject)]
     if added:
-        made.append(Paragraph(rubbing.sentence(subject, added)))
+        made.append(Paragraph(bearing_friction.sentence(subject, added)))
     for s in stated:
         made += blocks(subject, s)
     if chosen.search and (chosen.search.stays or not chosen.search.equations) and stated:
@@ -53,20 +53,20 @@ def minimal(subject: Subject) -> Form:
     return Form(form.equations, tuple(made), form.system, form.reactions)
 
 
-def from_search(subject: Subject, equations: list[BalanceEquation]) -> list[Stated] | None:
+def from_search(subject: SymbolicState, equations: list[BalanceEquation]) -> list[Stated] | None:
     """Equations that a search found, in letters; None if one of them has no question."""
     asked = [_alike(subject, equation) for equation in equations]
     if [] in asked:
         return None
     found = iter(subject.balances([question for questions in asked for question in questions]))
-    told = [
+    stated = [
         [_of_search(subject, next(found), equation) for _ in questions]
         for questions, equation in zip(asked, equations, strict=True)
     ]
-    return [min(each, key=_length) for each in told]
+    return [min(each, key=_length) for each in stated]
 
 
-def _alike(subject: Subject, equation: BalanceEquation) -> list[Mapping[str, Any]]:
+def _alike(subject: SymbolicState, equation: BalanceEquation) -> list[Mapping[str, Any]]:
     """The question for an equation, and others for the same: where a loop is closed a point of either body is the place of its load."""
     question = equation.question
     place = question and question.get("about")
@@ -84,7 +84,7 @@ def _length(stated: Stated) -> int:
     return operations(stated.balance.left) + operations(stated.balance.right)
 
 
-def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) -> Stated:
+def _of_search(subject: SymbolicState, balance: Balance, equation: BalanceEquation) -> Stated:
     """What the search knows to drop out may be seen in the letters only where loops are closed."""
     gone = {name for item in equation.dropped for name in item.unknowns} & {x.name for x in balance.linear.coefficients}
     loads = subject.free.loads
@@ -94,14 +94,14 @@ def _of_search(subject: Subject, balance: Balance, equation: BalanceEquation) ->
     return Stated(balance.without(places, gone), _place(subject, equation), where, "", equation.constructed)
 
 
-def _place(subject: Subject, equation: BalanceEquation) -> str:
+def _place(subject: SymbolicState, equation: BalanceEquation) -> str:
     """The point or direction of an equation, a line by its own name: ``the normal of the slope``."""
     return equation.about if equation.kind == "AMB" or equation.constructed else subject.line(equation.about)
 
 
-def _chosen(subject: Subject) -> _Chosen:
-    rubs = any(load.follows for load in subject.free.loads)
-    if all(row.kind == "motion" for row in subject.rows) and not rubs:
+def _chosen(subject: SymbolicState) -> _Chosen:
+    has_friction = any(load.follows for load in subject.free.loads)
+    if all(row.kind == "motion" for row in subject.rows) and not has_friction:
         return _Chosen(of_coordinates(subject), None)
     search = minimal_form(subject.neighbours, subject.points, forces=True)
     found = from_search(subject, list(search.equations))
@@ -112,7 +112,7 @@ def _printed(stated: Stated) -> Printed:
     return Printed(stated.title, *stated.sides, stated.linear)
 
 
-def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
+def _introduction(subject: SymbolicState, form: Form, chosen: _Chosen) -> str:
     number, search = len(chosen.stated), chosen.search
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
     leading = [name for name in form.reactions if search and name in search.rubbing]
@@ -141,7 +141,7 @@ def _introduction(subject: Subject, form: Form, chosen: _Chosen) -> str:
     return " ".join(said)
 
 
-def _friction(subject: Subject) -> list[Block]:
+def _friction(subject: SymbolicState) -> list[Block]:
     """The law of the friction that follows from forces in the equations."""
     loads = subject.free.loads
     made: list[Words] = []

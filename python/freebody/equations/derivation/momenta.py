@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.balances.lasting import Lasting, independent, lasting
-from freebody.balances.reasons import Place, agree, why_absent
-from freebody.balances.states import wandering
 from freebody.core import Load
-from freebody.equations.derivation.balancing import size
+from freebody.document.blocks import Block, Equation, Paragraph, Written
+from freebody.equations.balances.conserved_momenta import ConservedMomentum, independent, lasting
+from freebody.equations.balances.perturbed_states import wandering
+from freebody.equations.balances.reasons import Place, agree, why_absent
+from freebody.equations.derivation.balance_text import size
+from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.document import Block, Equation, Paragraph, Written
-from freebody.naming import load_words
+from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import factored, quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import upright
@@ -31,22 +31,22 @@ _CANCEL = "in this they cancel each other"
 class Momentum:
     """A constant ``momentum`` of some bodies, ``found`` in numbers; the balance says that its rate is 0."""
 
-    found: Lasting
+    found: ConservedMomentum
     momentum: Tree
 
 
-def momenta(subject: Subject) -> list[Momentum]:
+def momenta(subject: SymbolicState) -> list[Momentum]:
     """All that do not follow from each other. Numbers say which may be constant, letters whether they are."""
     may_be = lasting(wandering(subject.source, subject.state), subject.points)
-    told: dict[int, Balance] = {}
-    while asked := [each for each in independent(may_be) if id(each) not in told]:
+    stated: dict[int, Balance] = {}
+    while asked := [each for each in independent(may_be) if id(each) not in stated]:
         questions = [{"ask": "equation", "bodies": list(each.bodies), **(each.twist.question or {})} for each in asked]
-        told |= {id(each): balance for each, balance in zip(asked, subject.balances(questions), strict=True)}
-        may_be = [each for each in may_be if id(each) not in told or _holds(subject, each, told[id(each)])]
-    return [Momentum(each, _written(subject, told[id(each)])) for each in independent(may_be)]
+        stated |= {id(each): balance for each, balance in zip(asked, subject.balances(questions), strict=True)}
+        may_be = [each for each in may_be if id(each) not in stated or _holds(subject, each, stated[id(each)])]
+    return [Momentum(each, _written(subject, stated[id(each)])) for each in independent(may_be)]
 
 
-def _holds(subject: Subject, found: Lasting, balance: Balance) -> bool:
+def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> bool:
     """Whether a balance has no loads in letters; or has none in numbers, and loops and contacts are closed, which letters do not see.
     The numbers are enough only if they were taken at several places."""
     moving = {c["name"] for c in subject.coordinates}
@@ -54,7 +54,7 @@ def _holds(subject: Subject, found: Lasting, balance: Balance) -> bool:
     return (is_zero(balance.left) and stands) or (found.elsewhere and bool(subject.rows))
 
 
-def section(subject: Subject, in_letters: bool) -> list[Block]:
+def section(subject: SymbolicState, in_letters: bool) -> list[Block]:
     """Each with its reason; ``in_letters``: and what it is in the coordinates."""
     made: list[Block] = []
     for each in momenta(subject):
@@ -64,7 +64,7 @@ def section(subject: Subject, in_letters: bool) -> list[Block]:
     return made or [Paragraph(_NONE)]
 
 
-def _letter(subject: Subject, found: Lasting) -> Written:
+def _letter(subject: SymbolicState, found: ConservedMomentum) -> Written:
     """``L_x``, ``H/ground.O``, about the mass centre of the whole ``H/G``; plain for a part of the whole, or another direction."""
     question = found.twist.question or {}
     about, along = question.get("about"), question.get("along")
@@ -79,7 +79,7 @@ def _letter(subject: Subject, found: Lasting) -> Written:
     return Written(name.unicode(), name.latex())
 
 
-def _written(subject: Subject, balance: Balance) -> Tree:
+def _written(subject: SymbolicState, balance: Balance) -> Tree:
     """The momentum; of a direction that is told by a load of another size than 1, over that size."""
     if balance.turns:
         return balance.momentum
@@ -90,7 +90,7 @@ def _written(subject: Subject, balance: Balance) -> Tree:
     return negative(made) if not isinstance(made, Add) and is_negative(made) else made
 
 
-def _sentence(subject: Subject, each: Momentum) -> str:
+def _sentence(subject: SymbolicState, each: Momentum) -> str:
     bodies = each.found.bodies
     whole = 1 < len(bodies) == len(subject.free.bodies)
     of = "" if whole else f" of {' + '.join(bodies)}"
@@ -99,20 +99,20 @@ def _sentence(subject: Subject, each: Momentum) -> str:
     return f"The {what}{of} {where} is conserved: {_reason(subject, each.found)}."
 
 
-def _name(subject: Subject, found: Lasting) -> str:
+def _name(subject: SymbolicState, found: ConservedMomentum) -> str:
     if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
         return "its mass centre"
     return found.twist.name if found.turns else subject.line(found.twist.name)
 
 
-def _reason(subject: Subject, found: Lasting) -> str:
+def _reason(subject: SymbolicState, found: ConservedMomentum) -> str:
     place = Place("AMB" if found.turns else "LMB", _name(subject, found), found.at, False)
     said: dict[str, list[str]] = {}
     for i, load in enumerate(subject.free.loads):
         if load.follows or load.inside(found.bodies) or not np.any(load.unit(found.bodies)):
             continue
-        rubs = any(other.follows and other.follows[0] == i for other in subject.free.loads)
-        why = why_absent(load, found.bodies, place, size(subject), rubs) if load.unknown or not _works(load, found) else _CANCEL
+        has_friction = any(other.follows and other.follows[0] == i for other in subject.free.loads)
+        why = why_absent(load, found.bodies, place, size(subject), has_friction) if load.unknown or not _works(load, found) else _CANCEL
         said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load, found.bodies))
     if not said:
         return "nothing acts from outside"
@@ -120,7 +120,7 @@ def _reason(subject: Subject, found: Lasting) -> str:
     return f"from outside {verb} {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"
 
 
-def _works(load: Load, found: Lasting) -> bool:
+def _works(load: Load, found: ConservedMomentum) -> bool:
     """Whether a known load has a part in the balance by itself."""
     x, y, moment = load.unit(found.bodies, found.at if found.turns else (0.0, 0.0))
     power = moment if found.turns else x * found.at[0] + y * found.at[1]

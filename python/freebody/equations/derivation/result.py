@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from freebody.document.blocks import Block
 from freebody.equations.derivation.system import System
-from freebody.equations.document import Block
 from freebody.equations.linear import Linear
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.tree import Tree, minus

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from freebody.equations.document import Block, Bullets, Equation, Heading, Paragraph, Words, pieces
+from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Words, pieces
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.tree import Sym
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.balances.system import DEPENDENT
 from freebody.core import MotionError
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
+from freebody.equations.balances.system import DEPENDENT
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.linear import Linear
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.symbolic.collect import common_number, divided
 from freebody.symbolic.symbols import latex_name, unicode_name
 from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
@@ -47,19 +47,19 @@ class VirtualPower:
         return [letter.name for letter in self.linear.coefficients if not letter.dots]
 
 
-def virtual_power(subject: Subject) -> list[VirtualPower]:
+def virtual_power(subject: SymbolicState) -> list[VirtualPower]:
     """One equation for each degree of freedom, prescribed ones among them. Raises ``MotionError`` where they grow too large."""
     names = [c["name"] for c in subject.coordinates]
     rows = [i for i, row in enumerate(subject.rows) if row.kind != "motion"]
-    told = subject.neighbours[-1].rows
-    table = np.array([[told[i].coefficients[name] for name in names] for i in rows]).reshape(len(rows), len(names))
+    stated = subject.neighbours[-1].rows
+    table = np.array([[stated[i].coefficients[name] for name in names] for i in rows]).reshape(len(rows), len(names))
     bound = [len(names) - 1 - place for place in _independent(table[:, ::-1].T)]
     kept = _independent(table[:, bound])
     asked = {"ask": "virtual_power", "bound": [names[i] for i in bound], "rows": [rows[i] for i in kept]}
     return [_read(each, names) for each in subject.ask([asked])[0]]
 
 
-def section(subject: Subject, wanted: int) -> list[Block]:
+def section(subject: SymbolicState, wanted: int) -> list[Block]:
     """The equations, or why there are none; ``wanted``: how many would be enough."""
     said = "The principle of virtual power does without: the bodies move all at once, so that what is closed stays closed, and no reaction has power"
     head = Heading("Virtual power", 3)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from freebody.equations.derivation import opening
+from freebody.document.blocks import Block, Document, Heading
+from freebody.equations.derivation import preamble
+from freebody.equations.derivation.data import Arrow, SymbolicState
 from freebody.equations.derivation.derive import used
-from freebody.equations.derivation.lengths import readable
 from freebody.equations.derivation.sentences import lettered
-from freebody.equations.derivation.told import Arrow, Subject
-from freebody.equations.document import Block, Document, Heading
+from freebody.equations.derivation.size_limits import readable
 from freebody.symbolic.collect import factored, pythagorean
 from freebody.symbolic.differentiate import derivative
 from freebody.symbolic.letters import Letter, Letters
@@ -30,21 +30,21 @@ class NotHere(ValueError):
     """A topic that a mechanism has nothing for; the sentence says why."""
 
 
-def subject_of(mechanism: Builder, state: State, at_rest: bool = False) -> Subject:
+def subject_of(mechanism: Builder, state: State, at_rest: bool = False) -> SymbolicState:
     """A mechanism at a state, to be asked in letters."""
-    return Subject(mechanism.source(), state, at_rest)
+    return SymbolicState(mechanism.source(), state, at_rest)
 
 
-def document(subject: Subject, title: str, blocks: Sequence[Block], more: Sequence[Letter] = ()) -> Document:
+def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[Letter] = ()) -> Document:
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
     first = Heading(f"{subject.source.name}: {title}", 1)
     short = [readable(block, _ELSEWHERE) for block in blocks]
-    made = (first, *opening.configuration(subject), *opening.letters(letters, used(short)), *short)
+    made = (first, *preamble.configuration(subject), *preamble.letters(letters, used(short)), *short)
     return Document(tuple(lettered(block, letters) for block in made), letters)
 
 
-def moving_names(subject: Subject) -> list[str]:
+def moving_names(subject: SymbolicState) -> list[str]:
     """The names of the coordinates."""
     return [c["name"] for c in subject.coordinates]
 
@@ -82,7 +82,7 @@ def spread(tree: Tree) -> Tree:
     return factored(pythagorean(from_sympy(sympy.expand(to_sympy(tree)))))
 
 
-def place_of(subject: Subject, point: str) -> Arrow:
+def place_of(subject: SymbolicState, point: str) -> Arrow:
     """The position of a named point."""
     known(point, subject.points, "point")
     return subject.balances([{"ask": "equation", "bodies": [], "about": {"point": point}}])[0].place

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Words, listed
 from freebody.equations.derivation import conserved
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, listed
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import linear_system, solve
 from freebody.equations.topics.common import NotHere, brief, document, moving_names, rate, subject_of
@@ -35,7 +35,7 @@ class Eliminated:
     energy: Tree | None
 
 
-def eliminated(subject: Subject) -> Eliminated:
+def eliminated(subject: SymbolicState) -> Eliminated:
     """What is left when conserved momenta are used. Raises ``NotHere`` where no momentum of a coordinate is conserved, ``TooLarge``."""
     if subject.rows:
         raise NotHere("the coordinates depend on each other, so no momentum is that of one alone")
@@ -76,19 +76,19 @@ def _is_ignorable(each: Lagrange, where: set[Sym]) -> bool:
     return Sym(each.coordinate) not in where and is_zero(each.force) and not is_zero(each.momentum) and Sym("t") not in where
 
 
-def _rates(subject: Subject, gone: Sequence[Lagrange], constants: Mapping[str, Sym]) -> dict[Sym, Tree]:
+def _rates(subject: SymbolicState, gone: Sequence[Lagrange], constants: Mapping[str, Sym]) -> dict[Sym, Tree]:
     unknowns = [Sym(each.coordinate, 1) for each in gone]
     matrix, right = linear_system([(each.momentum, constants[each.coordinate]) for each in gone], unknowns)
     return dict(zip(unknowns, solve(matrix, right, subject.letters), strict=True))
 
 
-def _put(subject: Subject, tree: Tree, first: Mapping[Sym, Tree], second: Mapping[Sym, Tree]) -> Tree:
+def _put(subject: SymbolicState, tree: Tree, first: Mapping[Sym, Tree], second: Mapping[Sym, Tree]) -> Tree:
     for new in (second, first):
         tree = from_sympy(to_sympy(replace(tree, new)))
     return brief(tree, subject.letters)
 
 
-def _bare(subject: Subject, tree: Tree) -> Tree:
+def _bare(subject: SymbolicState, tree: Tree) -> Tree:
     """What vanishes if the tree does, without factors of parameters and what stands below; accelerations with one factor each."""
     import sympy
 

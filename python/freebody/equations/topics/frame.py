@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.derivation import opening
+from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.derivation import preamble
+from freebody.equations.derivation.data import Arrow, Direction, SymbolicState
 from freebody.equations.derivation.directions import Directions
-from freebody.equations.derivation.told import Arrow, Direction, Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
 from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
 from freebody.symbolic.collect import factored, quotient
@@ -33,16 +33,16 @@ def frame(mechanism: Builder, state: State, *, point: str | None = None, body: s
         known(body, bodies, "body")
     if point is not None:
         known(point, subject.points, "point")
-    point, body, told = _chosen(subject, [point] if point else [f"{b}.G" for b in bodies], [body] if body else bodies)
-    return document(subject, f"{point} seen from {body}", _blocks(subject, point, body, told))
+    point, body, stated = _chosen(subject, [point] if point else [f"{b}.G" for b in bodies], [body] if body else bodies)
+    return document(subject, f"{point} seen from {body}", _blocks(subject, point, body, stated))
 
 
-def _chosen(subject: Subject, points: list[str], bodies: list[str]) -> tuple[str, str, Mapping[str, Any]]:
+def _chosen(subject: SymbolicState, points: list[str], bodies: list[str]) -> tuple[str, str, Mapping[str, Any]]:
     pairs = [(p, b) for b in bodies for p in points if p in subject.points and subject.points[p][0] != b]
     if not pairs:
         raise NotHere(f"{points[0]} is a point of {bodies[0]} itself; take a point of another body, or another frame")
-    told = subject.ask([{"ask": "frame", "point": p, "body": b} for p, b in pairs])
-    ranked = sorted(zip(pairs, told, strict=True), key=lambda found: _dull(found[1]))
+    stated = subject.ask([{"ask": "frame", "point": p, "body": b} for p, b in pairs])
+    ranked = sorted(zip(pairs, stated, strict=True), key=lambda found: _dull(found[1]))
     (point, body), answer = ranked[0]
     return point, body, answer
 
@@ -52,36 +52,36 @@ def _dull(answer: Mapping[str, Any]) -> tuple[bool, bool]:
     return all(is_zero(read(part)) for part in coriolis), is_zero(read(omega))
 
 
-def _blocks(subject: Subject, point: str, body: str, told: Mapping[str, Any]) -> list[Block]:
-    arrows = {word: Arrow.read(told[word]) for word in _WORDS}
+def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, Any]) -> list[Block]:
+    arrows = {word: Arrow.read(stated[word]) for word in _WORDS}
     place = place_of(subject, point)
-    directions = opening.directions(subject, [place, *arrows.values()])
+    directions = preamble.directions(subject, [place, *arrows.values()])
     made: list[Block] = [Heading("The frame")]
     made.append(
         Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"])
     )
-    made += [Equation(Sym("omega"), read(told["omega"])), Equation(Sym("alpha"), read(told["alpha"]))]
+    made += [Equation(Sym("omega"), read(stated["omega"])), Equation(Sym("alpha"), read(stated["alpha"]))]
     made += [Paragraph(pair.sentence(directions.axes)) for pair in directions.pairs]
 
-    def told_as(name: str, word: str, what: str) -> Equation:
+    def component_equation(name: str, word: str, what: str) -> Equation:
         return Equation(_vector(name), directions.vector(arrows[word]), what)
 
     made += [
         Heading("Velocity"),
-        told_as("v_transport", "v_transport", f"Transport: of the place on {body} where {point} is, v of its origin + ω × r"),
-        told_as("v_relative", "v_relative", f"Relative: as {body} sees {point} move"),
-        told_as("v", "v", "Together, v = v_transport + v_relative"),
+        component_equation("v_transport", "v_transport", f"Transport: of the place on {body} where {point} is, v of its origin + ω × r"),
+        component_equation("v_relative", "v_relative", f"Relative: as {body} sees {point} move"),
+        component_equation("v", "v", "Together, v = v_transport + v_relative"),
         Heading("Acceleration"),
-        told_as("a_transport", "a_transport", f"Transport: of that place on {body}, a of its origin + α × r − ω² r"),
-        told_as("a_relative", "a_relative", f"Relative: as {body} sees it"),
-        told_as("a_coriolis", "a_coriolis", "Coriolis: 2 ω × v_relative"),
-        told_as("a", "a", "Together, a = a_transport + a_relative + a_coriolis"),
+        component_equation("a_transport", "a_transport", f"Transport: of that place on {body}, a of its origin + α × r − ω² r"),
+        component_equation("a_relative", "a_relative", f"Relative: as {body} sees it"),
+        component_equation("a_coriolis", "a_coriolis", "Coriolis: 2 ω × v_relative"),
+        component_equation("a", "a", "Together, a = a_transport + a_relative + a_coriolis"),
     ]
     made += _prescribed(subject, directions, arrows)
     return made + _directly(subject, place, arrows, point)
 
 
-def _prescribed(subject: Subject, directions: Directions, arrows: Mapping[str, Arrow]) -> list[Block]:
+def _prescribed(subject: SymbolicState, directions: Directions, arrows: Mapping[str, Arrow]) -> list[Block]:
     """Velocity and acceleration with the rates that motions prescribe, where they prescribe those of single coordinates."""
     rows = [row for row in subject.rows if row.kind == "motion"]
     known = dict(
@@ -91,11 +91,11 @@ def _prescribed(subject: Subject, directions: Directions, arrows: Mapping[str, A
         return []
     made: list[Block] = [Heading("With what is prescribed")]
     made += [Equation(x, tree, "Motions give" if i == 0 else "") for i, (x, tree) in enumerate(known.items())]
-    told = (("v", "So"), ("a", ""))
-    return made + [Equation(_vector(word), directions.vector(_with(arrows[word], known)), name) for word, name in told]
+    stated = (("v", "So"), ("a", ""))
+    return made + [Equation(_vector(word), directions.vector(_with(arrows[word], known)), name) for word, name in stated]
 
 
-def _given(tree: Tree | None, subject: Subject, dots: int) -> tuple[Sym, Tree] | None:
+def _given(tree: Tree | None, subject: SymbolicState, dots: int) -> tuple[Sym, Tree] | None:
     """A rate or acceleration that is all that stands in what vanishes, and what it is."""
     unknown = [x for x in (Sym(name, dots) for name in moving_names(subject)) if tree is not None and x in symbols(tree)]
     if tree is None or len(unknown) != 1:
@@ -110,7 +110,7 @@ def _with(arrow: Arrow, known: Mapping[Sym, Tree]) -> Arrow:
     return Arrow(tuple(parts), *(_put(tree, known) for tree in (arrow.i, arrow.j)), arrow.xy)
 
 
-def _directly(subject: Subject, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
+def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
     names = moving_names(subject)
     v = rates(place.xy, names)
     a = rates(v, names)

@@ -8,28 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.balances.reasons import agree
 from freebody.core import Load
-from freebody.equations.derivation.balancing import Stated, dropped
+from freebody.document.blocks import Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Words
+from freebody.equations.balances.reasons import agree
+from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.document import (
-    Block,
-    Bullets,
-    Document,
-    Equation,
-    Figure,
-    Heading,
-    MatrixEquation,
-    Paragraph,
-    Side,
-    Words,
-)
 from freebody.equations.solve import Singular, TooLarge
-from freebody.equations.topics.blow import Blow, after, blow, hammered
 from freebody.equations.topics.common import document, moving_names
-from freebody.equations.topics.jumps import Solution, jumps
-from freebody.equations.topics.rows import Rows
-from freebody.naming import load_words
+from freebody.equations.topics.impact_equations import Impact, after, blow, hammered
+from freebody.equations.topics.impact_rows import Rows
+from freebody.equations.topics.impulse_momentum import Solution, jumps
+from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import collected
 from freebody.symbolic.tree import ZERO, Num, Sym, is_zero, symbols
 
@@ -74,7 +63,7 @@ def impact(
     return document(found.subject, title, made, list(found.letters.values()))
 
 
-def _what(found: Blow) -> list[Block]:
+def _what(found: Impact) -> list[Block]:
     said = "In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it."
     if found.subject.blow.given:
         said += " Before it all stands still."
@@ -97,7 +86,7 @@ def _what(found: Blow) -> list[Block]:
     return [*made, Paragraph("Absent:"), Bullets(missing)] if missing else made
 
 
-def _named(found: Blow, load: Load, body: str) -> str:
+def _named(found: Impact, load: Load, body: str) -> str:
     return "which strikes" if load.name in found.subject.blow.given else f"of the {_plain(_on(load, body))}"
 
 
@@ -105,7 +94,7 @@ def _plain(words: str) -> str:
     return words.removeprefix("the ")
 
 
-def _equations(found: Blow) -> list[Block]:
+def _equations(found: Impact) -> list[Block]:
     free = found.conserved()
     made: list[Block] = [Heading("Impulse and momentum")]
     if free:
@@ -122,7 +111,7 @@ def _equations(found: Blow) -> list[Block]:
     return made + _of_bodies(found, of_coordinates)
 
 
-def _of_bodies(found: Blow, stated: Sequence[Stated]) -> list[Block]:
+def _of_bodies(found: Impact, stated: Sequence[Stated]) -> list[Block]:
     """The balances of the bodies on which impulses act that those stated do not have."""
     free, there = found.subject.free, {c.load for each in stated for c in each.balance.contributions if not c.absent}
     said = {each.title for each in stated}
@@ -135,13 +124,13 @@ def _of_bodies(found: Blow, stated: Sequence[Stated]) -> list[Block]:
     return [words, *(_with_impulses(found, each) for each in more)]
 
 
-def _with_impulses(found: Blow, each: Stated) -> Equation:
+def _with_impulses(found: Impact, each: Stated) -> Equation:
     unknown = [Sym(after(name), 1) for name in moving_names(found.subject)]
     left = collected(found.acting(each.balance), list(found.impulses.values()))
     return Equation(left, collected(found.jump(each.balance), unknown), _title(each.title), note=_left_out(found, each))
 
 
-def _left_out(found: Blow, each: Stated) -> Words:
+def _left_out(found: Impact, each: Stated) -> Words:
     """Which impulses on the bodies are not in an equation, and why."""
     said: list[str | Sym] = []
     for why, loads in dropped(found.subject, each).items():
@@ -156,7 +145,7 @@ def _title(title: str) -> str:
     return title.replace("AMB", "Angular impulse and momentum").replace("LMB", "Impulse and momentum")
 
 
-def _restitution(found: Blow) -> list[Block]:
+def _restitution(found: Impact) -> list[Block]:
     made: list[Block] = []
     for each in found.conditions():
         left, right = found.sides(each)
@@ -178,7 +167,7 @@ def _restitution(found: Blow) -> list[Block]:
     return [Heading("What holds" if found.subject.blow.given else "Restitution, and what holds"), *made] if made else []
 
 
-def _friction(found: Blow) -> list[Block]:
+def _friction(found: Impact) -> list[Block]:
     """What friction does: of what slides its law, of what sticks that it could."""
     made: list[Block] = []
     sizes = found.sizes()
@@ -196,7 +185,7 @@ def _friction(found: Blow) -> list[Block]:
     return made
 
 
-def _answers(found: Blow) -> list[Block]:
+def _answers(found: Impact) -> list[Block]:
     made: list[Block] = [Heading("After the blow")]
     try:
         solved = jumps(found)
@@ -205,19 +194,19 @@ def _answers(found: Blow) -> list[Block]:
     except ArithmeticError as error:
         return [*made, Paragraph(f"In letters no more is said: {error}.")]
     made += _given(found)
-    made += _told(solved.known, "What held before the blow gives of the rates then")
-    made += _told(solved.names, "With")
+    made += _stated(solved.known, "What held before the blow gives of the rates then")
+    made += _stated(solved.names, "With")
     own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
-    made += _told(own, "So" if made[1:] else "")
-    made += _told(solved.joints, "and in the joints")
+    made += _stated(own, "So" if made[1:] else "")
+    made += _stated(solved.joints, "and in the joints")
     return made + [Paragraph(f"Of the joints no more is said: {solved.untold}.")] * bool(solved.untold)
 
 
-def _told(solution: Solution, name: str) -> list[Block]:
+def _stated(solution: Solution, name: str) -> list[Block]:
     return [Equation(x, tree, name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
 
 
-def _given(found: Blow) -> list[Block]:
+def _given(found: Impact) -> list[Block]:
     rest = bool(found.subject.blow.given)  # then no rate before it stands anywhere
     there = [x for x, tree in found.zeros.items() if is_zero(tree) and not (rest and x.dots)]
     said: list[str | Side] = [piece for x in there for piece in (x, " = ")] + ["0"] * bool(there)
@@ -226,7 +215,7 @@ def _given(found: Blow) -> list[Block]:
     return [Paragraph(["At this blow ", *said, "."])] if said else []
 
 
-def _matrix(found: Blow) -> list[Block]:
+def _matrix(found: Impact) -> list[Block]:
     """All equations together in numbers."""
     rows = Rows.of(found)
     matrix, right = rows.matrix(found)
@@ -239,7 +228,7 @@ def _figure(value: float) -> Num:
     return ZERO if abs(value) < _NOTHING else Num(float(f"{value:.5g}"))
 
 
-def _numbers(found: Blow) -> list[Block]:
+def _numbers(found: Impact) -> list[Block]:
     change = found.change
     given = [Sym(letter) for letter in found.subject.blow.given.values()]
     before, now = change.before.u, change.after.u

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from freebody.equations.derivation.balancing import Stated
+from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Words, Written
+from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Words, Written
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.simplify import equal
@@ -53,15 +53,15 @@ class Lagrange:
         return minus(self.left, self.force)
 
 
-def equations(subject: Subject) -> tuple[Tree, Tree, list[Lagrange]]:
+def equations(subject: SymbolicState) -> tuple[Tree, Tree, list[Lagrange]]:
     """Kinetic and potential energy, and the equation of every coordinate."""
-    told = subject.ask([{"ask": "lagrange"}])[0]
+    stated = subject.ask([{"ask": "lagrange"}])[0]
     trees = ("momentum", "left", "force")
-    made = [Lagrange(each["coordinate"], *(read(each[word]) for word in trees)) for each in told["equations"]]
-    return read(told["kinetic"]), read(told["potential"]), made
+    made = [Lagrange(each["coordinate"], *(read(each[word]) for word in trees)) for each in stated["equations"]]
+    return read(stated["kinetic"]), read(stated["potential"]), made
 
 
-def combination(subject: Subject, of: Sequence[Lagrange], balances: Sequence[Stated]) -> list[list[Tree]] | None:
+def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequence[Stated]) -> list[list[Tree]] | None:
     """Factors S such that equation i is Σ S[i][j] balance j, confirmed at random values; None where none are found in letters."""
     accelerations = [Sym(name, 2) for name in moving_names(subject)]
     inertia = [[balance.balance.linear.coefficients.get(x, ZERO) for x in accelerations] for balance in balances]
@@ -125,7 +125,7 @@ def lagrange(mechanism: Builder, state: State) -> Document:
     return document(subject, "Lagrange's equations", made + _equality(subject, found))
 
 
-def _introduction(subject: Subject, kinetic: str, potential: str) -> Words:
+def _introduction(subject: SymbolicState, kinetic: str, potential: str) -> Words:
     said = (
         f"d/dt ∂{kinetic}/∂q̇ − ∂{kinetic}/∂q + ∂{potential}/∂q = Q for every coordinate q, "
         "where Q is the power of all that has no potential for a unit of q̇."
@@ -140,7 +140,7 @@ def _momentum(kinetic: Written, coordinate: Name) -> Written:
     return Written(f"∂{kinetic.text}/∂{coordinate.unicode(1)}", rf"\partial {kinetic.latex}/\partial {coordinate.latex(1)}")
 
 
-def _equality(subject: Subject, found: Sequence[Lagrange]) -> list[Block]:
+def _equality(subject: SymbolicState, found: Sequence[Lagrange]) -> list[Block]:
     balances = stated(subject)
     factors = combination(subject, found, balances)
     made: list[Block] = [Heading("The same as the balance equations")]
@@ -163,7 +163,7 @@ def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated
     return [*said, "."]
 
 
-def _at_state(subject: Subject, found: Sequence[Lagrange]) -> str:
+def _at_state(subject: SymbolicState, found: Sequence[Lagrange]) -> str:
     """How far the accelerations and loads of the balances satisfy Lagrange's equations. Raises ``RuntimeError`` where they do not."""
     values, tables = subject.values, subject.tables
     largest = 0.0

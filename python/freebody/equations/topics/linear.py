@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.balances.states import nearby
-from freebody.equations.departures import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
+from freebody.document.blocks import Block, Document, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
+from freebody.document.blocks import Matrix as Rows
+from freebody.equations.balances.perturbed_states import nearby
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.told import Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
-from freebody.equations.document import Matrix as Rows
-from freebody.equations.equilibrium import rest_near
-from freebody.equations.given import Given, given
+from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.solve import TooLarge
+from freebody.equations.substitutions import Substitutions, given
 from freebody.equations.topics.common import NotHere, document, subject_of
-from freebody.equations.topics.stable import character
-from freebody.instant import Instant
+from freebody.equations.topics.stability_text import character
+from freebody.solve.equilibrium import rest_near
+from freebody.solve.instant import Instant
+from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter
-from freebody.symbolic.measured import shown
 from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     subject = subject_of(mechanism, rest, at_rest=True)
     _require_stillness(subject)
     _require_regular(subject)
-    made, found = _departures(subject, chosen)
+    made, found = _perturbations(subject, chosen)
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
     more = [Letter("s", "indeterminate", "1/s", "eigenvalue"), *_letters_of(subject).values()]
@@ -66,25 +66,25 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
 def _rest(mechanism: Builder, state: State, touching: State) -> State:
     """The state, or the place of rest that is found near it, where what is ``touching`` in another does so."""
     source = mechanism.source()
-    unrest = Instant(source, state).unrest()
-    found = rest_near(source, state, touching) if unrest else state
+    nonequilibrium = Instant(source, state).nonequilibrium()
+    found = rest_near(source, state, touching) if nonequilibrium else state
     if found is None:
-        told = "; ".join(f"{name} {how}" for name, how in unrest.items())
+        stated = "; ".join(f"{name} {how}" for name, how in nonequilibrium.items())
         raise NotHere(
-            f"this is no equilibrium: released there, {told}; and none was found near by. "
+            f"this is no equilibrium: released there, {stated}; and none was found near by. "
             "Give coordinates near one, theta=0, or a parameter that holds it"
         )
     return found
 
 
-def _require_stillness(subject: Subject) -> None:
+def _require_stillness(subject: SymbolicState) -> None:
     """Raises ``NotHere`` for motions that are going on."""
     for row in subject.rows:
         if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
             raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; set it to stand still")
 
 
-def _require_regular(subject: Subject) -> None:
+def _require_regular(subject: SymbolicState) -> None:
     """Raises ``NotHere`` where loops hold less than beside it."""
     names = [c["name"] for c in subject.coordinates]
     ranks = [
@@ -99,7 +99,7 @@ def _require_regular(subject: Subject) -> None:
         )
 
 
-def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearised]:
+def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[Block], Linearised]:
     """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
     place = place_of(subject)
     put = {name: tree for name, tree in place.items() if is_natural(tree)} | chosen.settled()
@@ -117,7 +117,7 @@ def _departures(subject: Subject, chosen: Given) -> tuple[list[Block], Linearise
     return made + _left_free(subject, left, numbers), left.equations
 
 
-def _letters_of(subject: Subject) -> dict[str, Letter]:
+def _letters_of(subject: SymbolicState) -> dict[str, Letter]:
     """The letters of departures by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
     coordinates = subject.coordinates
     if not subject.rows and all(map(is_natural, place_of(subject).values())):
@@ -131,7 +131,7 @@ def _letters_of(subject: Subject) -> dict[str, Letter]:
     }
 
 
-def _equations(subject: Subject, found: Linearised) -> list[Block]:
+def _equations(subject: SymbolicState, found: Linearised) -> list[Block]:
     letters = _letters_of(subject)
     pairs = [(name, letter.name) for name, letter in letters.items() if name != letter.name]
     said: list[str | Side] = ["For small departures"]
@@ -144,18 +144,18 @@ def _equations(subject: Subject, found: Linearised) -> list[Block]:
 
 def _stated(found: Linearised, letters: Mapping[str, Letter], said: Sequence[str | Side], right: str = "") -> list[Block]:
     """M ẍ + C ẋ + K x = 0 with its matrices; of one coordinate as one equation. ``right``: what stands there if not 0."""
-    departures = [letters[name].name for name in found.coordinates]
+    perturbations = [letters[name].name for name in found.coordinates]
     parts = ((found.mass, 2), (found.damping, 1), (found.stiffness, 0))
-    if len(departures) == 1 and not right:
-        terms = (mul(shown(matrix[0][0]), Sym(departures[0], dots)) for matrix, dots in parts if not is_zero(matrix[0][0]))
+    if len(perturbations) == 1 and not right:
+        terms = (mul(shown(matrix[0][0]), Sym(perturbations[0], dots)) for matrix, dots in parts if not is_zero(matrix[0][0]))
         return [Equation(Add(tuple(terms)), ZERO, said)]
     names = [Written(*pair) for pair in _BOLD]
     whole = [names[0], " ", _VECTOR[2], " + ", names[1], " ", _VECTOR[1], " + ", names[2], " ", _VECTOR[0], " = ", right or "0"]
-    where = [" with ", _VECTOR[0], " = (", *listed(map(Sym, departures)), ") and"]
+    where = [" with ", _VECTOR[0], " = (", *listed(map(Sym, perturbations)), ") and"]
     return [Paragraph([*said, " ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(names, parts, strict=True))]
 
 
-def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Block]:
+def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> list[Block]:
     """How the other coordinates follow, and the equations of those that are free."""
     letters = _letters_of(subject)
     free = [Sym(letters[name].name) for name in left.equations.coordinates]
@@ -180,7 +180,7 @@ def _left_free(subject: Subject, left: Held, numbers: Sequence[str]) -> list[Blo
     return made + _stated(left.equations, letters, said)
 
 
-def _place(subject: Subject, chosen: Given, near: bool) -> Words:
+def _place(subject: SymbolicState, chosen: Substitutions, near: bool) -> Words:
     said: list[str | Tree] = ["The nearest found: at rest with " if near else "At rest with "]
     for i, (name, tree) in enumerate(place_of(subject).items()):
         said += [", " * bool(i), Sym(name), " = ", shown(chosen.trees.get(name, tree))]

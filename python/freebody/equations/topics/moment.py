@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from freebody.core import GROUND
-from freebody.equations.derivation.told import Balance, Subject
-from freebody.equations.document import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.topics.common import (
     NotHere,
     cross,
@@ -43,7 +43,7 @@ def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies
     return document(subject, f"moments about {point}", _blocks(subject, group, point))
 
 
-def _first_moving(subject: Subject) -> str:
+def _first_moving(subject: SymbolicState) -> str:
     names = moving_names(subject)
     for name, (body, _, _) in subject.points.items():
         if body != GROUND and not all(is_zero(part) for part in rates(place_of(subject, name).xy, names)):
@@ -51,7 +51,7 @@ def _first_moving(subject: Subject) -> str:
     raise NotHere("no named point moves; give one")
 
 
-def _blocks(subject: Subject, group: list[str], point: str) -> list[Block]:
+def _blocks(subject: SymbolicState, group: list[str], point: str) -> list[Block]:
     names = moving_names(subject)
     questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
     of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Written
-from freebody.equations.given import given_quantity
+from freebody.document.blocks import Block, Bullets, Document, Equation, Heading, Paragraph, Written
+from freebody.equations.substitutions import given_quantity
 from freebody.equations.topics.common import document, subject_of
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul

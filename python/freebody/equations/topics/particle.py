@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from freebody.core import GROUND
-from freebody.equations.derivation.told import Arrow, Balance, Subject
-from freebody.equations.document import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
+from freebody.document.blocks import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
+from freebody.equations.derivation.data import Arrow, Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
-from freebody.naming import load_words
+from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import factored
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
@@ -36,7 +36,7 @@ def particle(mechanism: Builder, state: State, *, body: str | None = None, about
     return document(subject, f"the equations of {body}", _cartesian(subject, body, balances) + made, more)
 
 
-def _cartesian(subject: Subject, body: str, balances: list[Balance]) -> list[Block]:
+def _cartesian(subject: SymbolicState, body: str, balances: list[Balance]) -> list[Block]:
     made: list[Block] = [Heading("Along i and j"), Paragraph(f"What acts on {body}, components along i and j:")]
     acting: list[Words] = []
     for along_x, along_y in zip(*(balance.contributions for balance in balances), strict=True):
@@ -48,7 +48,7 @@ def _cartesian(subject: Subject, body: str, balances: list[Balance]) -> list[Blo
     return made + [Equation(factored(b.right), b.left, name) for b, name in zip(balances, names, strict=True)]
 
 
-def _polar(subject: Subject, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[Letter]]:
+def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[Letter]]:
     place, motion = place_of(subject, about).xy, next(m for m in subject.motions if m.body == body)
     taken = set(subject.letters)
     r, phi = (name if name not in taken else f"{name}_polar" for name in (_R, _PHI))

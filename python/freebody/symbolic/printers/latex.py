@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from freebody.symbolic import layout
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.printers import breaking
-from freebody.symbolic.printers.breaking import ROOM
+from freebody.symbolic.printers import line_breaking
+from freebody.symbolic.printers.line_breaking import ROOM
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import latex_name, upright
 from freebody.symbolic.tree import Entries, Fn, Sym, Tree
@@ -37,13 +37,13 @@ def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, r
 def sides_latex(left: str, right: str, *, room: float = ROOM) -> str:
     """Two sides as an equation, on one line or ``aligned`` over several: ``= …`` stands beside a left side that is short."""
     whole = f"{left} = {right}"
-    if breaking.width(whole) <= room:
+    if line_breaking.width(whole) <= room:
         return whole
-    before = breaking.width(f"{left} =")
+    before = line_breaking.width(f"{left} =")
     if before <= room / 3:
-        first, *more = breaking.lines(right, room - before)
+        first, *more = line_breaking.lines(right, room - before)
         return aligned([rf"{left} &= {first}", *(rf"&\quad {line}" for line in more)])
-    above, below = breaking.lines(left, room), breaking.lines(right, room - breaking.width("="))
+    above, below = line_breaking.lines(left, room), line_breaking.lines(right, room - line_breaking.width("="))
     return aligned([*_indented(above), *_indented([f"= {below[0]}", *below[1:]])])
 
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from freebody.core import CompiledModel, FreeBodies, MotionError, State
-from freebody.naming import Naming
-from freebody.results import Array
+from freebody.run.records import Array
+from freebody.solve.symbols import Naming
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
@@ -57,12 +57,12 @@ class Diagram(Picture):
     @property
     def data(self) -> list[dict[str, Any]]:
         """The same as data, one entry for each diagram: see ``FreeBodies.data``; ``letter`` is that of the diagram, in LaTeX."""
-        return [self._told(cut) for cut in self.cuts]
+        return [self._cut_data(cut) for cut in self.cuts]
 
-    def _told(self, cut: Cut) -> dict[str, Any]:
+    def _cut_data(self, cut: Cut) -> dict[str, Any]:
         letters = {load.symbol: mark.action.label for mark in cut.forces for load in mark.action.loads}
-        told = self.free.data(*cut.group)
-        return told | {"loads": [{"letter": letters.get(load["symbol"])} | load for load in told["loads"]]}
+        stated = self.free.data(*cut.group)
+        return stated | {"loads": [{"letter": letters.get(load["symbol"])} | load for load in stated["loads"]]}
 
     @property
     def rows(self) -> list[Row]:
@@ -88,13 +88,13 @@ def diagram(
     pt."""
     near = free if scaled else _further(source, state, free)
     laws = None if scaled else Laws(source, state, free)
-    desk = Desk(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective, column, laws)
+    builder = DiagramBuilder(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective, column, laws)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(f"free-body diagrams of {source.name}", tuple(desk.cut(group) for group in chosen), free)
+    return Diagram(f"free-body diagrams of {source.name}", tuple(builder.cut(group) for group in chosen), free)
 
 
 @dataclass(frozen=True)
-class Desk:
+class DiagramBuilder:
     """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
 
     source: CompiledModel
@@ -136,7 +136,7 @@ class Desk:
             unit=self.labels.unit,
             apart=Panel(drawn, [], (), oriented=False) if crowd and drawn.dimensions else None,
             column=self.column,
-            laws=self.laws.told(forces, self.column - 2 * MARGIN) if self.laws else (),
+            laws=self.laws.stated(forces, self.column - 2 * MARGIN) if self.laws else (),
         )
 
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:

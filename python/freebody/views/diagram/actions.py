@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from freebody.core import Body, FreeBodies, Load, Part
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views.diagram.names import Labels
-from freebody.views.measures import digits, place_of
+from freebody.views.dimension_lines import digits, place_of
 from freebody.views.sketch import Sketch
 
 _ROUND_OFF = 1e-9

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.scenery import Scenery
@@ -59,7 +59,7 @@ class Arrow:
 
 
 @dataclass(frozen=True)
-class Bow:
+class CoupleArrow:
     """A couple on paper, in pt: an open circle with a head at the end of its ``line`` (k, 2)."""
 
     action: Action
@@ -67,7 +67,7 @@ class Bow:
     line: Array
 
 
-Mark = Arrow | Bow
+Mark = Arrow | CoupleArrow
 
 
 def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | None = None) -> list[Mark]:
@@ -124,7 +124,7 @@ def _alone(arrow: Arrow, scenery: Scenery) -> float:
     """What an arrow hides of the bodies, and how far it is from where one expects it."""
     shaft = dense([arrow.line])
     inside = sum(int(_within(shaft, solid).sum()) for solid in scenery.solids)
-    drawn = _near(_beyond(arrow, shaft), scenery.ink, 2.5)
+    drawn = _near(_beyond(arrow, shaft), scenery.obstacles, 2.5)
     reverse = 3.0 * np.array_equal(arrow.head, arrow.at)
     aside = _moved(arrow.action, scenery, arrow.at - scenery.place(arrow.action.at))
     return 1.5 * inside + 1.0 * drawn + 0.6 * arrow.length + reverse + aside
@@ -147,11 +147,11 @@ def _beyond(arrow: Arrow, shaft: Array) -> Array:
     return shaft[np.hypot(*(shaft - arrow.at).T) > _OWN]
 
 
-def _near(places: Array, ink: Array, distance: float) -> int:
+def _near(places: Array, obstacles: Array, distance: float) -> int:
     """How many of some places lie near ink."""
-    if not len(places) or not len(ink):
+    if not len(places) or not len(obstacles):
         return 0
-    squares = np.subtract.outer(places[:, 0], ink[:, 0]) ** 2 + np.subtract.outer(places[:, 1], ink[:, 1]) ** 2
+    squares = np.subtract.outer(places[:, 0], obstacles[:, 0]) ** 2 + np.subtract.outer(places[:, 1], obstacles[:, 1]) ** 2
     return int((squares.min(axis=1) < distance**2).sum())
 
 
@@ -162,15 +162,15 @@ def _within(places: Array, outline: Array) -> Array:
     return inside
 
 
-def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
+def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow:
     """A couple may stand anywhere on its body: that of a joint at it, that of its motor near it; else its own point comes first,
     then the mass centre."""
     own, centre = scenery.place(action.at), scenery.centres[action.body]
     parts = [min(0.5, step / (float(np.hypot(*(centre - own))) or 1.0)) for step in _TOWARDS]
     parts = [0.0] if action.kind in ("joint", "friction") else parts if action.bound else [0.0, 1.0, 0.5, 0.75, 1.4]
     places = [own + part * (centre - own) for part in parts]
-    turn, ink, others = np.sign(action.couple), scenery.ink, dense([mark.line for mark in marks])
-    best: tuple[float, Bow] | None = None
+    turn, obstacles, others = np.sign(action.couple), scenery.obstacles, dense([mark.line for mark in marks])
+    best: tuple[float, CoupleArrow] | None = None
     for rank, place in enumerate(places):
         for radius in _RADII:
             if best is not None and 5.0 * rank + 0.6 * radius >= best[0]:
@@ -179,11 +179,11 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> Bow:
                 start = gap + turn * _OPEN / 2
                 line = shapes.arc(place, radius, start, start + turn * (2 * np.pi - _OPEN))
                 covered = (
-                    5.0 * _near(line[::2], others, 3.5) + 1.0 * _near(line[::2], ink, 2.5) + 12.0 * _near(line[-2:], others, 7.0)
+                    5.0 * _near(line[::2], others, 3.5) + 1.0 * _near(line[::2], obstacles, 2.5) + 12.0 * _near(line[-2:], others, 7.0)
                 )
                 cost = covered + 5.0 * rank + 0.6 * radius
                 if best is None or cost < best[0]:
-                    best = cost, Bow(action, place, line)
+                    best = cost, CoupleArrow(action, place, line)
     assert best is not None
     return best[1]
 

@@ -12,7 +12,7 @@ from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import Row
 from freebody.views.diagram.scenery import Scenery, Tag, whole
-from freebody.views.measures import places
+from freebody.views.dimension_lines import places
 from freebody.views.sketch import sketch_of_state
 
 _TURNED = 0.2  # rad, below which an angle can hardly be seen
@@ -46,8 +46,8 @@ class Configuration(Picture):
     @property
     def description(self) -> str:
         """In words, what the drawing shows."""
-        told = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.about["coordinates"]]
-        return f"{self.source.name}, drawn with its coordinates: {'; '.join(told)}."
+        stated = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.about["coordinates"]]
+        return f"{self.source.name}, drawn with its coordinates: {'; '.join(stated)}."
 
 
 @dataclass(frozen=True)

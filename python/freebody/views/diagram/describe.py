@@ -15,8 +15,8 @@ _WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to 
 
 def described(group: Sequence[str], actions: Iterable[Action]) -> str:
     """What acts on a group, each with its letter and its direction."""
-    told = [f"{spoken(action.label)} {_way(action)} on {action.body}" for action in actions]
-    return f"On {' and '.join(group)} {'act' if told else 'nothing acts'}{': ' if told else ''}{'; '.join(told)}."
+    stated = [f"{spoken(action.label)} {_way(action)} on {action.body}" for action in actions]
+    return f"On {' and '.join(group)} {'act' if stated else 'nothing acts'}{': ' if stated else ''}{'; '.join(stated)}."
 
 
 def _way(action: Action) -> str:

@@ -8,7 +8,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from freebody.blow import Blow, blows
+from freebody.impact.impacts import Impact, impacts
 from freebody.views.diagram.impulses import impulse_diagram
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
         place = re.sub(r"\W+", "-", heading).strip("-")
         links.append(f'<a href="#{place}">{escape(heading)}</a>')
         mechanism, prefix = Mechanism.load(model), f"d{len(sections)}-"
-        pictures = "\n".join([_pictures(mechanism, prefix), *_blows(mechanism, f"{prefix}b")])
+        pictures = "\n".join([_pictures(mechanism, prefix), *_impacts(mechanism, f"{prefix}b")])
         sections.append(f'<section id="{place}"><h2><a href="#{place}">{escape(heading)}</a></h2>\n{pictures}</section>')
     path.write_text(_PAGE.format(links="\n".join(links), sections="\n".join(sections)), encoding="utf-8")
     return path
@@ -60,17 +60,17 @@ def _pictures(mechanism: Mechanism, prefix: str) -> str:
     return "\n".join(each.inline(f"{prefix}{i}") for i, each in enumerate(drawn))
 
 
-def _blows(mechanism: Mechanism, prefix: str) -> Iterator[str]:
+def _impacts(mechanism: Mechanism, prefix: str) -> Iterator[str]:
     """The impulse diagrams of the run, one blow of each kind: its bodies, and all together where there are several."""
-    for k, (number, blow) in enumerate(_kinds(mechanism)):
-        what = " and ".join(blow.change.of) or "what is engaged"
-        yield f"<h3>Blow {number} of the run, of {escape(what)}, at t = {blow.change.t:.4g} s: impulses</h3>"
-        several = len(blow.impulses.bodies) > 1
-        for i, group in enumerate([None, [tuple(blow.impulses.bodies)]] if several else [None]):
-            yield impulse_diagram(blow, group).inline(f"{prefix}{k}-{i}")
+    for k, (number, impact) in enumerate(_kinds(mechanism)):
+        what = " and ".join(impact.change.of) or "what is engaged"
+        yield f"<h3>Blow {number} of the run, of {escape(what)}, at t = {impact.change.t:.4g} s: impulses</h3>"
+        several = len(impact.impulses.bodies) > 1
+        for i, group in enumerate([None, [tuple(impact.impulses.bodies)]] if several else [None]):
+            yield impulse_diagram(impact, group).inline(f"{prefix}{k}-{i}")
 
 
-def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Blow]]:
+def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Impact]]:
     """The first blow of every kind, and its number; parts that repeat are of one kind. Of a model that does not run there is none."""
     from freebody.core import MotionError
     from freebody.model.errors import ModelFileError
@@ -80,8 +80,8 @@ def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Blow]]:
     except (MotionError, ModelFileError):
         return
     seen = set()
-    for number, blow in enumerate(blows(run), 1):
-        kind = tuple(re.sub(r"\[\d+\]", "", name) for name in blow.change.of)
+    for number, impact in enumerate(impacts(run), 1):
+        kind = tuple(re.sub(r"\[\d+\]", "", name) for name in impact.change.of)
         if kind not in seen:
             seen.add(kind)
-            yield number, blow
+            yield number, impact

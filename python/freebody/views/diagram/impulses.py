@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
-from freebody.blow import Impulsive
 from freebody.core import Body, FreeBodies
-from freebody.naming import ImpulseNaming
-from freebody.views.diagram import Cut, Desk, Diagram
+from freebody.impact.impacts import Impulsive
+from freebody.solve.symbols import ImpulseNaming
+from freebody.views.diagram import Cut, Diagram, DiagramBuilder
 from freebody.views.diagram.names import Labels
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import COLUMN, Row
@@ -61,18 +61,18 @@ class Impulses(Picture):
 
 
 def impulse_diagram(
-    blow: Impulsive,
+    impact: Impulsive,
     groups: Sequence[Sequence[str]] | None = None,
     scaled: bool = False,
     effective: bool = True,
     column: float = COLUMN,
 ) -> Diagram:
     """Impulse diagrams of groups of bodies (by default every body by itself) during a blow, with what is absent and why."""
-    free, source = blow.impulses, blow.source
+    free, source = impact.impulses, impact.source
     touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
-    desk = Desk(source, blow.state, touched, touched, _Jumps(ImpulseNaming.of(blow)), scaled, effective, column)
+    builder = DiagramBuilder(source, impact.state, touched, touched, _Jumps(ImpulseNaming.of(impact)), scaled, effective, column)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(f"impulse diagrams of {source.name}", tuple(_told(desk.cut(group), blow) for group in chosen), free)
+    return Diagram(f"impulse diagrams of {source.name}", tuple(_with_absent(builder.cut(group), impact) for group in chosen), free)
 
 
 def _still(body: Body) -> Body:
@@ -80,6 +80,6 @@ def _still(body: Body) -> Body:
     return replace(body, mass=0.0, inertia=0.0)
 
 
-def _told(cut: Cut, blow: Impulsive) -> Cut:
-    absent = [f"Absent: {sentence}." for sentence in blow.absent(*cut.group)]
+def _with_absent(cut: Cut, impact: Impulsive) -> Cut:
+    absent = [f"Absent: {sentence}." for sentence in impact.absent(*cut.group)]
     return replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent]))

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, TypeAlias
 
 from freebody.core import CompiledModel, FreeBodies, Load, State
-from freebody.symbolic.printers import breaking
+from freebody.symbolic.printers import line_breaking
 from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action
@@ -34,7 +34,7 @@ class Laws:
     state: State
     free: FreeBodies
 
-    def told(self, actions: Sequence[Action], width: float) -> list[str]:
+    def stated(self, actions: Sequence[Action], width: float) -> list[str]:
         """Lines of mathtext about the loads that have a law and not only a letter, ``width`` pt long as far as terms can be parted."""
         lines: dict[str, list[str]] = {}
         for action in actions:
@@ -59,7 +59,7 @@ class Laws:
         if size is None:
             law = self._of_length(load)
         else:
-            law = breaking.lines(latex(size), max(_LEAST, room - breaking.width(rf"\text{{where }}{action.label} = ")))
+            law = line_breaking.lines(latex(size), max(_LEAST, room - line_breaking.width(rf"\text{{where }}{action.label} = ")))
         if law and law[0] != action.label:
             law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""
             yield f"${action.label} = {_plain(law[0])}$"
@@ -82,10 +82,10 @@ class Laws:
             for way in (*ways, {"about": {"point": f"{name}.G"}})
         ]
         try:
-            told = self.source.letters(self.state, asked).answers
+            stated = self.source.letters(self.state, asked).answers
         except MotionError:
             return {}
-        given = [{each["load"]: read(each["tree"]) for each in answer["loads"]} for answer in told]
+        given = [{each["load"]: read(each["tree"]) for each in answer["loads"]} for answer in stated]
         return {
             (load.symbol, name): tuple(given[3 * k + way].get(i, ZERO) for way in range(3))
             for k, name in enumerate(bodies)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views.style import quiet
 
 if TYPE_CHECKING:
@@ -48,23 +48,23 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Ink:
+class Obstacles:
     """Drawn places (k, 2) and how bad it is to write over each (k,)."""
 
     places: Array
     weights: Array
 
     @classmethod
-    def of(cls, *layers: tuple[Array, float]) -> Ink:
+    def of(cls, *layers: tuple[Array, float]) -> Obstacles:
         """Layers of places with a weight each."""
         return cls(np.vstack([places for places, _ in layers]), np.concatenate([np.full(len(p), w) for p, w in layers]))
 
 
-def placed(labels: Sequence[Label], ink: Ink) -> list[Placed]:
+def placed(labels: Sequence[Label], obstacles: Obstacles) -> list[Placed]:
     """Places for all labels."""
     halves = [extent(label.text, label.size, label.bold) / 2 + AIR for label in labels]
     options = [_options(label, half) for label, half in zip(labels, halves, strict=True)]
-    own = [_covering(centres, half, ink) + near for (centres, near, _), half in zip(options, halves, strict=True)]
+    own = [_covering(centres, half, obstacles) + near for (centres, near, _), half in zip(options, halves, strict=True)]
     leaders = [_leaders(option, half) for option, half in zip(options, halves, strict=True)]
     chosen = [-1] * len(labels)
     order = sorted(range(len(labels)), key=lambda i: -float(np.prod(halves[i])))
@@ -95,10 +95,10 @@ def _options(label: Label, half: Array) -> tuple[Array, Array, Array]:
     return centres, costs, np.repeat(label.anchors, each, axis=0)
 
 
-def _covering(centres: Array, half: Array, ink: Ink) -> Array:
+def _covering(centres: Array, half: Array, obstacles: Obstacles) -> Array:
     """How much ink (k,) a box covers at each centre."""
-    reached = (np.abs(ink.places - centres.mean(axis=0)) < half + np.ptp(centres, axis=0)).all(axis=1)
-    (x, y), weights = ink.places[reached].T, ink.weights[reached]
+    reached = (np.abs(obstacles.places - centres.mean(axis=0)) < half + np.ptp(centres, axis=0)).all(axis=1)
+    (x, y), weights = obstacles.places[reached].T, obstacles.weights[reached]
     over = (np.abs(np.subtract.outer(centres[:, 0], x)) < half[0]) & (np.abs(np.subtract.outer(centres[:, 1], y)) < half[1])
     covered: Array = over @ weights
     return covered

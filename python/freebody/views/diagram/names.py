@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from freebody.core import Load
-from freebody.naming import Naming
+from freebody.solve.symbols import Naming
 from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.printers.text import columns, text
 from freebody.symbolic.symbols import Name, unicode_name

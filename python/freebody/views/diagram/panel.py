@@ -8,10 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import Arrow, Mark, lines
-from freebody.views.diagram.layout import Ink, Label, Placed, placed
+from freebody.views.diagram.layout import Label, Obstacles, Placed, placed
 from freebody.views.diagram.scenery import Scenery
 from freebody.views.shapes import dense
 from freebody.views.style import GROUND as GREY
@@ -41,8 +41,8 @@ class Panel:
     def labels(self) -> list[Placed]:
         """Every letter in its place."""
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
-        ink = Ink.of((self.scenery.ink, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
-        return placed([*_letters(self.marks), *_others(self.scenery, self.names)], ink)
+        obstacles = Obstacles.of((self.scenery.obstacles, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
+        return placed([*_letters(self.marks), *_others(self.scenery, self.names)], obstacles)
 
     @cached_property
     def axes(self) -> Array | None:
@@ -60,7 +60,7 @@ class Panel:
         return dense(lines(self.marks), 1.5)
 
     def _inside(self) -> list[Array]:
-        return [self.scenery.ink, *lines(self.marks), *_corners(self.labels)]
+        return [self.scenery.obstacles, *lines(self.marks), *_corners(self.labels)]
 
 
 def _letters(marks: Sequence[Mark]) -> Iterator[Label]:
@@ -92,14 +92,14 @@ def _corners(labels: Sequence[Placed]) -> list[Array]:
 def _corner(inside: Sequence[Array], labels: Sequence[Placed], scenery: Scenery, arrows: Array) -> Array:
     """Where the axes are in nobody's way: the free place nearest to the lower left corner, or outside of it."""
     low, high = np.vstack(inside).min(axis=0), np.vstack(inside).max(axis=0)
-    ink, boxes = np.vstack([scenery.ink, arrows]), _corners(labels)
+    obstacles, boxes = np.vstack([scenery.obstacles, arrows]), _corners(labels)
     spots = [
         np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
     ]
     for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
         start, end = at - 8, at + _CORNER
         written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
-        if written or ((ink > start) & (ink < end)).all(axis=1).any():
+        if written or ((obstacles > start) & (obstacles < end)).all(axis=1).any():
             continue
         if not scenery.within(np.array([start, end, (start + end) / 2])):
             return at

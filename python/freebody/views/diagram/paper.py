@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.results import Array
-from freebody.views.diagram.arrows import Bow
+from freebody.run.records import Array
+from freebody.views.diagram.arrows import CoupleArrow
 from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone
 from freebody.views.diagram.rows import LINE, MARGIN, NOTE, TITLE, Laid, Row, laid
-from freebody.views.paint import patch
+from freebody.views.render import patch
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, PAPER, quiet
 
@@ -92,7 +92,7 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
         if not any(np.hypot(*(pin - tag.at)) < 1.0 for pin in scenery.pins):
             ax.plot(*(tag.at + shift), "o", ms=2.6, color=INK, zorder=4)
     for mark in panel.marks:
-        _arrow(ax, mark.line + shift, tone(mark.action), 1.3 if isinstance(mark, Bow) else 1.6, 9.0)
+        _arrow(ax, mark.line + shift, tone(mark.action), 1.3 if isinstance(mark, CoupleArrow) else 1.6, 9.0)
     for label in panel.labels:
         if label.leader is not None:
             ax.plot(*(label.leader + shift).T, color=label.label.colour, lw=0.5, zorder=4.5)

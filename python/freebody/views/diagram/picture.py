@@ -68,10 +68,10 @@ class Picture(ABC):
         buffer = io.StringIO()
         with quiet(), matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": self.name}):
             self.figure.savefig(buffer, format="svg", metadata={"Date": None})
-        told = f"<title>{escape(self.name)}</title>\n <desc>{escape(self.description)}</desc>\n"
+        stated = f"<title>{escape(self.name)}</title>\n <desc>{escape(self.description)}</desc>\n"
         head, opening, rest = buffer.getvalue().partition("<svg")
         attributes, end, body = rest.partition(">")
-        return f'{head}{opening}{attributes} role="img"{end}\n {told}{body}'
+        return f'{head}{opening}{attributes} role="img"{end}\n {stated}{body}'
 
     def inline(self, prefix: str = "") -> str:
         """The SVG for a page with others: identifiers begin with a prefix, by default one that no different picture has."""

@@ -9,7 +9,7 @@ from textwrap import wrap
 
 import numpy as np
 
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views.diagram.layout import extent
 from freebody.views.diagram.panel import Panel
 
@@ -55,8 +55,8 @@ class Row:
     @property
     def foot(self) -> float:
         """Height of what is below the panels."""
-        told = len(self.lines) + (self.per_newton is not None)
-        return LINE * told + (4.0 if told else 0.0)
+        stated = len(self.lines) + (self.per_newton is not None)
+        return LINE * stated + (4.0 if stated else 0.0)
 
 
 @dataclass(frozen=True)

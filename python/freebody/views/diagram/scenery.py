@@ -11,12 +11,12 @@ import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State
 from freebody.core.cards import joints
-from freebody.results import Array
+from freebody.run.records import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
+from freebody.views.dimension_lines import DimensionLine, dimension_lines
 from freebody.views.draw import UNTOLD
-from freebody.views.measures import Measure, measures
 from freebody.views.scene import Scene, drawn
 from freebody.views.sketch import Sketch, sketch_of_state
 from freebody.views.style import GROUND as GREY
@@ -38,7 +38,7 @@ _BESIDE = 8.0  # pt from its body at which a force hangs in the air
 _LOOSE = ("rail", "slot", "hatch")
 _SOLID = ("body", "block", "band", "mass")
 _CUT = ("pin", "weld")
-Measured: TypeAlias = Callable[[Sketch, float], Iterable[Measure]]
+Dimensioned: TypeAlias = Callable[[Sketch, float], Iterable[DimensionLine]]
 """What finds coordinates to draw in a sketch; the number is the radius of arcs in sizes of symbols."""
 
 
@@ -113,7 +113,7 @@ class Scenery:
         return any(_contains(outline, places) for outline in self.solids)
 
     @cached_property
-    def ink(self) -> Array:
+    def obstacles(self) -> Array:
         """Places (k, 2) all along what is drawn, a few pt apart."""
         lines = (
             [closed(stroke) for stroke in self.strokes]
@@ -150,11 +150,11 @@ def scenery(
     pins = scale * _pins(sketch, free, group)
     points = _points(sketch, group, centres, scale)
     across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
-    dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR), measures(sketch, _RADIUS))
+    dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR), dimension_lines(sketch, _RADIUS))
     return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
 
 
-def whole(source: CompiledModel, state: State, measured: Measured = measures) -> Scenery:
+def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension_lines) -> Scenery:
     """The mechanism on its ground with joints, springs and strings, and all its coordinates, or others, as large as the paper
     allows."""
     names = [body["name"] for body in source.about["bodies"]]
@@ -172,7 +172,7 @@ def whole(source: CompiledModel, state: State, measured: Measured = measures) ->
     far, wanted = float(np.hypot(*_WIDEST)), measured(sketch, _RADIUS)
     dimensions = _dimensions(sketch, [GROUND, *names], strokes, scale, False, far, wanted)
     made = Scenery(strokes, inner, np.zeros((0, 2)), centres, [], dimensions, scale, sketch)
-    low, high = made.ink.min(axis=0) - _NEARBY, made.ink.max(axis=0) + _NEARBY
+    low, high = made.obstacles.min(axis=0) - _NEARBY, made.obstacles.max(axis=0) + _NEARBY
     points = _points(sketch, [GROUND, *names], centres, scale)
     return replace(made, points=[tag for tag in points if (low < tag.at).all() and (tag.at < high).all()])
 
@@ -261,7 +261,7 @@ def _dimensions(
     scale: float,
     scaled: bool,
     far: float,
-    measured: Iterable[Measure],
+    measured: Iterable[DimensionLine],
 ) -> list[Dimension]:
     """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
     found = []

@@ -16,7 +16,7 @@ from freebody.views.report.tables import aside, headline, sections
 from freebody.views.scene import of_run
 
 if TYPE_CHECKING:
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 
 def write_report(run: Run, path: str | Path) -> Path:

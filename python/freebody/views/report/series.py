@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.results import Array, Column, plain, quote, unit_of
+from freebody.run.records import Array, Column, plain, quote, unit_of
 from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps
 
 if TYPE_CHECKING:
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 Curve = tuple[str, Array]
 _CURVES, _POINTS = 8, 900

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.instant import Instant
-from freebody.storage import versions
+from freebody.run.storage import versions
+from freebody.solve.instant import Instant
 from freebody.views.peaks import peak_reactions
 from freebody.views.plots import pretty_unit
 
 if TYPE_CHECKING:
-    from freebody.run import Run
+    from freebody.run.simulation import Run
 
 
 def headline(run: Run) -> str:
@@ -23,8 +23,8 @@ def headline(run: Run) -> str:
     mood = "ok" if run.outcome.ok else "not-ok"
     badge = f'<span class="badge {mood}">{escape(run.outcome.name)}</span>'
     when = f"t = {_figure(run.outcome.t)} s"
-    told = escape(_sentence(run.outcome.sentence))
-    words = f"{told}, {when}" if run.outcome.ok else "<br>".join([when, *told.split("; ")])
+    stated = escape(_sentence(run.outcome.sentence))
+    words = f"{stated}, {when}" if run.outcome.ok else "<br>".join([when, *stated.split("; ")])
     return f"<h1>{escape(run.name)}</h1><p>{badge} {words}</p>"
 
 

@@ -1,0 +1,317 @@
+"""What can be asked of a mechanism once it is described: one instant, a motion, a drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from freebody.check import Verdict
+    from freebody.core import CompiledModel, FreeBodies, State
+    from freebody.equations.answers import Answers
+    from freebody.equations.balances.minimal import MinimalForm
+    from freebody.equations.balances.smallest import SmallestSet
+    from freebody.equations.derivation.derive import Equations
+    from freebody.impact.applied_impulse import AppliedImpulse
+    from freebody.impact.impacts import Impact
+    from freebody.model.builder import Builder
+    from freebody.run.sampling import Times
+    from freebody.run.simulation import Progress, Run
+    from freebody.solve.instant import Instant
+    from freebody.views.diagram import Diagram
+
+_MOMENT = 1e-6  # s
+
+
+class Moving:
+    """The part of ``Mechanism`` that computes."""
+
+    def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
+        """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
+        and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
+
+        given = self.initial_state(changes, initial)
+        p = given.pop("p")
+        with self.core_errors():
+            return self.compile().assemble(p, t, **given)
+
+    def solve(
+        self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+    ) -> Instant:
+        """Accelerations and every reaction at one instant, by default the start.
+
+        ``changes`` are coordinates or parameters (``phi2="90 deg"``), or the words of ``initial`` (``rates={"phi1": 2}``).
+        ``route`` is ``minimal``, ``newton_euler`` or ``constraints``.
+        """
+        from freebody.solve.instant import Instant
+
+        state, _ = self.start(initial, t, **changes)
+        with self.core_errors():
+            return Instant(self.compile(), state, route)
+
+    def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
+        """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
+
+        state, _ = self.start(initial, t, **changes)
+        with self.core_errors():
+            return self.compile().free_bodies(state)
+
+    def smallest(
+        self: Builder,
+        wanted: str,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        known_motion: bool = False,
+        **changes: Any,
+    ) -> SmallestSet:
+        """The fewest balance equations that give one unknown at an instant: the acceleration of a coordinate (``theta``), a
+        component of a reaction (``A.Fx``), the force or torque of a motion (its name), or that of a force of the model (its
+        name). Accelerations are taken as known for the last, or where ``known_motion``; ``changes`` as in ``solve``."""
+        from freebody.equations.balances.smallest import smallest_set
+
+        return smallest_set(wanted, *self._near(initial, t, changes), known_motion)
+
+    def minimal_form(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> MinimalForm:
+        """As many balance equations as degrees of freedom, without reactions where such exist; ``changes`` as in ``solve``."""
+        from freebody.equations.balances.minimal import minimal_form
+
+        return minimal_form(*self._near(initial, t, changes))
+
+    def equations(
+        self: Builder,
+        form: str = "minimal",
+        *,
+        want: str | None = None,
+        at_rest: bool = False,
+        fixed: Mapping[str, Any] | None = None,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        **changes: Any,
+    ) -> Equations:
+        """The equations of motion in letters, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
+        state, by default the start; ``changes`` as in ``solve``.
+
+        ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
+        coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``."""
+        from freebody.equations.derivation.data import SymbolicState
+        from freebody.equations.derivation.derive import derive
+
+        chosen = dict(fixed or {})
+        state, notes = self.start(initial, t, **changes, **chosen)
+        with self.core_errors():
+            subject = SymbolicState(self.source(notes), state, at_rest)
+            return derive(subject.with_numbers(list(chosen)), form, want)
+
+    def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
+        """Accelerations (``theta``) and reactions (``pivot.Fx``) in letters near the start: the fewest balance equations, solved,
+        simplified, and held against numbers. ``at_rest``, ``set={"theta": "45 deg", "m2": "m1"}``, ``limits={"m2": "inf"}``; see
+        ``freebody.equations.answers.solve_in_letters``."""
+        from freebody.equations.answers import solve_in_letters
+
+        return solve_in_letters(self, wanted, **asked)
+
+    def code(
+        self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
+    ) -> str:
+        """CompiledModel of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
+        (C99). Changed parameters become the defaults; a changed place says no more than on which branch things are. Raises
+        ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.codegen``."""
+        from freebody.codegen import program
+
+        state, _ = self.start(initial, t, **changes)
+        with self.core_errors():
+            return program(self.source(), state, language)
+
+    def _near(
+        self: Builder, initial: Mapping[str, Any] | None, t: float, changes: Mapping[str, Any]
+    ) -> tuple[list[FreeBodies], dict[str, Any]]:
+        """The free bodies at a state and at others near by, and the named points."""
+        from freebody.equations.balances.perturbed_states import nearby
+
+        state, _ = self.start(initial, t, **changes)
+        with self.core_errors():
+            return nearby(self.source(), state), self.compile().points(state.p)
+
+    def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
+        """A moment of motion from the state of ``solve``: at its start the events there have happened (``changes``, ``instant``);
+        None where the model has no such event."""
+        from freebody.run.simulation import simulate
+
+        if not any(event.get("opening") for event in self.lowered().spec["events"]):
+            return None
+        state, notes = self.start(initial, t, **changes)
+        with self.core_errors():
+            run = simulate(self.source(notes), state, self.run_plan(t + _MOMENT, {"step": _MOMENT}))
+        if run.outcome.t == t:
+            raise ValueError(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
+        return run
+
+    def simulate(
+        self: Builder,
+        until: float | str | None = None,
+        *,
+        initial: Mapping[str, Any] | None = None,
+        t_eval: Times | None = None,
+        progress: Progress | None = None,
+        t: float = 0.0,
+        **settings: Any,
+    ) -> Run:
+        """The motion from the start to ``until`` (s, or a quantity like ``"200 ms"``) or to an event that ends it.
+
+        ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
+        ``impacts``, ``painleve``; ``initial`` replaces the section of that name. ``t_eval`` fixes the output times and never
+        changes the steps. Where an event hands over to another model, its run is ``next`` of this one.
+        """
+        from freebody.run.model_sequence import Stage, follow
+
+        state, notes = self.start(initial, t)
+        if initial is None and self.lowered().start.equilibrium:
+            self.check_equilibrium(state)
+        for file in self.lowered().hand_over.values():
+            self.handed(file).compile()  # what is wrong there is told before anything moves
+        stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
+        with self.core_errors():
+            return follow(stage, stage.run(state, notes))
+
+    def check_equilibrium(self: Builder, state: State) -> None:
+        """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""
+        from freebody.solve.instant import Instant
+
+        instant = Instant(self.compile(), state)
+        if moving := instant.nonequilibrium():
+            stated = ", ".join(f"`{name}` {value}" for name, value in moving.items())
+            hint = "look for a load that nothing carries, or leave `equilibrium` out"
+            raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {stated}", hint)
+
+    def check(self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None) -> Verdict:
+        """Whether an equation, lines of them or a claim is true of every motion; see ``freebody.check.Checker``.
+
+        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``. Raises ``StatementError`` and ``ModelProblem``.
+        """
+        from freebody.check import check
+
+        return check(self, text, letters)
+
+    @contextmanager
+    def core_errors(self: Builder) -> Iterator[None]:
+        """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
+        from freebody.core import MotionError
+
+        try:
+            yield
+        except MotionError as error:
+            if error.path:
+                error.where = self.lowered().where(error.path)
+            raise
+
+    def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
+        """A labelled drawing of the mechanism at the start."""
+        from freebody.views.draw import LAYERS, drawing
+
+        state, notes = self.start()
+        return drawing(self.source(notes), state, ax, LAYERS if layers is None else layers)
+
+    def diagram(
+        self: Builder,
+        of: str | Sequence[str] | None = None,
+        at: float | str | None = None,
+        *,
+        to_scale: bool = False,
+        effective: bool = True,
+        column: float = 160.0,
+        initial: Mapping[str, Any] | None = None,
+        **changes: Any,
+    ) -> Diagram:
+        """Free-body diagrams: symbolic, with letters in their positive sense, or ``to_scale``, with what acts.
+
+        ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
+        by itself. Drawn is the start with ``changes`` (as in ``solve``), or a time ``at`` of the motion (s, or ``"200 ms"``;
+        0 is after the events at the start).
+        ``effective`` draws m a and I α beside. ``column`` is the width of the text in which it will stand, mm: the drawings are
+        made for it, letters keep their size. Raises ``ValueError`` for a body that is none, for a time that the motion does not
+        reach and for a column that is too narrow.
+        """
+        from freebody.views.diagram import diagram, groups, points
+
+        now = self.solve(initial=initial, **changes) if at is None else self._instant_at(at)
+        with self.core_errors():
+            free = now.free_bodies()
+        return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective, points(column))
+
+    def blow(self: Builder, number: int = 1, *, of: str | None = None, at: float | str | None = None) -> Impact:
+        """The blow of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
+        from a time on (s, or ``"200 ms"``). Raises ``NoImpact``."""
+        from freebody.impact.impacts import find
+        from freebody.model.start import evaluate
+
+        return find(self.simulate(), number, of=of, after=None if at is None else evaluate(at, {}))
+
+    def strike(self: Builder, point: str, direction: Any = 0, impulse: Any = 1.0, *, frame: str = "fixed") -> AppliedImpulse:
+        """What an ``impulse`` (N·s) at a named point does to the model, which stands still as at its start; see
+        ``freebody.impact.applied_impulse.strike``."""
+        from freebody.impact.applied_impulse import strike
+
+        return strike(self, self.start()[0], point, direction, impulse, frame)
+
+    def impulse_diagram(
+        self: Builder,
+        of: str | Sequence[str] | None = None,
+        number: int = 1,
+        *,
+        at: float | str | None = None,
+        to_scale: bool = False,
+        effective: bool = True,
+        column: float = 160.0,
+    ) -> Diagram:
+        """Impulse diagrams of a blow, chosen as in ``blow`` by ``number`` and ``at``; all else as in ``diagram``, with m Δv and I Δω
+        in place of m a and I α."""
+        from freebody.views.diagram import groups, points
+        from freebody.views.diagram.impulses import impulse_diagram
+
+        found = self.blow(number, at=at)
+        return impulse_diagram(found, groups(of, found.impulses), to_scale, effective, points(column))
+
+    def _instant_at(self: Builder, at: float | str) -> Instant:
+        """The motion at a time, after what happens then; at its start after the events there."""
+        from freebody.model.start import evaluate
+
+        t = evaluate(at, {})
+        if t < 0:
+            raise ValueError(f"the motion begins at 0 s: there is nothing at {t:g} s")
+        run = self.simulate(t) if t > 0 else self.opening()
+        if run is None:
+            return self.solve()
+        if run.outcome.t < t:
+            raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
+        return run.instant(max(t, 0.0))
+
+    def source(self: Builder, notes: Sequence[str] = ()) -> CompiledModel:
+        """The compiled mechanism with all that views want to know of it."""
+
+        model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
+        return replace(self.compile(), model=model, report=tuple(self.report_items()), notes=tuple(notes))
+
+    def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
+        """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
+        from freebody.core import Settings
+        from freebody.model.errors import ModelFileError, Problem
+        from freebody.model.start import evaluate
+
+        known = ("method", "rtol", "step", "max_step", "every", "route", "impacts", "painleve")
+        unknown = [name for name in overrules if name not in known]
+        if unknown:
+            raise TypeError(f"simulate() knows no {unknown[0]!r}; it takes until, initial, t_eval, progress, {', '.join(known)}")
+        asked = self.run_numbers()
+        end = asked.until if until is None else evaluate(until, {})
+        if end is None:
+            hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
+            raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
+        steps = {"step": asked.step, "max_step": asked.max_step, "every": asked.every}
+        plain = Settings(end, asked.method, asked.rtol, **steps, impacts=asked.impacts, painleve=asked.painleve)
+        words = ("method", "route", "impacts", "painleve")
+        numbers = {k: v if k in words or v is None else evaluate(v, {}) for k, v in overrules.items()}
+        return replace(plain, **numbers)

@@ -1,0 +1,324 @@
+"""The smallest edits that make a wrong equation true."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain, combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Negative, Node, Num, Sym
+from freebody.symbolic.tree import exchange as replaced
+
+from .conventions import conventions
+from .edits import Edit, depth, edits, other_figures, with_unit_vectors
+from .fitted_edits import FittedEdits
+from .language.spelling import spell
+from .language.statements import Equation, letters, without_ones
+from .residual import HOLDS, Residual, residual, unreached
+from .rows import rows
+
+if TYPE_CHECKING:
+    from .case import Case
+    from .families import Family
+
+EQUAL = 0.35
+"""Edits whose sizes differ by less are equally small."""
+_VAIN = 0.3  # more, for a mend by what is always 0
+_FEW = 5  # states on which an edit is tried first
+_PROMISING = 1e-7  # worst residual there of one that is tried on all
+_BEST = 40  # single edits of which pairs are tried
+_PLAIN = ("sign", "function")  # edits of which all pairs are tried
+_MOST_PLAIN = 24
+_BEST_FIGURES = 12
+_SHOWN = 6
+_FRESH = 1
+_WORTH = 10  # characters that an edit of size 1 may save
+_LIKELY = 2.0  # size of a single edit above which pairs may be as likely
+_SWAPPED = ("missing factor", "letter", "other term")
+_LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
+
+
+@dataclass(frozen=True)
+class Correction:
+    """One way to make a statement true: ``edits`` by kind with what stood there and what should; ``equation`` is the result.
+    ``where`` are the characters of each edit in the statement, ``given`` under what it is true, if not always."""
+
+    edits: tuple[tuple[str, str, str], ...]
+    equation: str
+    size: float
+    where: tuple[tuple[int, int], ...] = ()
+    given: str = ""
+
+    @property
+    def is_slip(self) -> bool:
+        """Whether something stands there that is wrong, rather than something left out."""
+        return not any(kind in _LEFT_OUT for kind, _, _ in self.edits)
+
+    def __str__(self) -> str:
+        stated = " and ".join(_sentence(*edit) for edit in self.edits)
+        return f"{stated}: {self.equation}" + (f" (with {self.given})" if self.given else "")
+
+
+def _sentence(kind: str, before: str, after: str) -> str:
+    if kind == "convention":
+        return after
+    if not before:
+        return f"{kind} `{after}`"
+    return f"{kind} `{before}`" if not after else f"{kind}: `{before}` should be `{after}`"
+
+
+@dataclass(frozen=True)
+class _Found:
+    edits: tuple[Edit, ...]
+
+    @property
+    def after(self) -> Equation:
+        return self.edits[-1].after
+
+    @property
+    def size(self) -> float:
+        return sum(edit.size for edit in self.edits)
+
+
+Step = Callable[["_Search"], Iterator[_Found]]
+"""A way to look for mends."""
+
+
+def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
+    """The smallest mends of an equation, equally small ones together; nothing where no one or two edits mend it."""
+    families = [(case.hypothesis, "")]
+    given, zeros = case.hypothesis, _unmentioned_zeros(case, equation)
+    if zeros and given.zeros:
+        families += [(replace(given, held=(*given.held, (name, 0.0))), f"{name} = 0") for name in zeros]
+        if len(zeros) > 1:
+            both = (*given.held, *((name, 0.0) for name in zeros))
+            families.append((replace(given, held=both), ", ".join(f"{name} = 0" for name in zeros)))
+    parts = rows(equation)
+    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE))):
+        yield from whole
+        return
+    for row in parts:
+        yield from _of_row(case, row, families, (*_SINGLE, _Search.pairs))
+
+
+def _unmentioned_zeros(case: Case, equation: Equation) -> list[str]:
+    """Parameters that are 0 in the model and that the equation leaves out."""
+    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Sym(letter.name)))
+    words = set(re.findall(r"\w+", said))
+    return [name for name, value in case.sampler.free_parameters.items() if value == 0 and name not in words]
+
+
+def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Correction]:
+    """The smallest mends of an equation, in the widest family in which they are smallest."""
+    searches = [(_Search(case, row, family), given) for family, given in families]
+    if any(search.right for search, _ in searches):
+        return
+    tried: list[list[_Found]] = [[] for _ in searches]
+    for step in steps:
+        for (search, _), seen in zip(searches, tried, strict=True):
+            seen += step(search)
+        every = [(search.best(seen), given) for (search, given), seen in zip(searches, tried, strict=True)]
+        some = [(found, given) for found, given in every if found]
+        if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
+            found, given = min(some, key=lambda pair: pair[0][0].size)
+            yield from (_mend(each, given) for each in found)
+            return
+
+
+def _mend(found: _Found, given: str) -> Correction:
+    stated = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in found.edits)
+    where = tuple(e.old.span for e in found.edits if e.old is not None and e.old.span != (0, 0))
+    return Correction(stated, spell(without_ones(found.after)), found.size, where, given)
+
+
+class _Search:
+    """The edits of one equation beside one family of motions."""
+
+    def __init__(self, case: Case, equation: Equation, family: Family) -> None:
+        self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
+        self.values, self.fresh = case.values(family), case.values(family, _FRESH)
+        self.few = {key: value[:_FEW] for key, value in self.values.items()}
+        self.fit = case.meaning.fits
+        self.said = {n.key for n in letters(equation)}
+        self.given = case.meaning.given()
+        self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
+        self.fits = FittedEdits(self.values, self.vocabulary)
+        self.right = self._worst(equation, self.values) < HOLDS
+
+    def singles(self) -> Iterator[_Found]:
+        """Every single edit that may mend it."""
+        return ((_Found((edit,))) for edit in self._promising(self._all(self.equation)))
+
+    def other_terms(self) -> Iterator[_Found]:
+        """Every term that should be quite another."""
+        if self._readable(self.equation):
+            yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
+
+    def pairs(self) -> Iterator[_Found]:
+        """Pairs of the edits that bring it nearest, and of one of them and what is then found to be lacking."""
+        every = list(edits(self.equation, self.vocabulary))
+        near = self._nearest(every, _BEST)
+        plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
+        for first, second in chain(combinations(near, 2), combinations(plain, 2)):
+            if (both := _both(first, second)) is not None and self._passes(both.after):
+                yield _Found((first, both))
+        for first in (*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES)):
+            second = self._fitted(first.after)
+            yield from (_Found((first, edit)) for edit in self._promising(second))
+        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
+
+    def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
+        """The edits after which the least is left."""
+        scored = [(self._score(edit.after), edit) for edit in found]
+        return [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:count]]
+
+    def _all(self, equation: Equation) -> Iterator[Edit]:
+        units = tuple(n for n in self.vocabulary.vectors if n in (Sym("i"), Sym("j"), Sym("k")))
+        broken = not self._readable(equation)
+        return chain(
+            with_unit_vectors(equation, units) if broken else (),
+            edits(equation, self.vocabulary),
+            conventions(equation, self.vocabulary),
+            () if broken else self._fitted(equation),
+        )
+
+    def _fitted(self, equation: Equation) -> Iterator[Edit]:
+        try:
+            yield from self.fits.edits(equation)
+        except StatementError:
+            return
+
+    def best(self, found: Iterable[_Found]) -> list[_Found]:
+        """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
+        ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
+        kept: dict[tuple[float, ...], list[_Found]] = {}
+        least = 0.0
+        for size, _, each in ranked:
+            if kept and size > least + EQUAL:
+                break
+            mark = self._mark(each.after)
+            if mark is None or self._is_idle(each) or self._is_vacuous(each.after):
+                continue
+            if (mark in kept and self.fit(each.after)) or self._confirmed(each.after):
+                least = size if not kept else least
+                kept.setdefault(mark, []).append(each)
+        return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
+
+    def _oddness(self, found: _Found) -> tuple[bool, float]:
+        """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
+        sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
+        alone = [side for side in sides if isinstance(side, Sym)]
+        length = len(spell(without_ones(found.after))) + _WORTH * found.size
+        return any(edit.old in alone and edit.old is not None for edit in found.edits), length
+
+    def _size(self, found: _Found) -> float:
+        """How large a mend is; larger where it adds what is always 0 here."""
+        return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
+
+    def _is_idle(self, found: _Found) -> bool:
+        """Whether it takes a part away by what is always 0."""
+        return any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in found.edits)
+
+    def _is_vacuous(self, equation: Equation) -> bool:
+        """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
+        kept = self.said & {n.key for n in letters(equation)}
+        return bool(kept) and self._worst(equation, self.few | {key: self.free[key] for key in kept}) < HOLDS
+
+    def _moves(self, node: Node) -> bool:
+        """Whether a part has a value other than 0."""
+        try:
+            return bool(np.any(evaluate(node, self.few)))
+        except (StatementError, KeyError, ValueError):
+            return True
+
+    def _confirmed(self, equation: Equation) -> bool:
+        if not self.fit(equation):
+            return False
+        if self.family.held and unreached(equation, self.values):
+            return False  # what is held at 0 may hide what is wrong
+        return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
+
+    def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
+        return (edit for edit in found if self._passes(edit.after))
+
+    def _passes(self, equation: Equation) -> bool:
+        return self._worst(equation, self.few) < _PROMISING
+
+    def _worst(self, equation: Equation, values: Mapping[str, Array]) -> float:
+        found = self._residual(equation, values)
+        return float("inf") if found is None or np.isnan(found.worst) else found.worst
+
+    def _score(self, equation: Equation) -> float:
+        found = self._residual(equation, self.few)
+        size = float("inf") if found is None else float(np.sqrt(np.mean(found.ratio**2)))
+        return size if size > 0 else float("inf")
+
+    def _residual(self, equation: Equation, values: Mapping[str, Array]) -> Residual | None:
+        try:
+            return residual(equation, values)
+        except (StatementError, ValueError):
+            return None
+
+    def _readable(self, equation: Equation) -> bool:
+        return self._residual(equation, self.few) is not None
+
+    def _mark(self, equation: Equation) -> tuple[float, ...] | None:
+        """What an equation says, however it is arranged; None where it says nothing (a = a)."""
+        places = self.other if {n.key for n in letters(equation)} - self.given else self.free
+        found = self._residual(equation, places)
+        if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
+            return None
+        solved = self._solved(equation, found.sides.residual, places)
+        if solved is None and found.sides.residual.shape[1] > 1:
+            left = found.sides.residual
+            solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
+        if solved is None:
+            ratio = found.ratio.ravel()
+            solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
+        return tuple(np.round(solved, 7).tolist())
+
+    def _solved(self, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
+        """The equation solved for a letter in which it and the one given are linear."""
+        known = {n.key for n in letters(equation)}
+        for key in (key for key in self._pivots if key in known):
+            if (solved := self._solved_for(key, equation, base, places)) is not None:
+                return solved
+        return None
+
+    @cached_property
+    def _pivots(self) -> list[str]:
+        """Letters in which the equation given is linear, accelerations first."""
+        found = self._residual(self.equation, self.other)
+        known = [n for n in letters(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
+        ranked = sorted(known, key=lambda n: -n.dots)
+        base = found.sides.residual if found else None
+        return [
+            n.key for n in ranked if base is not None and self._solved_for(n.key, self.equation, base, self.other) is not None
+        ]
+
+    def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
+        once, twice = (self._residual(equation, {**places, key: places[key] + step}) for step in (1.0, 2.0))
+        if base.shape[1] != 1 or once is None or twice is None:
+            return None
+        slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
+        return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
+
+
+def _both(first: Edit, second: Edit) -> Edit | None:
+    """The second edit after the first, where both can be made."""
+    if second.old is None or (second.new is None and second.kind != "extra term"):
+        return None
+    new = second.new if second.new is not None else Num(0.0, "0")
+    after = replaced(first.after, second.old, new)
+    return None if after is first.after else replace(second, after=after)
+
+
+_SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)

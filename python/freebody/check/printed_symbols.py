@@ -1,0 +1,136 @@
+"""The letters of printed equations that are not the model's own: ``N_track``, ``m_rod``, ``x_rod``, ``λ_rod``, ``E_k``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from freebody.core import MotionError
+from freebody.model.errors import ModelProblem
+from freebody.model.names import spell
+from freebody.symbolic.symbols import Renamed, unicode_name
+from freebody.symbolic.tree import Add, Mul, Num, Sym, Tree
+
+if TYPE_CHECKING:
+    from freebody.equations.derivation.data import SymbolicState
+    from freebody.model.builder import Builder
+
+
+_ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
+"""The force at one place of a contact that holds at several."""
+
+
+def printed(mechanism: Builder) -> Mapping[str, str]:
+    """What each means, as a declaration. Nothing where the model does not start."""
+    from freebody.equations.derivation.data import SymbolicState
+
+    try:
+        subject = SymbolicState(mechanism.source(), mechanism.start()[0])
+        found = [
+            *_loads(subject),
+            *_given(subject),
+            *_numbers(subject),
+            *_bodies(subject),
+            *_whole(subject),
+            *_directions(subject),
+        ]
+    except (MotionError, ModelProblem):
+        return {}
+    return dict(found)
+
+
+def renamed(mechanism: Builder) -> list[Renamed]:
+    """What is not called by its usual name, because something else is. Nothing where the model does not start."""
+    from freebody.equations.derivation.data import SymbolicState
+
+    try:
+        return list(SymbolicState(mechanism.source(), mechanism.start()[0]).symbols.renamed.values())
+    except (MotionError, ModelProblem):
+        return []
+
+
+def _loads(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+    names = subject.symbols.loads
+    for load in subject.free.loads:
+        if load.symbol in names:
+            one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
+            yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
+
+
+def _given(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Parameters and coordinates of which another is written alike."""
+    for name in subject.symbols.renamed:
+        if name in subject.symbols.names and subject.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
+            yield subject.symbols.names[name].unicode(), spell(name)
+
+
+def _numbers(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Masses and inertias that are numbers in the model."""
+    for name, entry in subject.table.items():
+        if entry["kind"] == "number":
+            yield subject.symbols.names[name].unicode(), f"{entry['value']!r} {entry['unit']}"
+
+
+def _bodies(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Places, velocities and accelerations of mass centres, and angles."""
+    for body in subject.source.about["bodies"]:
+        said, name = spell(body["name"]), body["name"]
+        read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
+        read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
+        yield from ((subject.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
+        for stem, long, meant in (
+            ("x", "place_x", f"x({said}.G)"),
+            ("y", "place_y", f"y({said}.G)"),
+            ("phi", "angle", f"angle({said})"),
+        ):
+            yield from ((unicode_name(f"{each}_{name}"), meant) for each in (stem, long))
+
+
+def _whole(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+    from freebody.equations.derivation.conserved import energies
+
+    yield from ((name.text, meant) for name, meant in zip(energies(subject), ("kinetic()", "potential()"), strict=True))
+    for axis in "xy":
+        yield subject.symbols.quantity(f"L_{axis}", f"momentum along {axis}").unicode(), f"momentum_{axis}()"
+    yield from ((f"H/{point}", _momentum(spell(point))) for point in subject.points)
+    for point in list(subject.points)[:1]:
+        yield "H/G", f"{_momentum(spell(point))} - {_carried(spell(point))}"
+
+
+def _momentum(point: str) -> str:
+    return f"angular_momentum({point})"
+
+
+def _carried(point: str) -> str:
+    """What the momentum of the whole, at its mass centre, has about a point."""
+    return f"((centre_x() - x({point}))*momentum_y() - (centre_y() - y({point}))*momentum_x())"
+
+
+def _directions(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
+    from freebody.equations.derivation.preamble import directions
+
+    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
+    named = directions(subject)
+    yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))
+    for pair in named.pairs:
+        if (angle := _said(pair.angle, turning)) is not None:
+            c, s = f"cos({angle})", f"sin({angle})"
+            around = (f"[{c}, {s}]", f"[-{s}, {c}]", f"[-{c}, -{s}]", f"[{s}, -{c}]")
+            yield pair.along, around[pair.quarters]
+            yield pair.across, around[(pair.quarters + 1) % 4]
+
+
+def _said(tree: Tree, turning: Mapping[str, str]) -> str | None:
+    """An angle in the model language: sums of letters with numbers; None for any other. ``turning``: how angles of bodies are said."""
+    match tree:
+        case Num(value):
+            return f"({value})"
+        case Sym(name, 0):
+            return turning.get(name) or spell(name)
+        case Add(parts) | Mul(parts):
+            said = [_said(part, turning) for part in parts]
+            sign = " + " if isinstance(tree, Add) else "*"
+            return None if None in said else f"({sign.join(filter(None, said))})"
+    return None

@@ -1,0 +1,109 @@
+"""What a part of a wrong equation would have to be: the equation solved for that part, on every state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody.symbolic.evaluate import Array, is_zero
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient
+
+from .language.statements import Equation
+
+_PARALLEL = 1e-9  # sine of the angle below which two vectors have one direction
+
+
+@dataclass(frozen=True)
+class RequiredTerm:
+    """A part with its value and the value that would make the equation true; ``addend``: it is added to something."""
+
+    node: Node
+    value: Array
+    needed: Array
+    addend: bool = False
+
+    @property
+    def missing(self) -> Array:
+        """What has to be added to it."""
+        return self.needed - self.value
+
+    @property
+    def factor(self) -> Array | None:
+        """By what it has to be multiplied, (K,); None where a vector would have to turn."""
+        if self.value.ndim == 1:
+            return self.needed / self.value
+        along = np.sum(self.value * self.needed, axis=1) / np.sum(self.value**2, axis=1)
+        off = np.linalg.norm(self.needed - along[:, None] * self.value, axis=1)
+        size = np.linalg.norm(self.needed, axis=1) + np.linalg.norm(self.value, axis=1)
+        return along if np.all(off <= _PARALLEL * size) else None
+
+
+def required_terms(equation: Equation, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
+    """Every part of numbers or vectors for which the equation can be solved, sides first."""
+    with np.errstate(all="ignore"):
+        zero = is_zero(equation.left), is_zero(equation.right)
+        left = None if zero[0] else evaluate(equation.left, values)
+        right = None if zero[1] else evaluate(equation.right, values)
+        if left is not None and right is not None and left.ndim != right.ndim:
+            return  # a number beside a vector
+        if left is not None and left.ndim < 3:
+            yield from _inside(RequiredTerm(equation.left, left, np.zeros_like(left) if right is None else right, True), values)
+        if right is not None and right.ndim < 3:
+            yield from _inside(RequiredTerm(equation.right, right, np.zeros_like(right) if left is None else left, True), values)
+
+
+def _inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
+    yield required
+    match required.node:
+        case Add(terms=terms):
+            parts = [(term, evaluate(term, values)) for term in terms if not is_zero(term)]
+            for term, value in parts:
+                yield from _inside(RequiredTerm(term, value, value + required.missing, True), values)
+        case Negative(of=of):
+            yield from _inside(RequiredTerm(of, -required.value, -required.needed, required.addend), values)
+        case Mul(factors=factors):
+            yield from _factors(required, factors, values)
+        case Dot(left=left, right=right):
+            yield from _factors(required, (left, right), values)
+        case Quotient(top=top, bottom=bottom):
+            yield from _quotient(required, top, bottom, values)
+        case Pow(base=base, exponent=Num(value=n)) if n and not isinstance(base, Fn):
+            value = evaluate(base, values)
+            root = np.abs(required.needed) ** (1 / n) * np.sign(value)
+            if value.ndim == 1 and np.all(required.needed >= 0):
+                yield from _inside(RequiredTerm(base, value, root), values)
+
+
+def _factors(required: RequiredTerm, factors: tuple[Node, ...], values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
+    found = [evaluate(factor, values) for factor in factors]
+    if any(value.ndim > 2 for value in found) or sum(value.ndim == 2 for value in found) > 1:
+        return
+    for i, (factor, value) in enumerate(zip(factors, found, strict=True)):
+        others = [v for j, v in enumerate(found) if j != i]
+        scalars = np.prod([v for v in others if v.ndim == 1], axis=0) if any(v.ndim == 1 for v in others) else np.ones(len(value))
+        vector = next((v for v in others if v.ndim == 2), None)
+        if value.ndim == 2:
+            wanted: Array | None = required.needed / scalars[:, None]
+        elif vector is None:
+            wanted = required.needed / scalars
+        else:
+            along = RequiredTerm(factor, vector, required.needed).factor
+            wanted = None if along is None else along / scalars
+        if wanted is not None:
+            yield from _inside(RequiredTerm(factor, value, wanted), values)
+
+
+def _quotient(required: RequiredTerm, top: Node, bottom: Node, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
+    if isinstance(top, Num) and isinstance(bottom, Num):
+        return  # ½ is one figure
+    above, below = evaluate(top, values), evaluate(bottom, values)
+    if below.ndim != 1:
+        return
+    spread = below.reshape(below.shape + (1,) * (above.ndim - 1))
+    yield from _inside(RequiredTerm(top, above, required.needed * spread), values)
+    factor = required.factor
+    if factor is not None:
+        yield from _inside(RequiredTerm(bottom, below, below / factor), values)

@@ -1,0 +1,137 @@
+"""What a model says of itself before anything of it moves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import CompiledModel, MotionError, State
+from freebody.model.start import Start, initial_state
+from freebody.model.units import Dimension
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+
+class StaticFacts:
+    """A model as its true motions need it: its parameters, its own start, and what sizes are typical of it."""
+
+    def __init__(self, mechanism: Builder) -> None:
+        lowered = mechanism.lowered()
+        self.start: Start = lowered.start
+        self.spec: dict[str, Any] = {**lowered.spec, "parameters": list(lowered.spec["parameters"])}
+        self.gravity = self._parametrised_gravity()
+        self.core = CompiledModel.of(self.spec)
+        self.about = self.core.about
+        self.fixed_counts = _counts(mechanism)
+
+    def _parametrised_gravity(self) -> str | None:
+        """A gravity that is a plain number becomes a parameter, so that nothing is true by the number 9.81."""
+        given = self.spec.get("gravity")
+        if given is None or not all(isinstance(part, int | float) for part in given) or given[0] != 0 or given[1] == 0:
+            return None
+        taken = {p["name"] for p in self.spec["parameters"]} | set(self.start.coordinates)
+        name = next(name for name in ("g", "gravity", "gravity2") if name not in taken)
+        self.spec["parameters"] += [{"name": name, "value": -given[1], "unit": "m/s^2"}]
+        self.spec["gravity"] = [0.0, f"-{name}"]
+        self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
+        return name
+
+    @cached_property
+    def free_parameters(self) -> dict[str, float]:
+        """Parameters that are plain numbers in the model, with those; the others follow from them."""
+        numbers = {p["name"]: p["value"] for p in self.spec["parameters"] if isinstance(p["value"], int | float)}
+        return {name: float(value) for name, value in numbers.items() if name not in self.fixed_counts}
+
+    @cached_property
+    def parameter_names(self) -> list[str]:
+        """All parameters in the order of ``p``."""
+        return [p["name"] for p in self.about["parameters"]]
+
+    @cached_property
+    def coordinates(self) -> list[Mapping[str, Any]]:
+        """The coordinates of the state, as the core describes them."""
+        return list(self.about["coordinates"])
+
+    @cached_property
+    def frictions(self) -> list[str]:
+        """Free parameters that are a coefficient of friction."""
+        written = [c.get(word) for c in self.spec.get("contacts", []) for word in ("friction", "static_friction")]
+        written += [j.get(word) for j in self.spec["joints"] for word in ("friction", "static_friction")]
+        return [name for name in self.free_parameters if name in written]
+
+    @cached_property
+    def gravities(self) -> list[str]:
+        """Free parameters that stand alone in the gravity of the model."""
+        parts = [str(part).strip("-() ") for part in self.spec.get("gravity") or ()]
+        return [name for name in self.free_parameters if name in parts]
+
+    # -- the model's own state
+
+    @cached_property
+    def first(self) -> State:
+        """The state in which the model starts."""
+        return self.started({})
+
+    def started(self, parameters: Mapping[str, float]) -> State:
+        """The start with other parameters. Raises ``MotionError`` and ``ModelProblem``."""
+        words = initial_state(self.start, self.core, parameters)
+        p = words.pop("p")
+        return self.core.assemble(p, 0.0, **words)[0]
+
+    @cached_property
+    def length(self) -> float:
+        """A length typical of the model, m."""
+        places = self.core.points(self.core.bind({}))
+        found = [math.hypot(x, y) for _, x, y in places.values()]
+        state = self.first
+        found += [abs(q) for q, c in zip(state.q, self.coordinates, strict=True) if c["dimension"] == "m"]
+        return max([x for x in found if x > 0], default=1.0)
+
+    @cached_property
+    def mass(self) -> float:
+        """A mass typical of the model, kg."""
+        return max([b["mass"] for b in self.about["bodies"] if b.get("mass")], default=1.0)
+
+    @cached_property
+    def rate(self) -> float:
+        """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest."""
+        state = self.first
+        sizes = np.array([1.0 if c["dimension"] == "rad" else 1 / self.length for c in self.coordinates])
+        try:
+            solved = self.core.instant(state)
+            found = math.sqrt(np.max(np.abs(solved.accelerations * sizes), initial=0.0))
+        except MotionError:
+            found = 0.0
+        own = float(np.max(np.abs(state.u * sizes), initial=0.0))
+        return float(np.clip(max(found, own), 1e-3, 1e3)) if max(found, own) > 0 else 1.0
+
+    @cached_property
+    def freedom(self) -> int:
+        """Rates that can be given at will."""
+        given = sum(motion["engaged"] and motion["level"] != "acceleration" for motion in self.spec["motions"])
+        return max(self.core.instant(self.first).rank.freedom - given, 0)
+
+    @cached_property
+    def loops(self) -> int:
+        """How many joints close a loop."""
+        return len(self.about.get("closure_coordinates", [])) + sum(1 for j in self.about["joints"] if j.get("cut"))
+
+    def shapes_loop(self, dimension: Dimension | None) -> bool:
+        """Whether what has this dimension may be a length of a closed loop."""
+        return self.loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
+
+    def shapes_loops(self, name: str) -> bool:
+        """Whether a parameter may be a length of a closed loop."""
+        return self.shapes_loop(self.start.parameters.get(name))
+
+
+def _counts(mechanism: Builder) -> set[str]:
+    """Parameters that say how many items there are; those cannot vary."""
+    text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
+    return {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}

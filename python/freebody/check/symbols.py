@@ -1,0 +1,307 @@
+"""What the letters of a statement mean in a model."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+from freebody.model import meanings, syntax
+from freebody.model.errors import ModelProblem
+from freebody.model.names import nearest, replace_names, spell
+from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
+from freebody.model.writer import Writer
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Sym, walk
+
+from .language.dimensions import DimensionError, check_dimensions
+from .language.parser import parse, parse_expression
+from .language.spelling import spell as written
+from .language.statements import Program
+from .language.tokens import Names
+from .printed_symbols import printed, renamed
+from .user_symbols import Array, Meaning, Reader
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+_PARTS: dict[str, tuple[str, ...]] = {
+    "force": ("value",),
+    "motion": ("force",),
+    "contact": ("N", "T", "Fx", "Fy"),
+    "string": ("tension",),
+    "stop": ("N",),
+}
+_FUNCTIONS = sorted(syntax.READINGS | {"rate", "accel"})
+_READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
+_SHORT = {"Fx": "x", "Fy": "y"}
+_DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
+
+
+class Sampled(Protocol):
+    """True states on which letters are read."""
+
+    def values(self, texts: Sequence[str]) -> Mapping[str, Array]:
+        """Each expression of the model language on all samples, (K,)."""
+
+    def masses(self) -> Mapping[str, tuple[Array, Array]]:
+        """Mass (K,) and central moment of inertia (K,) of each body."""
+
+
+class Letters:
+    """All letters that a statement about a model may use.
+
+    By themselves: parameters, coordinates and gauges (with dots: rates, accelerations), ``t``, ``g``, the unit vectors ``i j k``,
+    and forces by the names of what makes them (``pivot.Fx`` or ``pivot_x``, ``floor.N``, ``motor.value``).
+
+    ``declared`` adds own ones, each as
+
+    - an expression of the model language, earlier letters included: ``phi: theta - alpha``;
+    - components of a vector: ``[x(upper.G) - x(ground.O), y(upper.G) - y(ground.O)]``;
+    - a phrase: ``position of P``, ``… from Q``; ``velocity of P relative to Q``, ``acceleration of …``;
+      ``direction from P to Q`` (a unit vector), ``normal from P to Q`` (a quarter turn to its left); ``force of JOINT on BODY``,
+      ``couple of JOINT on BODY``; ``force on BODY, …`` (all of them), ``moment on BODY, … about P``,
+      ``angular momentum of BODY, … about P`` (``all`` bodies, too).
+
+    Rates of declared letters follow. ``gravity``: the parameter that stands for it, where it was made one.
+    Raises ``ModelProblem`` for a declaration that means nothing.
+    """
+
+    def __init__(
+        self, mechanism: Builder, declared: Mapping[str, str | Sequence[str | float]] | None = None, gravity: str | None = None
+    ) -> None:
+        self.mechanism = mechanism
+        lowered = mechanism.lowered()
+        self.spec = lowered.spec
+        self.named = meanings.meanings(lowered.root)
+        if gravity is not None:
+            self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
+        self.writer = Writer(lowered.root, self.named, {})
+        self.about = mechanism.source().about
+        self._bodies = frozenset(spell(body["name"]) for body in self.about["bodies"])
+        self.meanings: dict[str, Meaning] = self._own(gravity)
+        for name, said in (declared or {}).items():
+            self._declare(name, said)
+
+    # --- what there is -------------------------------------------------------------------------
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All letters, for ``parse``."""
+        return tuple(self.meanings)
+
+    @property
+    def dimensions(self) -> dict[str, Dimension]:
+        """The dimension of each letter where it is known, for ``check_dimensions``."""
+        return {name: m.dimension for name, m in self.meanings.items() if m.dimension is not None}
+
+    def of_kind(self, *kinds: str) -> list[str]:
+        """Letters that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""
+        return [name for name, m in self.meanings.items() if m.kind in kinds]
+
+    @property
+    def still(self) -> list[str]:
+        """Letters that do not change with time."""
+        return self.of_kind("parameter", "gravity", "direction")
+
+    @cached_property
+    def vectors(self) -> frozenset[str]:
+        """Letters that are vectors."""
+        return frozenset(name for name, m in self.meanings.items() if m.is_vector)
+
+    def read(self, text: str) -> Program:
+        """The statement that a text is. What it asks of the model in the model's own words, ``ax(rod.G)``, ``energy()``,
+        ``accel(s)``, becomes a letter, too. Raises ``StatementError``."""
+        for found in _READING.finditer(text):
+            name = "".join(found[0].split())
+            if name not in self.meanings and (meaning := self._reading(name)) is not None:
+                self._put(name, meaning)
+        program = parse(text, self.names, self.still)
+        if self._strange(program) and self._learn_printed():
+            program = parse(text, self.names, self.still)
+        return program if self._fits(program, strictly=True) else self._with_units(text, program)
+
+    def _with_units(self, text: str, program: Program) -> Program:
+        """The same where ``5 m/s`` is a speed though m and s are letters, if its dimensions fit only so."""
+        try:
+            other = parse(text, self.names, self.still, units=True)
+        except StatementError:
+            return program
+        return other if other != program and self._fits(other) else program
+
+    def _fits(self, program: Program, strictly: bool = False) -> bool:
+        try:
+            check_dimensions(program, self.dimensions, strictly=strictly)
+        except DimensionError:
+            return False
+        except StatementError:
+            pass  # kinds that do not go together are told with the verdict
+        return True
+
+    def _strange(self, program: Program) -> bool:
+        """Whether some letter has no meaning."""
+        given = {line.name for line in program.assignments}
+        return any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
+
+    def _learn_printed(self) -> bool:
+        """Those of printed equations join the others, which go before them; whether there are any that did not before."""
+        taken = {folded(name) for name in self.meanings}
+        new = {name: said for name, said in printed(self.mechanism).items() if folded(name) not in taken}
+        for name, said in new.items():
+            with suppress(ModelProblem):
+                self._declare(name, said)
+        return bool(new)
+
+    def notes(self, program: Program) -> tuple[str, ...]:
+        """Of each letter of a program that usually means something else what that is called here."""
+        used = {folded(n.name) for n in walk(program) if isinstance(n, Sym)}
+        return tuple(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used)
+
+    def _reading(self, text: str) -> Meaning | None:
+        try:
+            return Meaning("reading", *_single(self._measure(text)))
+        except ModelProblem:
+            return None
+
+    # --- values --------------------------------------------------------------------------------
+
+    def require(self, program: Program) -> list[Sym]:
+        """The letters of a program that need values. Raises ``StatementError`` at one that has no meaning."""
+        given = {line.name for line in program.assignments}
+        found: dict[Sym, None] = {}
+        for node in walk(program):
+            if isinstance(node, Sym) and node not in given:
+                try:
+                    self._meaning(node).needed(node.dots)
+                except ModelProblem as complaint:
+                    raise StatementError(complaint.what, node.span, complaint.hint, program.text) from None
+                found[node] = None
+        return list(found)
+
+    def texts(self, found: Iterable[Sym]) -> list[str]:
+        """The expressions of the model language from which these letters are read, each once."""
+        return list(dict.fromkeys(text for n in found for text in self._meaning(n).needed(n.dots)))
+
+    def values(self, found: Iterable[Sym], samples: Sampled) -> dict[str, Array]:
+        """The letters on true states, by ``Letter.key``: (K,), vectors (K, 3)."""
+        found = list(found)
+        known = samples.values(self.texts(found))
+        return {n.key: self._meaning(n).value(n.dots, known, samples.masses) for n in found}
+
+    def _meaning(self, letter: Sym) -> Meaning:
+        if letter.name in self.meanings:
+            return self.meanings[letter.name]
+        bare = letter.name.rstrip("'")
+        near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(letter.name, self.meanings))
+        hint = f"did you mean `{near}`? Otherwise d" if near else "d"
+        raise ModelProblem(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
+
+    # --- building ------------------------------------------------------------------------------
+
+    def _own(self, gravity: str | None) -> dict[str, Meaning]:
+        there = {c["name"] for part in ("coordinates", "closure_coordinates") for c in self.about[part]}
+        values = {name: v for name, v in self.named.values.items() if v[0] != "coordinate" or name in there}
+        out = {name: Meaning(kind, (spell(name),), dimension) for name, (kind, dimension) in values.items()}
+        for coordinate in self.about["coordinates"]:
+            name = coordinate["name"]
+            out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
+            owner, _, stem = name.rpartition(".")
+            if owner:
+                out.setdefault(f"{stem}_{owner}", out[name])  # as LaTeX prints it
+        out.setdefault("t", Meaning("time", ("t",), TIME))
+        if (text := gravity or self._gravity()) is not None:
+            out.setdefault("g", Meaning("gravity", (text,), LENGTH.times(TIME, -2)))
+        for name, texts in _DIRECTIONS.items():
+            out.setdefault(name, Meaning("direction", texts, NUMBER_ONLY))
+        for name, meaning in self._reactions().items():
+            out.setdefault(name, meaning)
+        return out
+
+    def _gravity(self) -> str | None:
+        """The size of a gravity that points down."""
+        given = self.spec["gravity"]
+        if given is None or given[0] != 0:
+            return None
+        down = given[1]
+        return repr(-down) if isinstance(down, int | float) else f"-({down})"
+
+    def _reactions(self) -> dict[str, Meaning]:
+        """Forces by the names of what makes them, in two spellings."""
+        out: dict[str, Meaning] = {}
+        for owner, kind in self.named.owners.items():
+            for part in self._joint_parts(owner) if kind == "joint" else _PARTS.get(kind, ()):
+                text = f"{spell(owner)}.{part}"
+                meaning = Meaning("reaction", (text,), self.named.dimension(f"{owner}.{part}", self.writer.scope))
+                endings = [f".{part}", f"_{part}", *([f"_{_SHORT[part]}"] if part in _SHORT else [])]
+                out |= {text: meaning, **{f"{owner.replace(' ', '_')}{end}": meaning for end in endings}}
+        return out
+
+    def _joint_parts(self, name: str) -> list[str]:
+        """What can be read of a joint's reaction."""
+        joint = next((j for j in self.about["joints"] if j["name"] == name), None)
+        if joint is None or not joint["reaction"]:
+            return []
+        has_friction = any(j["name"] == name and j["with"].get("friction") for j in self.spec["joints"])
+        numbered = [f"F{i + 1}" for i in range(min(len(joint["reaction"]), 2))]
+        extra = {"M": joint["couple"], "tension": joint["type"] == "link", "friction": has_friction}
+        return ["Fx", "Fy", "F", "Fs", "Fn", *numbered, *(part for part, there in extra.items() if there)]
+
+    def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
+        bodies = [b["name"] for b in self.about["bodies"]]
+        particles = frozenset(b["name"] for b in self.about["bodies"] if b.get("particle"))
+        joints = {j["name"]: (j["first"], j["second"]) for j in self.about["joints"]}
+        try:
+            self._put(name, Reader(self._measured, joints, bodies, particles).read(said))
+        except ModelProblem as complaint:
+            raise ModelProblem(f"letter `{name}`: {complaint.what}", complaint.hint) from None
+
+    def _put(self, name: str, meaning: Meaning) -> None:
+        self.meanings[name] = meaning
+        for cached in ("vectors", "_spellings"):
+            self.__dict__.pop(cached, None)
+
+    def _measure(self, said: str) -> tuple[str, Dimension | None]:
+        """An expression in SI with its dimension; letters declared before, and Greek ones, are written out."""
+        return self.writer.measured(replace_names(said, self._written_out))
+
+    def _measured(self, said: str) -> tuple[str, Dimension | None]:
+        """The same; what is none of the model language, like ``m g/k``, is read as in a statement."""
+        try:
+            return self._measure(said)
+        except ModelProblem as complaint:
+            try:
+                return self._measure(written(parse_expression(said, self.names, self.still)))
+            except (StatementError, ModelProblem):
+                raise complaint from None
+
+    def _written_out(self, token: str, is_call: bool) -> str:
+        if is_call or token in self.named.values or token in self._bodies:
+            return token
+        name = token if token in self.meanings else self._spellings.find(folded(token)) if "." not in token else None
+        found = self.meanings.get(name[0] if isinstance(name, tuple) else name or "")
+        if found is None or found.is_vector or token in ("t", "pi"):
+            return token
+        dots = name[1] if isinstance(name, tuple) else 0
+        return "(" + found.needed(dots)[0] + ")"
+
+    @cached_property
+    def _spellings(self) -> Names:
+        return Names.of(self.meanings)
+
+
+def _single(measured: tuple[str, Dimension | None]) -> tuple[tuple[str], Dimension | None]:
+    return (measured[0],), measured[1]
+
+
+def declarations(lines: Iterable[str]) -> dict[str, str]:
+    """Letters declared in lines like ``phi = theta - alpha`` or ``phi: theta - alpha``. Raises ``ModelProblem``."""
+    out = {}
+    for line in lines:
+        found = re.fullmatch(r"\s*([^\s:=]+)\s*[:=]\s*(.+)", line)
+        if not found:
+            raise ModelProblem(f"`{line}` declares no letter", "write it like `phi = theta - alpha`")
+        out[found[1]] = found[2].strip()
+    return out

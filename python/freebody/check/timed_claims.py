@@ -1,0 +1,153 @@
+"""Claims about the model's own run, with its own numbers: figures at a moment, of its report, and what is alike in several runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.model.errors import ModelProblem
+from freebody.run.records import Array
+from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.tree import Num
+from freebody.symbolic.tree import exchange as replaced
+
+from .case import Case
+from .correction import Correction
+from .families import Samples
+from .language.parser import parse
+from .language.sides import Sides, equation_sides
+from .language.spelling import spell
+from .language.statements import Equation, letters
+from .meaning import StatementLetters
+from .rounding import figures, last_digit, rounding, slope
+from .verdict import Evidence, Kind, Verdict
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+
+_ROUND = 1e-9  # of half a digit, so that a figure that lies on the edge is accepted
+_ALIKE = 1e-7  # spread of what is the same in several runs, relative: what the integrator leaves
+
+
+def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
+    """At a moment of the model's own run, with its own numbers; figures to their printed digits."""
+    case, values, t = _read(checker, declared, moment, statement)
+    for equation in case.equations:
+        with np.errstate(all="ignore"):
+            sides = equation_sides(equation, values)
+        if not np.isfinite(sides.residual).all():
+            return Verdict(Kind.UNDECIDABLE, statement, f"at {moment} (t = {t:.6g} s) it has no value: {_figures(sides)}")
+        off, allowed = np.abs(sides.residual), rounding(equation, values)
+        if np.any(off > allowed * (1 + _ROUND)):
+            shown = {n.key: values[n.key][0].tolist() for n in letters(equation) if n.key in values}
+            seen = Evidence(shown, sides.left[0].tolist(), sides.right[0].tolist(), float(off.max()), 1)
+            corrections, last = _corrected(equation, values)
+            reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}" + (": off in the last digit" if last else "")
+            return Verdict(Kind.WRONG, statement, reason, mends=corrections, evidence=seen)
+    return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
+
+
+def report(checker: Checker, declared: Declared, label: str, figure: str) -> Verdict:
+    """A quantity of the section ``report``, from the model's own run with its own numbers."""
+    run, _ = checker.moment("end")
+    if label not in run.report:
+        raise ModelProblem(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
+    printed = parse(f"0 = {figure}").equations[0]
+    value, said = float(run.report[label].value), float(evaluate(printed.right, {})[0])
+    allowed = float(rounding(printed, {}).max())
+    kind = Kind.TRUE if abs(value - said) <= allowed * (1 + _ROUND) else Kind.WRONG
+    return Verdict(kind, label, f"{label} is {value:.6g} against {said:g}" + (", as printed" if kind is Kind.TRUE else ""))
+
+
+def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: str, expression: str) -> Verdict:
+    """An expression has one value at a moment of the runs with several numbers of a parameter."""
+    from .api import Checker as Another
+
+    if name not in checker.mechanism.parameters:
+        raise ModelProblem(f"the model has no parameter `{name}`", f"it has {', '.join(checker.mechanism.parameters)}")
+    before, found = checker.mechanism.parameters[name], {}
+    try:
+        for number in (part.strip() for part in numbers.split(",")):
+            checker.mechanism.parameters[name] = number
+            case, values, _ = _read(Another(checker.mechanism, checker.declared), declared, moment, f"{expression} = 0")
+            found[number] = evaluate(case.equations[0].left, values)[0]
+    finally:
+        checker.mechanism.parameters[name] = before
+    every = np.array(list(found.values()))
+    spread = float(np.max(np.ptp(every, axis=0)) / max(float(np.abs(every).max()), 1e-300))
+    if spread < _ALIKE:
+        return Verdict(Kind.TRUE, expression, f"{_plain(every[0])} in all {len(every)} runs, to {spread:.0e}")
+    stated = ", ".join(f"{_plain(value)} with {name} = {number}" for number, value in found.items())
+    return Verdict(Kind.WRONG, expression, f"at {moment} it is {stated}")
+
+
+def _corrected(equation: Equation, values: Mapping[str, Array]) -> tuple[tuple[Correction, ...], bool]:
+    """The fewest figures to be printed otherwise, and whether they are off by no more than one in the last digit."""
+    printed = figures(equation)
+    for count in range(1, len(printed) + 1):
+        found = [correction for some in combinations(printed, count) for correction in _printed_again(equation, some, values)]
+        if found:
+            return tuple(correction for correction, _ in found), all(last for _, last in found)
+    return (), False
+
+
+def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[str, Array]) -> Iterator[tuple[Correction, bool]]:
+    """The equation with other numbers for some figures, if these make it hold to its digits."""
+    slopes = np.stack([slope(equation, figure, values)[0] for figure in chosen], axis=-1)
+    steps = -np.linalg.pinv(slopes) @ equation_sides(equation, values).residual[0]
+    after, edits, last = equation, [], True
+    for figure, step in zip(chosen, steps, strict=True):
+        places = len(figure.text.partition("e")[0].split(".")[1])
+        power = 10.0 ** int(figure.text.partition("e")[2] or 0)
+        text = f"{(figure.value + step) / power:.{places}f}" + figure.text[len(figure.text.partition("e")[0]) :]
+        after = replaced(after, figure, Num(float(text), text))
+        edits.append(("figure", figure.text, text))
+        last &= abs(float(text) - figure.value) < 1.5 * last_digit(figure)
+    left = np.abs(equation_sides(after, values).residual)
+    if np.all(left <= rounding(after, values) * (1 + _ROUND)):
+        yield Correction(tuple(edits), spell(after), float(len(edits)), tuple(figure.span for figure in chosen)), last
+
+
+def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:
+    """A statement with the values of its letters at a moment, and its time."""
+    known = checker.letters(declared)
+    program = known.read(statement)
+    meaning = StatementLetters(known, program, checker.sampler)
+    run, t = checker.moment(moment)
+    return Case(program, meaning, checker.sampler), meaning.values(_OnRun(run, t, checker)), t
+
+
+def _figures(sides: Sides) -> str:
+    return f"it is {_plain(sides.left[0])} against {_plain(sides.right[0])}"
+
+
+def _plain(value: Any) -> str:
+    return np.array2string(np.asarray(value) + 0.0, precision=6, separator=", ") if np.ndim(value) else f"{float(value):.7g}"
+
+
+class _OnRun:
+    """A moment of a run as one sample."""
+
+    def __init__(self, run: Any, t: float, checker: Checker) -> None:
+        self.run, self.t, self.checker = run, t, checker
+
+    def __len__(self) -> int:
+        return 1
+
+    def values(self, texts: Any) -> dict[str, Array]:
+        """Each expression, (1,)."""
+        gravity = self.checker.sampler.gravity
+        return {text: np.array([self._value(text, gravity)]) for text in texts}
+
+    def _value(self, text: str, gravity: str | None) -> float:
+        if text == gravity:
+            return float(self.checker.sampler.free_parameters[text])
+        return float(np.asarray(self.run.evaluate(text, self.t)).ravel()[0])
+
+    def masses(self) -> dict[str, tuple[Array, Array]]:
+        """As of the model's own numbers."""
+        sampler = self.checker.sampler
+        return Samples(sampler.core, [sampler.own], sampler.parameter_names).masses()

@@ -1,0 +1,234 @@
+"""What a declared letter means: an expression of the model language, components of a vector, or a phrase."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from freebody.model.errors import ModelProblem
+from freebody.model.units import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
+
+from .rates import derivative
+
+Array = NDArray[np.float64]
+Values = Mapping[str, Array]
+"""Values (K,) of expressions of the model language, by their text."""
+Masses = Callable[[], Mapping[str, tuple[Array, Array]]]
+"""Mass (K,) and moment of inertia about the mass centre (K,) of each body by name."""
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What a letter is. ``texts`` are one expression for a number, three for a vector along i, j, k.
+
+    ``kind`` is parameter, coordinate, gauge, time, gravity, direction, reaction or declared; ``dimension`` None fits any.
+    """
+
+    kind: str
+    texts: tuple[str, ...]
+    dimension: Dimension | None = None
+
+    @property
+    def is_vector(self) -> bool:
+        """Whether it has components along i, j, k."""
+        return len(self.texts) == 3
+
+    def needed(self, dots: int) -> list[str]:
+        """The expressions from which its derivative of that order is read. Raises ``ModelProblem``."""
+        return [derivative(text, dots) for text in self.texts]
+
+    def value(self, dots: int, values: Values, masses: Masses) -> Array:
+        """Its derivative of that order over K samples: (K,), a vector (K, 3)."""
+        found = [values[text] for text in self.needed(dots)]
+        return np.stack(found, axis=-1) if self.is_vector else found[0]
+
+
+@dataclass(frozen=True)
+class Momentum(Meaning):
+    """Angular momentum of some bodies about a point, as a vector along k; with one dot Σ r×m a + I α, r from that point.
+
+    ``texts`` are, for each body, m-fold and I-fold parts; ``dotted`` those with accelerations. With ``loads`` it is the moment
+    of all that acts on the bodies from outside, which is the latter.
+    """
+
+    bodies: tuple[str, ...] = ()
+    dotted: tuple[str, ...] = ()
+    loads: bool = False
+
+    @property
+    def is_vector(self) -> bool:
+        return True
+
+    def needed(self, dots: int) -> list[str]:
+        if dots > (0 if self.loads else 1):
+            raise ModelProblem("only the first rate of an angular momentum is known, and none of a moment")
+        return list(self.dotted if dots or self.loads else self.texts)
+
+    def value(self, dots: int, values: Values, masses: Masses) -> Array:
+        parts = [values[text] for text in self.needed(dots)]
+        known = masses()
+        total = sum(
+            known[body][0] * orbit + known[body][1] * spin
+            for body, orbit, spin in zip(self.bodies, parts[::2], parts[1::2], strict=True)
+        )
+        return np.stack([np.zeros_like(total), np.zeros_like(total), total], axis=-1)
+
+
+@dataclass(frozen=True)
+class Resultant(Meaning):
+    """The sum of all forces from outside on some bodies: Σ m a of their mass centres. ``texts``: ax, ay of each."""
+
+    bodies: tuple[str, ...] = ()
+
+    @property
+    def is_vector(self) -> bool:
+        return True
+
+    def value(self, dots: int, values: Values, masses: Masses) -> Array:
+        parts = np.array([values[text] for text in self.needed(dots)])
+        known = masses()
+        x, y = (sum(known[b][0] * a for b, a in zip(self.bodies, parts[i::2], strict=True)) for i in (0, 1))
+        return np.stack([x, y, np.zeros_like(x)], axis=-1)
+
+
+_KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}
+_POINT = r"(\S+)"
+_PLACE = re.compile(rf"(position|velocity|acceleration) of {_POINT}(?: (?:from|relative to) {_POINT})?")
+_DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
+_JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
+_GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\S+)")
+_FORCE = re.compile(r"force on (.+)")
+_LOAD = re.compile(r"load (.+)")
+LOAD = "load "
+"""How a text begins that names a load of the free-body diagrams, which the model language does not read."""
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Reads declarations. ``measured`` gives the text in SI and the dimension of an expression; ``joints`` the first and second
+    body of each; ``particles`` the bodies without rotation."""
+
+    measured: Callable[[str], tuple[str, Dimension | None]]
+    joints: Mapping[str, tuple[str, str]]
+    bodies: Sequence[str]
+    particles: frozenset[str]
+
+    def read(self, said: str | Sequence[str | float]) -> Meaning:
+        """The meaning of an expression, a list of two or three components, or a phrase. Raises ``ModelProblem``."""
+        if isinstance(said, str) and said.strip().startswith("[") and said.strip().endswith("]"):
+            said = _parts(said.strip()[1:-1])
+        if not isinstance(said, str):
+            return self.components(list(said))
+        phrase = " ".join(said.split())
+        for pattern, reading in self.phrases():
+            if found := pattern.fullmatch(phrase):
+                return reading(*found.groups())
+        text, dimension = self.measured(said)
+        return Meaning("declared", (text,), dimension)
+
+    def phrases(self) -> Sequence[tuple[re.Pattern[str], Callable[..., Meaning]]]:
+        return (
+            (_PLACE, self.place),
+            (_DIRECTION, self.direction),
+            (_JOINT, self.reaction),
+            (_GROUP, self.moment),
+            (_FORCE, self.resultant),
+            (_LOAD, self.load),
+        )
+
+    def components(self, said: Sequence[str | float]) -> Meaning:
+        """A vector of two components along i and j, or three."""
+        if len(said) not in (2, 3):
+            raise ModelProblem(f"a vector has two components (i, j) or three (i, j, k), not {len(said)}")
+        found = [self.measured(str(part)) for part in said]
+        dimension = next((d for _, d in found if d is not None), None)
+        for text, other in found:
+            if other is not None and dimension is not None and not other.fits(dimension):
+                raise ModelProblem(f"`{text}` is {other.words()}, another component {dimension.words()}")
+        return self.vector([text for text, _ in found], dimension)
+
+    def vector(self, texts: Sequence[str], dimension: Dimension | None) -> Meaning:
+        return Meaning("declared", (*texts, "0")[:3] if len(texts) == 2 else tuple(texts), dimension)
+
+    def place(self, kind: str, point: str, base: str | None) -> Meaning:
+        """``acceleration of upper.G relative to ground.O``; without a base point, from the fixed origin."""
+        word, dimension = _KINDS[kind]
+        less = [f" - {w}({base})" if base else "" for w in (word, word.replace("x", "y"))]
+        texts = [f"{w}({point}){rest}" for w, rest in zip((word, word.replace("x", "y")), less, strict=True)]
+        return self.vector([self.measured(t)[0] for t in texts], dimension)
+
+    def direction(self, kind: str, start: str, end: str) -> Meaning:
+        """The unit vector from one point to another; ``normal``: turned a quarter to the left."""
+        cosine, sine = (self.measured(f"{f}(direction({start}, {end}))")[0] for f in ("cos", "sin"))
+        return self.vector([cosine, sine] if kind == "direction" else [f"-{sine}", cosine], NUMBER_ONLY)
+
+    def reaction(self, what: str, joint: str, body: str) -> Meaning:
+        """What a joint does to one of its two bodies; a couple is along k."""
+        if joint not in self.joints:
+            raise ModelProblem(f"there is no joint `{joint}`", _named(joint, self.joints))
+        first, second = self.joints[joint]
+        if body not in (first, second):
+            raise ModelProblem(f"`{joint}` does not touch `{body}`", f"it joins `{first}` and `{second}`")
+        sign = "" if body == second else "-"
+        if what == "couple":
+            return self.vector(["0", "0", sign + self.measured(f"{joint}.M")[0]], ENERGY)
+        return self.vector([sign + self.measured(f"{joint}.{part}")[0] for part in ("Fx", "Fy")], FORCE)
+
+    def load(self, symbol: str) -> Meaning:
+        """The force at one place of a contact that holds at several, by its symbol in the data of a free-body diagram."""
+        return Meaning("reaction", (LOAD + symbol,), FORCE)
+
+    def moment(self, what: str, bodies: str, point: str) -> Meaning:
+        """Angular momentum of bodies about a point, or the moment on them."""
+        group = self.group(bodies)
+        still, moving = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
+        loads = what == "moment"
+        dimension = ENERGY if loads else ENERGY.times(TIME)
+        return Momentum("declared", still, dimension, bodies=group, dotted=moving, loads=loads)
+
+    def orbits(self, group: Sequence[str], point: str, letter: str, spin: str) -> tuple[str, ...]:
+        """For each body r × v by its mass, and its spin by its inertia."""
+        out = []
+        for body in group:
+            g = f"{body}.G"
+            turn = f"(x({g}) - x({point}))*{letter}y({g}) - (y({g}) - y({point}))*{letter}x({g})"
+            out += [self.measured(turn)[0], "0" if body in self.particles else self.measured(f"{spin}({body})")[0]]
+        return tuple(out)
+
+    def resultant(self, bodies: str) -> Meaning:
+        """All that acts on bodies from outside."""
+        group = self.group(bodies)
+        texts = [self.measured(f"{a}({body}.G)")[0] for body in group for a in ("ax", "ay")]
+        return Resultant("declared", tuple(texts), MASS.times(LENGTH).times(TIME, -2), bodies=group)
+
+    def group(self, bodies: str) -> tuple[str, ...]:
+        """The bodies of ``upper, lower`` or ``all``."""
+        if bodies.strip() == "all":
+            return tuple(self.bodies)
+        names = [name.strip() for name in re.split(r",| and ", bodies) if name.strip()]
+        for name in names:
+            if name not in self.bodies:
+                raise ModelProblem(f"there is no body `{name}`", _named(name, self.bodies))
+        return tuple(names)
+
+
+def _named(word: str, known: object) -> str:
+    from freebody.model.names import suggestion
+
+    return suggestion(word, known)  # type: ignore[arg-type]
+
+
+def _parts(text: str) -> list[str]:
+    """The parts of a list, at the commas outside brackets."""
+    out, depth = [""], 0
+    for char in text:
+        depth += (char in "([") - (char in ")]")
+        if char == "," and not depth:
+            out.append("")
+        else:
+            out[-1] += char
+    return out

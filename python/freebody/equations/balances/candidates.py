@@ -1,0 +1,112 @@
+"""Every balance equation that could be of use, each told by the unknowns that stay in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from freebody.equations.balances.groups import Group, groups
+from freebody.equations.balances.system import DEPENDENT, Problem
+from freebody.equations.balances.virtual_motions import (
+    NamedPoints,
+    VirtualMotion,
+    VirtualMotions,
+    clear_shifts,
+    mass_centre,
+    named_motions,
+    pair_motions,
+)
+from freebody.run.records import Array
+
+ABSENT = 1e-9
+"""Work of an unknown over that of its size in a motion, below which it drops out; it must do so at every state."""
+WORTH = 4
+"""Unknowns beyond which a set of equations is no longer small."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """The balance of a group along a virtual motion. ``support`` and ``coefficients`` (nu,) tell the unknowns in it, ``motion``
+    (3,) is the one at the state asked for."""
+
+    group: Group
+    twist: VirtualMotion
+    motion: Array = field(repr=False)
+    support: int
+    coefficients: Array = field(repr=False)
+    right: float
+
+    def order(self, accelerations: int) -> tuple[int, ...]:
+        """Where it stands among its like: no point of inertia to construct (``accelerations`` as bits), fewer bodies, no point
+        to construct at all, fewer accelerations, plainer."""
+        pair = self.twist.pair or ()
+        inertial = any(accelerations >> i & 1 for i in pair)
+        return inertial, len(self.group), bool(pair), (self.support & accelerations).bit_count(), self.twist.rank
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """The equations by what is unknown in them; ``exact`` where every connected set of bodies was tried."""
+
+    by_support: dict[int, list[Candidate]]
+    exact: bool
+
+
+def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: bool = False) -> Candidates:
+    """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits); of those with the same unknowns the plainest,
+    as many as are independent. ``in_letters``: only those that the core can tell in letters."""
+    sets, exact = groups(problem)
+    named = named_motions(problem, points)
+    accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
+    found = [candidate for group in sets for candidate in _of_group(problem, group, named, counted)]
+    found = [candidate for candidate in found if not in_letters or has_letters(problem, candidate.twist)]
+    found.sort(key=lambda candidate: candidate.order(accelerations))
+    by_support: dict[int, list[Candidate]] = {}
+    for candidate in found:
+        alike = by_support.setdefault(candidate.support, [])
+        if len(alike) < candidate.support.bit_count() and independent([*alike, candidate]):
+            alike.append(candidate)
+    return Candidates(by_support, exact)
+
+
+def has_letters(problem: Problem, twist: VirtualMotion) -> bool:
+    """Whether the core can tell a point or direction in letters: not one of inertia."""
+    return twist.question is not None if twist.pair is None else None not in [problem.unknowns[i].load for i in twist.pair]
+
+
+def bits(places: Iterable[int]) -> int:
+    """The places as one number."""
+    return sum(1 << int(i) for i in places)
+
+
+def independent(equations: Sequence[Candidate]) -> bool:
+    """Whether no equation follows from the others at the state asked for."""
+    rows = np.array([equation.coefficients for equation in equations])
+    sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+    if sizes.min() == 0:
+        return False
+    return bool(np.linalg.svd(rows / sizes, compute_uv=False)[-1] > DEPENDENT)
+
+
+def _of_group(problem: Problem, group: Group, named: VirtualMotions, counted: int) -> list[Candidate]:
+    members = list(group)
+    columns = np.array([system.columns[:, members].sum(axis=1) for system in problem.systems])
+    sizes = np.max([np.linalg.norm(system.columns, axis=2).max(axis=1) for system in problem.systems], axis=0)
+    columns = np.where(np.linalg.norm(columns, axis=2, keepdims=True) > ABSENT * sizes[:, None], columns, 0.0)
+    boundary = np.flatnonzero(np.abs(columns).max(axis=(0, 2)) > 0)
+    tried = [named, pair_motions(columns, boundary), mass_centre(problem, group), clear_shifts(problem, columns, boundary)]
+    twists = [twist for some, _ in tried for twist in some]
+    motions = np.concatenate([motions for _, motions in tried])
+    work = np.einsum("csk,suk->csu", motions, columns)
+    reach = np.linalg.norm(motions, axis=2)[:, :, None] * sizes
+    generic = slice(1, None) if len(problem.systems) > 1 else slice(None)
+    stays = (np.abs(work) > ABSENT * reach)[:, generic].any(axis=1)
+    asked = np.array([counted >> i & 1 for i in range(len(problem.unknowns))], bool)
+    use = stays.any(axis=1) & ((stays & asked).sum(axis=1) <= WORTH)
+    right = motions[:, 0] @ problem.systems[0].right[members].sum(axis=0)
+    return [
+        Candidate(group, twists[c], motions[c, 0], bits(np.flatnonzero(stays[c])), np.where(stays[c], work[c, 0], 0.0), right[c])
+        for c in np.flatnonzero(use)
+    ]

@@ -1,0 +1,132 @@
+"""Momenta that stay constant: of which connected sets of bodies, along which direction or about which point, in numbers.
+
+A momentum along a direction that is fixed, about a point that is fixed, or about the mass centre of the bodies, changes by the
+power that outside loads have in that shift or turn. It lasts where every unknown load, and the sum of the known ones, has none
+at states that share nothing but the structure of the mechanism.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from freebody.core import FreeBodies
+from freebody.equations.balances.candidates import ABSENT
+from freebody.equations.balances.groups import Group, groups
+from freebody.equations.balances.system import Problem, problem
+from freebody.equations.balances.virtual_motions import (
+    SAME_PLACE,
+    NamedPoints,
+    VirtualMotion,
+    VirtualMotions,
+    known_shifts,
+    mass_centre,
+    named_motions,
+)
+from freebody.run.records import Array
+
+DISTINCT = 1e-6
+"""Part of a momentum's values that is left when those found before are taken out, below which it follows from them."""
+
+
+@dataclass(frozen=True)
+class ConservedMomentum:
+    """A constant momentum of some ``bodies``: along or about what ``twist`` names; it ``turns`` about the place ``at`` (m), or
+    shifts along that unit direction, at the first state. ``elsewhere``: seen at other places as well."""
+
+    bodies: tuple[str, ...]
+    twist: VirtualMotion
+    turns: bool
+    at: tuple[float, float]
+    elsewhere: bool
+    values: Array = field(repr=False)
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """What is at every state: ``columns`` (ns, nl, nb, 3) of the unknown loads on every body, and of their ``sizes`` (nl,); the sum of the
+    ``known`` ones and the ``momentum`` of every body (ns, nb, 3), moments about the origin of the problem over its length."""
+
+    given: Problem
+    columns: Array
+    sizes: Array
+    known: Array
+    momentum: Array
+
+    @classmethod
+    def of(cls, given: Problem) -> _Seen:
+        """Of a problem."""
+        loads = [i for i, unknown in enumerate(given.unknowns) if unknown.load is not None]
+        columns = np.array([system.columns[loads] for system in given.systems])
+        about, scale = (given.origin[0], given.origin[1]), np.array([1.0, 1.0, 1.0 / given.length])
+        known = [[_known(system.free, name, about) for name in given.bodies] for system in given.systems]
+        bodies = [[system.free.bodies[name] for name in given.bodies] for system in given.systems]
+        momentum = [[body.effective(about, (*body.v, body.omega)) for body in row] for row in bodies]
+        sizes = np.linalg.norm(columns, axis=3).max(axis=(0, 2), initial=0.0)
+        return cls(given, columns, sizes, np.array(known) * scale, np.array(momentum) * scale)
+
+
+def lasting(states: Sequence[FreeBodies], points: NamedPoints) -> list[ConservedMomentum]:
+    """All constant momenta, those of fewer bodies first. Of a set that keeps all of its momentum, of its moments only that about
+    its mass centre: the others say no more.
+
+    ``states`` move, all at once; as for the smallest sets the first is the one asked about."""
+    given = problem(states)
+    seen, fixed = _Seen.of(given), _fixed(given, points)
+    found: list[ConservedMomentum] = []
+    for group in groups(given, known=True)[0]:
+        own = _kept(seen, group, mass_centre(given, group))
+        kept = sorted(_kept(seen, group, fixed), key=lambda each: each.twist.rank)
+        shifts = [each for each in kept if not each.turns]
+        turning = [] if len(independent(shifts)) > 1 else [each for each in kept if each.turns]
+        found += [*shifts, *turning, *own]
+    return found
+
+
+def independent(found: Sequence[ConservedMomentum]) -> list[ConservedMomentum]:
+    """The first of them that do not follow from those before: not the momentum of a set that is the sum of its parts'."""
+    kept: list[ConservedMomentum] = []
+    for each in found:
+        rows = np.array([*(other.values for other in kept), each.values])
+        rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+        if np.linalg.svd(rows, compute_uv=False)[-1] > DISTINCT:
+            kept.append(each)
+    return kept
+
+
+def _fixed(given: Problem, points: NamedPoints) -> VirtualMotions:
+    """What is named, and is where it is at every state."""
+    tried = [named_motions(given, points), known_shifts(given)]
+    twists = [twist for some, _ in tried for twist in some]
+    motions = np.concatenate([motions for _, motions in tried])
+    still = np.abs(motions - motions[:, :1]).max(axis=(1, 2)) < SAME_PLACE
+    return [twist for twist, keep in zip(twists, still, strict=True) if keep], motions[still]
+
+
+def _kept(seen: _Seen, group: Group, tried: VirtualMotions) -> list[ConservedMomentum]:
+    """The momenta of a group in some motions that no load from outside changes, and that are not 0 always."""
+    (twists, motions), given, members = tried, seen.given, list(group)
+    columns, known, momentum = (of[..., members, :].sum(axis=-2) for of in (seen.columns, seen.known, seen.momentum))
+    unknown = np.abs(np.einsum("csk,suk->csu", motions, columns) / seen.sizes).max(axis=(1, 2), initial=0.0)
+    power = np.abs(np.einsum("csk,sk->cs", motions, known)).max(axis=1)
+    values = np.einsum("csk,sk->cs", motions, momentum)
+    stays = (unknown < ABSENT) & (power < ABSENT * max(1.0, np.abs(seen.known).max()))
+    stays &= np.abs(values).max(axis=1) > ABSENT * max(1.0, np.abs(momentum).max())
+    names = tuple(given.bodies[i] for i in group)
+    elsewhere = len({body.G for system in given.systems for body in system.free.bodies.values()}) > len(given.bodies)
+    return [ConservedMomentum(names, twists[c], *_place(given, motions[c, 0]), elsewhere, values[c]) for c in np.flatnonzero(stays)]
+
+
+def _known(free: FreeBodies, body: str, about: tuple[float, float]) -> Array:
+    """The sum of all known loads on a body."""
+    return sum((load.unit([body], about) for load in free.loads if not load.unknown), np.zeros(3))
+
+
+def _place(given: Problem, motion: Array) -> tuple[bool, tuple[float, float]]:
+    (x, y), turn = motion[:2], motion[2]
+    if abs(turn) < SAME_PLACE * np.linalg.norm(motion):
+        return False, (float(x), float(y))
+    ox, oy = given.origin
+    return True, (float(ox - y / turn * given.length), float(oy + x / turn * given.length))

@@ -1,0 +1,186 @@
+"""Configurations near one, on closed loops, that share nothing with it but the structure of the mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.core import CompiledModel, FreeBodies, Load, MotionError, Row, State
+from freebody.equations.balances.system import DEPENDENT, alike
+from freebody.run.records import Array
+
+if TYPE_CHECKING:
+    pass
+
+SEED = 20
+OTHERS = 3
+TRIES = 12
+NEARER = 0.7
+CORRECTIONS = 60
+NEARLY, OUT = 0.98, 0.05
+"""Part of a gap by which it is closed at once; part by which one that is pierced is opened."""
+PLACES, RATES, PASSES = 3, 4, 3
+CLOSED_RATE = 1e-9
+"""Rate of a gap over the rates tried below which it stays closed."""
+STEP = {"rad": 0.3, "m": 0.2}
+"""How far a coordinate is moved: an angle in rad, a length as a part of the size of the mechanism."""
+CLOSED = 1e-12
+"""Gap over size of the mechanism below which what touches does so, and the reasons for zeros hold to round-off."""
+
+
+def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()) -> list[FreeBodies]:
+    """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
+    there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have
+    ``parameters``, one after the other, or come as near to these as they can."""
+    first = source.free_bodies(state)
+    coordinates = source.about["coordinates"]
+    in_order = {c["name"]: first.accelerations[c["name"]] for c in coordinates}
+    first = replace(first, accelerations=in_order)
+    found = [first]
+    rng = np.random.default_rng(SEED)
+    steps = np.array([STEP["rad"] if c["dimension"] == "rad" else STEP["m"] * _size(first) for c in coordinates])
+    changes = [p - state.p for p in parameters] or [np.zeros_like(state.p)]
+    part = 1.0
+    for _ in range(TRIES):
+        closing = Closing(source, replace(state, p=state.p + part * changes[len(found) % len(changes)]), first)
+        other = closing.near(state.q + steps * part * rng.uniform(-1, 1, len(steps)))
+        if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
+            found.append(other)
+        else:
+            part *= NEARER
+        if len(found) > OTHERS:
+            break
+    return found
+
+
+def wandering(source: CompiledModel, state: State) -> list[FreeBodies]:
+    """The free bodies at a state, and at ``others`` where the same things act."""
+    return [source.free_bodies(each) for each in (state, *others(source, state))]
+
+
+def others(source: CompiledModel, state: State) -> list[State]:
+    """States of the same mode: at the places of a state and near by, with random rates that keep closed what is closed, each at a
+    time of its own. The same things act there, and what slides or bears on a tooth does so in the same sense."""
+    first = source.free_bodies(state)
+    rng = np.random.default_rng(SEED)
+    scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.about["coordinates"]])
+    closing, found = Closing(source, state, first), []
+    steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
+    for q in (closing.place(state.q + step) for step in steps):
+        for _ in range(RATES if q is not None else 0):
+            rates, t = scale * rng.uniform(-1, 1, len(scale)), state.t + rng.uniform(0, 1)
+            try:
+                other = closing.moving(q, rates, t)
+                free = source.free_bodies(other)
+            except MotionError:
+                continue
+            held = np.abs(closing.rows(free) @ other.u).max(initial=0.0) < CLOSED_RATE * np.abs(scale).max(initial=1.0)
+            if held and alike(free, first) and _senses(free) == _senses(first) and np.isfinite(_places(free)).all():
+                found.append(other)
+    return found
+
+
+def _senses(free: FreeBodies) -> list[bool]:
+    """In which sense everything slides that rubs, and on which flank teeth bear."""
+    sliding = [load.follows[1] > 0 for load in free.loads if load.follows]
+    return sliding + [load.value > 0 for load in free.loads if load.card.flank]
+
+
+class Closing:
+    """Brings coordinates onto closed loops, and what touches or is taut in a state back to a gap of 0."""
+
+    def __init__(self, source: CompiledModel, state: State, first: FreeBodies) -> None:
+        self.core, self.state = source, state
+        self.loose = _without_motions(source)
+        self.names = [c["name"] for c in source.about["coordinates"]]
+        limits = [limit["name"] for limit in source.about["limits"]]
+        held = [(row, load) for row, load in _in_pairs(first) if row.name in limits]
+        self.closed = [limits.index(row.name) for row, _ in held]
+        self.normal = np.array([load.kind != "friction" for _, load in held], bool)
+        self.slopes = np.array([[row.coefficients[name] for name in self.names] for row, _ in held])
+        self.slopes = self.slopes.reshape(len(held), len(self.names))
+        self.back = np.linalg.pinv(self.slopes, rcond=DEPENDENT) if held else np.zeros((len(self.names), 0))
+        self.size = _size(first)
+
+    def near(self, q: Array) -> FreeBodies | None:
+        """The free bodies where loops and gaps are closed near ``q``; None where they do not close."""
+        s, found = self.state, self.place(q)
+        if found is None:
+            return None
+        try:
+            return self.core.free_bodies(replace(s, q=found, u=s.u - self.back @ (self.slopes @ s.u)))
+        except MotionError:
+            return None
+
+    def place(self, q: Array) -> Array | None:
+        """The coordinates near ``q`` where loops and gaps are closed, these from outside; None where they do not close."""
+        s, outward = self.state, self.back @ self.normal
+        q = s.q + (np.eye(len(q)) - self.back @ self.slopes) @ (q - s.q)
+        out = OUT * self.size
+        try:
+            for _ in range(CORRECTIONS):
+                q = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)))[0].q
+                gaps = self._gaps(q)
+                if gaps is None:
+                    q, out = q + out * outward, 2 * out
+                elif (largest := np.abs(gaps).max(initial=0.0)) < CLOSED * self.size:
+                    return q
+                else:
+                    q, out = q - NEARLY * (self.back @ gaps), OUT * largest
+        except MotionError:
+            pass
+        return None
+
+    def moving(self, q: Array, rates: Array, t: float) -> State:
+        """A place and a time, with the rates nearest to some that keep closed what is closed: what that is depends on the rates.
+        Raises ``MotionError``."""
+        found = State(self.state.p, t, q, np.zeros_like(rates))
+        for _ in range(PASSES):
+            held = self.rows(self.core.free_bodies(found))
+            rates = rates - np.linalg.pinv(held, rcond=DEPENDENT) @ (held @ rates)
+            found = State(self.state.p, t, q, rates)
+        return found
+
+    def rows(self, free: FreeBodies) -> Array:
+        """What is closed, as rows among the rates."""
+        return np.array([[row.coefficients[name] for name in self.names] for row in free.rows]).reshape(-1, len(self.names))
+
+    def _gaps(self, q: Array) -> Array | None:
+        """What is left of the gap of every row, 0 for one of friction; None where something is pierced, or stretched too far."""
+        if not self.closed:
+            return np.zeros(0)
+        try:
+            stated = list(self.core.instant(self.state.at(q)).limits.values())
+        except MotionError as error:
+            if error.kind == "penetration":
+                return None
+            raise
+        return np.array([stated[i].gap for i in self.closed]) * self.normal
+
+
+def _in_pairs(free: FreeBodies) -> Iterator[tuple[Row, Load]]:
+    """The rows with the loads that hold them, which come in the same order, those of each name."""
+    for name in dict.fromkeys(row.name for row in free.rows):
+        rows = [row for row in free.rows if row.name == name]
+        yield from zip(
+            rows, [load for load in free.loads if load.name == name and load.unknown and not load.follows], strict=False
+        )
+
+
+def _without_motions(source: CompiledModel) -> CompiledModel:
+    """The same mechanism, its motions holding accelerations only, so that they have no say in where it is."""
+    if not source.spec.get("motions"):
+        return source
+    motions = [{**motion, "level": "acceleration"} for motion in source.spec["motions"]]
+    return CompiledModel.of({**source.spec, "motions": motions})
+
+
+def _size(free: FreeBodies) -> float:
+    return float(np.hypot(*np.ptp(_places(free), axis=0))) or 1.0
+
+
+def _places(free: FreeBodies) -> Array:
+    return np.array([part.point for load in free.loads for part in load.on] + [body.G for body in free.bodies.values()])

@@ -1,0 +1,199 @@
+"""Rigid virtual motions of a group: a turn about a point is a moment balance about it, a shift a force balance along it.
+
+An unknown drops out of the balance if its load does no work in the motion. The motions worth trying are finite in number:
+turns about points that have a name, shifts along directions that have one, and for every two unknowns the motion in which
+neither does work, the turn about the point where their lines of action meet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from freebody.core import FreeBodies, Load, Pair
+from freebody.equations.balances.system import Problem
+from freebody.run.records import Array
+
+SAME_PLACE = 1e-9
+"""Distance over length of the mechanism below which two points are one."""
+ONE_LINE = 1e-7
+"""Size of the product of two unit wrenches below which they act along one line."""
+
+NamedPoints = Mapping[str, tuple[str, float, float]]
+"""Points of bodies: name → body, x, y in its frame (``CompiledModel.points``)."""
+
+
+@dataclass(frozen=True)
+class VirtualMotion:
+    """A rigid motion by what makes it: a named point or direction, or two unknowns, by their places, that do no work in it.
+    ``rank`` is 0 for the plainest; ``question`` is how the core is asked for the balance in letters (``about`` or ``along``)."""
+
+    name: str = ""
+    pair: tuple[int, int] | None = None
+    rank: int = 0
+    question: Mapping[str, Any] | None = None
+
+
+VirtualMotions = tuple[list[VirtualMotion], Array]
+"""With their motions at every state (nt, ns, 3): velocity x, y of the origin of the problem and turn × length."""
+
+
+def named_motions(problem: Problem, points: NamedPoints) -> VirtualMotions:
+    """Turns about joints, mass centres and named points; shifts along x, y and along or across what a joint holds."""
+    found: list[tuple[VirtualMotion, Array]] = []
+    for twist, places in _named_places(problem, points):
+        about = (np.array(places) - problem.origin) / problem.length
+        motion = np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
+        if not any(np.abs(other - motion).max() < SAME_PLACE for _, other in found):
+            found.append((twist, motion))
+    for name, e in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, 1.0, 0.0))):
+        found.append((VirtualMotion(name, rank=1, question={"along": name}), np.tile(e, (len(problem.systems), 1))))
+    found += _joint_directions(problem)
+    return [twist for twist, _ in found], np.array([motion for _, motion in found])
+
+
+def mass_centre(problem: Problem, group: Sequence[int]) -> VirtualMotions:
+    """The turn about the mass centre of several bodies; of one it has a name anyway."""
+    names = [problem.bodies[i] for i in group]
+    about = (np.array([system.free.centre(*names) for system in problem.systems]) - problem.origin) / problem.length
+    twist = VirtualMotion(f"the mass centre of {' + '.join(names)}", rank=3, question={"about": "centre"})
+    return [twist], np.array([np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])])
+
+
+def clear_shifts(problem: Problem, columns: Array, boundary: Sequence[int]) -> VirtualMotions:
+    """The shifts across all that one load of a boundary does to the group, be it in several places. ``columns`` (ns, nu, 3)."""
+    found: list[tuple[VirtualMotion, Array]] = []
+    for i in boundary:
+        load, force = problem.load(problem.unknowns[i]), columns[:, i, :2]
+        size = np.linalg.norm(force, axis=1, keepdims=True)
+        if load is None or size.min() == 0:
+            continue
+        motion = np.column_stack([-force[:, 1], force[:, 0], np.zeros(len(force))]) / size
+        question = {"along": {"clear": problem.unknowns[i].load}}
+        found.append((VirtualMotion(f"the direction across {load.symbol}", rank=4, question=question), motion))
+    return [twist for twist, _ in found], np.array([motion for _, motion in found]).reshape(len(found), len(columns), 3)
+
+
+def known_shifts(problem: Problem) -> VirtualMotions:
+    """The shifts across every known force."""
+    found: list[tuple[VirtualMotion, Array]] = []
+    for i, load in enumerate(problem.free.loads):
+        f = None if load.unknown else _directions(problem, i)
+        if f is not None:
+            words = f"the direction across {'gravity' if load.kind == 'weight' else load.name}"
+            twist = VirtualMotion(words, rank=4, question={"along": {"across": i}})
+            found.append((twist, np.column_stack([-f[:, 1], f[:, 0], np.zeros(len(f))])))
+    return [twist for twist, _ in found], np.array([motion for _, motion in found]).reshape(len(found), len(problem.systems), 3)
+
+
+def pair_motions(columns: Array, boundary: Sequence[int]) -> VirtualMotions:
+    """For every two unknowns of a boundary the motion in which neither does work. ``columns`` (ns, nu, 3)."""
+    sizes = np.linalg.norm(columns, axis=2, keepdims=True)
+    units = columns / np.where(sizes > 0, sizes, 1.0)
+    first, second = (np.asarray(boundary)[part] for part in np.triu_indices(len(boundary), 1))
+    motions = np.cross(units[:, first], units[:, second]).swapaxes(0, 1)
+    size = np.linalg.norm(motions, axis=2, keepdims=True)
+    meet = size.min(axis=(1, 2)) > ONE_LINE
+    pairs = zip(first[meet].tolist(), second[meet].tolist(), strict=True)
+    return [VirtualMotion(pair=pair, rank=5) for pair in pairs], motions[meet] / size[meet]
+
+
+def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[VirtualMotion, list[Pair]]]:
+    """The turns about joints, mass centres and named points, with the place at every state."""
+    joints: dict[str, int] = {}
+    pins_first = sorted(enumerate(problem.free.loads), key=lambda each: not each[1].axis)
+    for i, load in pins_first:
+        if load.kind in ("joint", "contact"):
+            joints.setdefault(load.name, i)
+    rolling = touching(problem.free)
+    found = [
+        (
+            VirtualMotion("the point of contact" if rolling == [name] else name, question={"about": {"load": i}}),
+            [_last_point(s.free, i) for s in problem.systems],
+        )
+        for name, i in joints.items()
+    ]
+    for body in problem.bodies:
+        found.append((_about_point(f"{body}.G"), [system.free.bodies[body].G for system in problem.systems]))
+    for name, (body, x, y) in points.items():
+        if not name.endswith(".origin"):
+            found.append((_about_point(name), [_placed(system.free, body, x, y) for system in problem.systems]))
+    return found
+
+
+def _about_point(name: str) -> VirtualMotion:
+    return VirtualMotion(name, rank=2, question={"about": {"point": name}})
+
+
+def _last_point(free: FreeBodies, load: int) -> Pair:
+    return free.loads[load].on[-1].point
+
+
+def _placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
+    if body not in free.bodies:
+        return x, y
+    b = free.bodies[body]
+    c, s = np.cos(b.angle), np.sin(b.angle)
+    return b.at[0] + c * x - s * y, b.at[1] + s * x + c * y
+
+
+def _joint_directions(problem: Problem) -> list[tuple[VirtualMotion, Array]]:
+    """Along and across the force of every unknown that has one direction of its own; plainer than the axes where it rubs."""
+    found: list[tuple[VirtualMotion, Array]] = []
+    for unknown in problem.unknowns:
+        load = problem.load(unknown)
+        if load is None or load.axis:
+            continue
+        f = _directions(problem, unknown.load)
+        if f is None:
+            continue
+        still, rubbing = np.zeros(len(f)), _frictional(problem, unknown.load)
+        own, right_angle = _direction_words(problem, load, f)
+        rank = 0 if rubbing is not None and np.abs(f).min() > ONE_LINE else 1
+        across = {"across": unknown.load} if rubbing is None else {"load": rubbing}
+        slides = np.column_stack([f[:, 1], -f[:, 0]]) if rubbing is None else _directions(problem, rubbing)
+        found.append((VirtualMotion(right_angle, rank=rank, question={"along": across}), np.column_stack([slides, still])))
+        found.append((VirtualMotion(own, rank=rank, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
+    return found
+
+
+def _frictional(problem: Problem, load: int) -> int | None:
+    """The friction that follows from a load, and has one direction, if there is any."""
+    follows = (i for i, other in enumerate(problem.free.loads) if other.follows and other.follows[0] == load)
+    return next((i for i in follows if _directions(problem, i) is not None), None)
+
+
+def touching(free: FreeBodies) -> list[str]:
+    """The names of what touches: contacts that hold, and joints that roll."""
+    return list(dict.fromkeys(load.name for load in free.loads if load.kind == "contact" or load.card.tangent))
+
+
+def _directions(problem: Problem, load: int) -> Array | None:
+    """Unit direction of the force of a load at every state (ns, 2); None if it has no force, or several, as a cable over pulleys."""
+    parts = np.array([[part.force for part in system.free.loads[load].on] for system in problem.systems])
+    if not parts.size:
+        return None
+    size = np.linalg.norm(parts, axis=2, keepdims=True)
+    if size.min() == 0:
+        return None
+    units = parts / size
+    last = units[:, -1]
+    across = units[:, :, 0] * last[:, None, 1] - units[:, :, 1] * last[:, None, 0]
+    return last if np.abs(across).max() < ONE_LINE else None
+
+
+def _direction_words(problem: Problem, load: Load, f: Array) -> tuple[str, str]:
+    """Words for the direction of a force and for the one at right angles to it."""
+    if load.card.pulls:
+        return load.name, f"the normal of {load.name}"
+    normal, tangent = f"the normal of {load.name}", f"the tangent of {load.name}"
+    if load.name in touching(problem.free):
+        return (tangent, normal) if load.card.tangent else (normal, tangent)
+    loads = enumerate(problem.free.loads)
+    alike = [_directions(problem, i) for i, other in loads if other.path == load.path and other.unknown and not other.follows]
+    if all(g is None or np.abs(f[:, 0] * g[:, 1] - f[:, 1] * g[:, 0]).max() < ONE_LINE for g in alike):
+        return f"the normal of {load.name}", load.name
+    return f"the line of {load.symbol}", f"the normal to {load.symbol}"

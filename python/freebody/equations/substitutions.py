@@ -1,0 +1,194 @@
+"""What a question sets: letters to exact numbers, ``45 deg`` is π/4, or to other letters."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from dataclasses import replace as replaced
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import State
+from freebody.equations.balances.system import alike
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.parameter_definitions import definitions
+from freebody.run.records import Array
+from freebody.symbolic.decimals import exact, shown, with_exact_numbers
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import is_heavy
+from freebody.symbolic.tree import PI, ZERO, Sym, Tree, mul, number, replace, symbols
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+_DEGREES = re.compile(r"\s*(-?\d+(?:\.\d+)?(?:/\d+)?)\s*(?:deg|°)\s*")
+_NUMBER = re.compile(r"\s*-?\d+(?:\.\d+)?(?:/\d+)?\s*")
+_NEAR = 0.15
+"""How far other states for checks are, in rad and m, and parts of parameters."""
+
+
+@dataclass(frozen=True)
+class Substitutions:
+    """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages.
+    ``still``: coordinates whose rates and accelerations are 0. ``defined``: parameters by those that define them. ``follow``:
+    coordinates and rates by the others on which they depend. ``at_start``: letters set to where they start."""
+
+    trees: Mapping[str, Tree]
+    measured: bool = False
+    still: frozenset[str] = frozenset()
+    defined: Mapping[str, Tree] = field(default_factory=dict)
+    follow: Mapping[Sym, Tree] = field(default_factory=dict)
+    at_start: frozenset[str] = frozenset()
+
+    def is_still(self, letter: Sym) -> bool:
+        """Whether a letter is the rate or acceleration of a coordinate that stands still."""
+        return letter.dots > 0 and letter.name in self.still
+
+    def put(self, tree: Tree) -> Tree:
+        """An expression with the letters replaced, and plain numbers exact."""
+        from freebody.symbolic.to_sympy import from_sympy, to_sympy
+
+        new = {Sym(name): value for name, value in self.trees.items()}
+        new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
+        new |= self.follow
+        given = with_exact_numbers(tree)
+        made = replace(given, {Sym(name): value for name, value in self.defined.items()})
+        return from_sympy(to_sympy(replace(made, new))) if made != given or symbols(made) & new.keys() else made
+
+    def settled(self) -> dict[str, Tree]:
+        """What is set, and what is defined, by letters that are neither."""
+        set_to = {Sym(name): tree for name, tree in self.trees.items()}
+        return dict(self.trees) | {name: replace(tree, set_to) for name, tree in self.defined.items()}
+
+    def and_numbers(self, numbers: Mapping[str, float]) -> Substitutions:
+        """With more letters set, to measured numbers."""
+        return replaced(self, trees={name: exact(value) for name, value in numbers.items()} | dict(self.trees), measured=True)
+
+    def and_held(self, held: Substitutions) -> Substitutions:
+        """With what cannot move, and what follows."""
+        return replaced(self, trees={**self.trees, **held.trees}, still=held.still, follow=held.follow)
+
+    def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
+        """The start of the model with these values. Raises ``ModelFileError``, ``MotionError``."""
+        first, _ = mechanism.start(initial)
+        changes = self._numbers(_parameters(mechanism.source().about, first.p))
+        if at_rest:
+            changes["at_rest"] = True
+            if initial is None and mechanism.lowered().start.rates:
+                changes["rates"] = {}
+        return mechanism.start(initial, **changes)[0]
+
+    def near(self, subject: SymbolicState, rng: np.random.Generator) -> State | None:
+        """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
+        None where it cannot be assembled."""
+        from freebody.core import MotionError
+
+        source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
+        p = self.parameters_near(subject, state, rng)
+        set_to = self._consistent(_parameters(source.about, p))
+        q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}
+        fixed = {name: x for name, x in set_to.items() if name in q}
+        parts = rng.uniform(-1, 1, len(names))
+        rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
+        try:
+            found, _ = source.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
+            return replaced(found, u=np.array(rates)) if rates and source.about["freedom"]["count"] == len(names) else found
+        except MotionError:
+            return None
+
+    def parameters_near(self, subject: SymbolicState, state: State, rng: np.random.Generator) -> Array:
+        """Parameters beside those of a state, with which it may not close; what is set stays so."""
+        values = _parameters(subject.source.about, state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p)))
+        set_to = self._consistent(values)
+        return subject.source.bind({name: set_to.get(name, value) for name, value in values.items()})
+
+    def generic(self, subject: SymbolicState) -> State:
+        """The state where no parameter is 0 by chance, so that what drops out of a balance does so whatever they are."""
+        from freebody.core import MotionError
+
+        source, state = subject.source, subject.state
+        values = _parameters(source.about, state.p)
+        moved = {name: value or _NEAR for name, value in values.items()}
+        moved |= self._consistent(moved)
+        names = [c["name"] for c in source.about["coordinates"]]
+        p = source.bind({name: moved[name] for name in values})
+        try:
+            place, _ = source.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
+        except MotionError:
+            return state
+        found = replaced(place, u=state.u)
+        return found if alike(replaced(subject, state=found).free, subject.free) else state
+
+    def said(self) -> list[str]:
+        """As words: ``theta = π/4``."""
+        from freebody.symbolic.printers.text import text
+
+        return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
+
+    def _consistent(self, parameters: Mapping[str, float]) -> dict[str, Any]:
+        """What is set, and what is defined, where the other parameters are as given."""
+        set_to = self._numbers(parameters)
+        values = {Sym(name): value for name, value in (dict(parameters) | set_to).items()}
+        return set_to | {name: float(evaluate(tree, values)) for name, tree in self.defined.items() if name in parameters}
+
+    def _numbers(self, parameters: Mapping[str, float]) -> dict[str, Any]:
+        values = {Sym(name): value for name, value in parameters.items()}
+        return {name: float(evaluate(tree, values)) for name, tree in self.trees.items()}
+
+
+def given(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()) -> Substitutions:
+    """What is set, exactly, and lengths and angles that the model defines by others, but what is ``free``. Raises ``ValueError`` where it is no
+    quantity and no letter."""
+    about = mechanism.source().about
+    letters = [p["name"] for p in about["parameters"]]
+    known = [*letters, *(c["name"] for c in about["coordinates"])]
+    for name in set:
+        if name not in known:
+            raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
+    sizes = [p["name"] for p in about["parameters"] if not is_heavy(p["unit"])]
+    defined = {name: tree for name, tree in definitions(mechanism.source(), {*set, *free}).items() if name in sizes}
+    named = {Sym(name): tree for name, tree in defined.items()}
+    return Substitutions({name: replace(_exact(value, letters), named) for name, value in set.items()}, defined=defined)
+
+
+def _exact(value: Any, letters: list[str]) -> Tree:
+    if isinstance(value, int | float | Fraction) and not isinstance(value, bool):
+        return exact(float(value))
+    if found := _DEGREES.fullmatch(str(value)):
+        return mul(number(Fraction(found[1]) / 180), Sym(PI))
+    if _NUMBER.fullmatch(str(value)):
+        return number(Fraction(str(value).strip()))
+    if str(value).strip() in letters:
+        return Sym(str(value).strip())
+    return exact(_quantity(str(value), letters))
+
+
+def _quantity(value: str, letters: list[str]) -> float:
+    from freebody.model.errors import ModelProblem
+    from freebody.model.start import evaluate as quantity
+
+    try:
+        return quantity(value, {})
+    except ModelProblem as complaint:
+        raise ValueError(f"{value!r} is no quantity and none of {', '.join(letters)}: {complaint.what}") from None
+
+
+def _parameters(about: Mapping[str, Any], p: Any) -> dict[str, float]:
+    return {each["name"]: float(x) for each, x in zip(about["parameters"], p, strict=True)}
+
+
+def given_quantity(value: Any, unit: str) -> float:
+    """A number in SI, or a quantity that fits the unit. Raises ``ValueError``."""
+    try:
+        return float(value)
+    except ValueError:
+        pass
+    from freebody.model import units
+
+    found, wanted = units.quantity(str(value)), units.unit(unit).dimension
+    if found is not None and not found.dimension.fits(wanted):
+        raise ValueError(f"{value!r} is {found.dimension.words()}, where {wanted.words()} is asked for")
+    return _quantity(str(value), [f"a number in {unit}"])

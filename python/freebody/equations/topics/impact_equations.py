@@ -1,0 +1,360 @@
+"""A blow in letters: what touches, rates before and after, impulses in place of forces."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import repeat
+from typing import TYPE_CHECKING, Any
+
+from freebody.core import GROUND, FreeBodies, Load, SymbolicAnswers
+from freebody.equations.answers import AGREES
+from freebody.equations.balances.minimal import minimal_form
+from freebody.equations.derivation.balance_text import Stated
+from freebody.equations.derivation.coordinates import stated
+from freebody.equations.derivation.data import Balance, Row, SymbolicState
+from freebody.equations.linear import linear_in
+from freebody.equations.topics.common import NotHere, moving_names
+from freebody.impact.impacts import Impulsive, NoImpact
+from freebody.solve.symbols import ImpulseNaming, load_words
+from freebody.symbolic.collect import quotient
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.symbols import Name
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, mul, negative, power, rebuilt, symbols, walk
+from freebody.symbolic.tree import replace as put
+
+if TYPE_CHECKING:
+    from freebody.core import Change, State
+    from freebody.model.builder import Builder
+
+_NOTHING = 1e-9
+"""Lengths in m, rates in m/s and arms in m below which they are 0: what an event leaves of them."""
+_HALF = Fraction(1, 2)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A rate that is 0 after a blow, or minus ``back`` of what it was."""
+
+    name: str
+    rate: Tree
+    back: Tree
+
+
+@dataclass(frozen=True)
+class Struck(SymbolicState):
+    """A mechanism during a blow, while all that was struck holds; rates are those before."""
+
+    happened: Impulsive | None = None
+
+    @property
+    def blow(self) -> Impulsive:
+        """What happened."""
+        assert self.happened is not None
+        return self.happened
+
+    @cached_property
+    def free(self) -> FreeBodies:
+        """All loads, those of what was struck among them."""
+        return self.blow.free
+
+    @cached_property
+    def rows_before(self) -> list[Row]:
+        """What held just before the blow."""
+        return list(map(Row.read, self.blow.rows_before()))
+
+    def _ask(self, questions: Sequence[Mapping[str, Any]]) -> SymbolicAnswers:
+        return self.blow.letters(questions)
+
+
+@dataclass(frozen=True)
+class Impact:
+    """A blow of a run and the mechanism in letters during it."""
+
+    subject: Struck
+
+    @property
+    def change(self) -> Change:
+        """What the run tells of it."""
+        return self.subject.blow.change
+
+    @property
+    def restitution(self) -> Mapping[str, float]:
+        """How much comes back of the approach, by name."""
+        return {} if self.change.impulses is None else self.change.impulses.restitution
+
+    @cached_property
+    def coefficients(self) -> dict[str, Sym]:
+        """The letter of how much comes back, by name: that of the model, if it has one."""
+        spec = self.subject.source.spec
+        given = {limit["name"]: limit["restitution"] for kind in ("contacts", "strings", "stops") for limit in spec[kind]}
+        named = {name: x for name, x in given.items() if isinstance(x, str) and x.isidentifier()}
+        return {
+            name: Sym(named.get(name, re.sub(r"\W+", "_", f"e_{name}").strip("_"))) for name, e in self.restitution.items() if e
+        }
+
+    def letter(self, load: Load) -> Sym:
+        """The letter of an impulse."""
+        return Sym(self.subject.blow.given.get(load.name) or impulse(load))
+
+    @property
+    def impulses(self) -> dict[Sym, Sym]:
+        """The impulse for each unknown force."""
+        return {Sym(load.symbol): Sym(impulse(load)) for load in self.forces}
+
+    @property
+    def forces(self) -> list[Load]:
+        """Unknown loads, which may grow beyond all bounds."""
+        return [load for load in self.subject.blow.acting if load.unknown and not load.follows]
+
+    @property
+    def slides(self) -> list[Load]:
+        """Friction of what slides throughout the blow."""
+        return [load for load in self.subject.blow.acting if load.follows]
+
+    def law(self, load: Load) -> Tree:
+        """The impulse of friction that slides, by that of the normal force: what it gives along its own direction."""
+        place, body = self.subject.free.loads.index(load), load.on[0].body
+        group = body if body != GROUND else load.on[1].body
+        [balance] = self.subject.balances([{"ask": "equation", "bodies": [group], "along": {"load": place}}])
+        share = next(c.tree for c in balance.contributions if c.load == place)
+        of, ratio = load.follows or (0, 0.0)
+        unit = {Sym(self.subject.free.loads[of].symbol): 1.0}
+        same = float(evaluate(share, self.subject.values | unit)) * ratio > 0
+        return put(share if same else negative(share), self.impulses)
+
+    @cached_property
+    def roots(self) -> dict[Tree, Tree]:
+        """What stands under the roots of distances that what holds keeps, and what the roots are there."""
+        found = (_root(row.value) for row in self.subject.rows if row.value is not None)
+        return dict(pair for pair in found if pair is not None)
+
+    def told(self, tree: Tree) -> Tree:
+        """An expression with the ``roots`` as what they are at the blow."""
+
+        def put(part: Tree) -> Tree | None:
+            if isinstance(part, Pow) and part.exponent.denominator == 2 and part.base in self.roots:
+                return power(self.roots[part.base], 2 * part.exponent)
+            return None
+
+        return rebuilt(tree, put) if self.roots else tree
+
+    def after(self, tree: Tree) -> Tree:
+        """An expression with the rates after the blow."""
+        return put(tree, {Sym(name, 1): Sym(after(name), 1) for name in moving_names(self.subject)})
+
+    def jump(self, balance: Balance) -> Tree:
+        """Momentum after less momentum before; what is struck from outside stood still."""
+        if self.subject.blow.given:
+            return self.after(balance.momentum)
+        return add(self.after(balance.momentum), negative(balance.momentum))
+
+    def acting(self, balance: Balance) -> Tree:
+        """What all impulses give to a balance."""
+        happened = self.subject.blow
+        parts = [c.tree for c in balance.contributions if not c.absent and happened.grows(happened.free.loads[c.load])]
+        return put(add(*parts), self.impulses)
+
+    def conditions(self) -> list[Condition]:
+        """What holds after the blow: rates that are 0, or so much of what they were."""
+        rows = [(row, row.rate) for row in self.subject.rows if row.rate is not None]
+        return [Condition(row.name, self.told(rate), self._back(row, rate)) for row, rate in rows]
+
+    def _back(self, row: Row, rate: Tree) -> Tree:
+        """How much comes back of a rate: of a gap (a row with a value) that closes."""
+        if row.value is None or row.name not in self.coefficients or self._vanishes(rate):
+            return ZERO
+        return self.coefficients[row.name]
+
+    def conserved(self) -> list[tuple[str, Balance]]:
+        """Balances without any impulse, with their titles, as many as stay after what holds; empty where there are none."""
+        found = minimal_form([self.subject.free], self.subject.points).equations
+        asked = [equation.question for equation in found]
+        if not asked or None in asked:
+            return []
+        balances = self.subject.balances([question for question in asked if question])
+        free = all(self._is_free(balance) for balance in balances)
+        return [(e.title, b.with_trees(self.told)) for e, b in zip(found, balances, strict=True)] if free else []
+
+    def _is_free(self, balance: Balance) -> bool:
+        """Whether no impulse has a part in a balance where the blow is; in letters it may take what touches to see it."""
+        subject = self.subject
+        units = dict.fromkeys(self.impulses, 1.0)
+        parts = [c.tree for c in balance.contributions if not c.internal and subject.blow.grows(subject.free.loads[c.load])]
+        return all(abs(float(evaluate(part, subject.values | units, subject.tables))) < _NOTHING for part in parts)
+
+    @cached_property
+    def zeros(self) -> dict[Sym, Tree]:
+        """Coordinates, and rates before the blow, that are 0 there; and coordinates that are then as long as what holds."""
+        state, names = self.subject.state, moving_names(self.subject)
+        found = [Sym(name) for name, x in zip(names, state.q, strict=True) if abs(x) < _NOTHING]
+        found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
+        zeros: dict[Sym, Tree] = dict.fromkeys(found, ZERO)
+        return zeros | dict(pair for pair in map(self._along, self.roots.items(), repeat(zeros)) if pair is not None)
+
+    def _along(self, root: tuple[Tree, Tree], zeros: Mapping[Sym, Tree]) -> tuple[Sym, Tree] | None:
+        """A coordinate that is all of a distance where others are 0: y = −l of what hangs below."""
+        under = to_sympy(put(root[0], zeros))
+        factor, square = under.as_coeff_Mul()
+        letter = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
+        if not isinstance(letter, Sym) or letter.name not in moving_names(self.subject):
+            return None
+        size = mul(root[1], from_sympy(factor ** (-to_sympy(Num(_HALF)))))
+        return letter, size if self.subject.values[letter] > 0 else negative(size)
+
+    def of_coordinates(self) -> list[Stated]:
+        """The balances of the coordinates."""
+        return [replace(each, balance=each.balance.with_trees(self.told)) for each in stated(self.subject)]
+
+    def of_bodies(self) -> list[Stated]:
+        """The three balances of every body, two of a particle."""
+        made: list[tuple[dict[str, Any], str, str]] = []
+        for name, body in self.subject.free.bodies.items():
+            plain = {"ask": "equation", "bodies": [name]}
+            made += [(plain | {"along": "x"}, "x", "along"), (plain | {"along": "y"}, "y", "along")]
+            made += [] if body.particle else [(plain | {"about": "centre"}, f"the mass centre of {name}", "about")]
+        balances = self.subject.balances([question for question, _, _ in made])
+        return [Stated(b.with_trees(self.told), where, word) for b, (_, where, word) in zip(balances, made, strict=True)]
+
+    @cached_property
+    def letters(self) -> Letters:
+        """The letters of the model, of impulses and of rates after the blow."""
+        known = self.subject.letters
+        own = [name for name, e in self.coefficients.items() if e.name not in known]
+        made = [
+            *(
+                Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow")
+                for name in moving_names(self.subject)
+            ),
+            *(self._letter(load) for load in self.subject.blow.acting),
+            *(Letter(self.coefficients[name].name, "parameter", "", f"restitution at {name}") for name in own),
+        ]
+        return Letters({**known.table, **{letter.name: letter for letter in made}})
+
+    def _letter(self, load: Load) -> Letter:
+        words = load_words(load).removeprefix("the ")
+        if load.name in self.subject.blow.given:
+            return Letter(self.letter(load).name, "parameter", "N*s", "the impulse that strikes")
+        return Letter(impulse(load), "unknown", "N*s", f"impulse of the {words}", self.written[load.symbol])
+
+    @cached_property
+    def values(self) -> dict[Sym, float]:
+        """The numbers of the letters before the blow."""
+        return self.subject.values | {e: self.restitution[name] for name, e in self.coefficients.items()}
+
+    @property
+    def rates_after(self) -> dict[Sym, float]:
+        """Those after it."""
+        return {Sym(after(name), 1): u for name, u in self.change.after.u.items()} if self.change.after else {}
+
+    def rates_held_before(self) -> list[Tree]:
+        """Rates that were 0 just before the blow, because of what held then."""
+        held = [row.rate for row in self.subject.rows_before if row.rate is not None]
+        return [rate for rate in held if self._vanishes(rate)]
+
+    def held_before(self, condition: Condition) -> bool:
+        """Whether a condition held before the blow."""
+        return self._vanishes(condition.rate)
+
+    def holds(self, condition: Condition) -> bool:
+        """Whether a condition holds after the blow, to the rounding of the rates."""
+        one, other = (
+            float(evaluate(side, self.values | self.rates_after, self.subject.tables)) for side in self.sides(condition)
+        )
+        return abs(one - other) <= self._rounding
+
+    def sides(self, condition: Condition) -> tuple[Tree, Tree]:
+        """Of its equation: the rate after the blow, and what it is; not one less than nothing."""
+        parts = condition.rate.terms if isinstance(condition.rate, Add) else (condition.rate,)
+        turned = all(isinstance(part, Mul) and isinstance(part.factors[0], Num) and part.factors[0].value < 0 for part in parts)
+        rate = negative(condition.rate) if turned else condition.rate
+        return self.after(rate), negative(mul(condition.back, rate))
+
+    def agrees(self, solution: Mapping[Sym, Tree]) -> bool:
+        """Whether rates after the blow are those that happened."""
+        pairs = [(float(evaluate(solution[x], self.values, self.subject.tables)), u) for x, u in self.rates_after.items()]
+        return all(abs(one - other) <= self._rounding for one, other in pairs)
+
+    def otherwise(self) -> str:
+        """Why a blow is not what its equations say."""
+        if any(load.kind == "friction" for load in self.forces):
+            return (
+                "what slides reverses or stops sliding during the blow, so that friction has neither all the impulse that it can, "
+                "nor what it takes to stick; that is decided stage by stage, see the run"
+            )
+        return f"the run takes another law of impact. {self.change.note}".strip()
+
+    @property
+    def _rounding(self) -> float:
+        before, now = self.change.before, self.change.after
+        rates = [*(before.u.values() if before else ()), *(now.u.values() if now else ())]
+        return 10 * AGREES * (max(map(abs, rates), default=1.0) or 1.0)
+
+    def _vanishes(self, rate: Tree) -> bool:
+        return abs(float(evaluate(rate, self.values, self.subject.tables))) < _NOTHING
+
+    def sizes(self) -> dict[Sym, float]:
+        """The impulses in numbers; NaN of one that the momenta do not determine."""
+        happened = self.subject.blow
+        return {self.letter(load): load.value for load in happened.impulses.loads if load.name not in happened.given}
+
+    @cached_property
+    def written(self) -> dict[str, Name]:
+        """How the letters of the impulses are written, by the symbols of their forces."""
+        return ImpulseNaming.of(self.subject.blow).loads
+
+
+def _root(value: Tree) -> tuple[Tree, Tree] | None:
+    """The one root with coordinates in a distance that is 0: what stands under it, and what it is then by what has none."""
+    under = {part.base for part in walk(value) if isinstance(part, Pow) and part.exponent == _HALF}
+    if len(under) != 1:
+        return None
+    [base], root = under, Sym("root")
+    try:
+        parts = linear_in(rebuilt(value, lambda part: root if part == Pow(base, _HALF) else None), [root])
+    except ValueError:
+        return None
+    if root not in parts.coefficients or symbols(base) & symbols(parts.rest, parts.coefficients[root]):
+        return None
+    return base, quotient(negative(parts.rest), parts.coefficients[root])
+
+
+def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | float | None = None) -> Impact:
+    """The blow of a ``number``, counted from 1, in the run of a mechanism: of all, of those of one contact, string or stop, or of
+    those from a time ``at`` on (s, or ``"200 ms"``). Raises ``NotHere``."""
+    try:
+        found = mechanism.blow(number, of=of, at=at)
+    except NoImpact as error:
+        raise NotHere(str(error)) from None
+    return Impact(Struck(found.source, found.state, happened=found))
+
+
+def hammered(mechanism: Builder, state: State, point: str, **how: Any) -> Impact:
+    """An impulse at a point of a mechanism at rest, see ``freebody.impact.applied_impulse.strike``. Raises ``NotHere``, ``ModelFileError``."""
+    from freebody.impact.applied_impulse import strike
+
+    try:
+        found = strike(mechanism, state, point, **how)
+    except NoImpact as error:
+        raise NotHere(str(error)) from None
+    return Impact(Struck(found.source, found.state, happened=found))
+
+
+def impulse(load: Load) -> str:
+    """The letter of an impulse: ``bump.J_N``, ``pivot.J_x``."""
+    owner, _, part = load.symbol.rpartition(".")
+    return f"{owner or load.name}.J_{part.removeprefix('F') or part}"
+
+
+def after(name: str) -> str:
+    """The letter of a coordinate whose rate is that after the blow."""
+    return (
+        f"{name}_after"
+        if not name[-1:].isdigit()
+        else f"{name.rstrip('0123456789')}_{name[len(name.rstrip('0123456789')) :]}_after"
+    )

@@ -1,0 +1,346 @@
+"""What a blow leaves, solved in letters: impulses first, then by them the rates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from freebody.equations.answers import with_positive_divisors
+from freebody.equations.linear import linear_in
+from freebody.equations.solve import Singular, TooLarge, linear_system, solve
+from freebody.equations.topics.abbreviations import Names
+from freebody.equations.topics.common import moving_names, spread
+from freebody.equations.topics.impact_equations import Impact, after
+from freebody.equations.topics.impact_rows import MOST_OPERATIONS, Row, Rows, require_brief
+from freebody.symbolic.collect import factored, quotient, without_circles
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.simplify import length, shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import (
+    ONE,
+    ZERO,
+    Add,
+    Fn,
+    Num,
+    Pow,
+    Sym,
+    Tree,
+    add,
+    is_zero,
+    minus,
+    mul,
+    negative,
+    operations,
+    replace,
+    symbols,
+    walk,
+)
+
+_DEPENDS = 1e-9
+"""Below it a row adds nothing to others."""
+_READABLE = 90
+"""Signs that an answer may have for the sake of holding no impulse."""
+_BRIEF = 40
+"""Signs of a rate after a blow above which it may be told by another."""
+_HELPS = 12
+"""Operations of a rate by others, above which it is no help."""
+_MOST_TOGETHER = 6
+"""Unknowns that are solved together."""
+_PATIENCE = 1.0
+"""Seconds for the shortest form of one answer."""
+
+Solution = Mapping[Sym, Tree]
+_Sides = tuple[Tree, Tree]
+
+
+@dataclass(frozen=True)
+class Jumps:
+    """``known``: rates before a blow that follow from others by what held then; ``names``: what is long, by letters; then the
+    ``impulses`` of what acts, the ``rates`` after the blow, and the impulses of ``joints`` that the balances of the coordinates
+    do not have. Each may hold the letters of others, see ``told``."""
+
+    known: Solution
+    names: Solution
+    impulses: Solution
+    rates: Solution
+    joints: Solution
+    untold: str = ""
+    """Why the impulses of joints are not told, where they are not."""
+
+    def spelt(self) -> Solution:
+        """Rates after and impulses by what is given alone."""
+        made: dict[Sym, Tree] = {}
+        for x, tree in self.told.items():
+            made[x] = replace(replace(tree, self.names), made)
+        return made
+
+    @property
+    def told(self) -> Solution:
+        """All that is told, each by those before it: rates first where they hold no impulse."""
+        alone = not any(symbols(tree) & self.impulses.keys() for tree in self.rates.values())
+        first, then = (self.rates, self.impulses) if alone else (self.impulses, self.rates)
+        return {**first, **then, **self.joints}
+
+
+def jumps(found: Impact) -> Jumps:
+    """What a blow leaves. Raises ``TooLarge``, ``Singular``; ``ArithmeticError`` where it is not what the run tells."""
+    if not all(found.holds(each) for each in found.conditions()):
+        raise ArithmeticError(found.otherwise())
+    rows = Rows.of(found)
+    rows.require_small()
+    solved = _System(found, rows).solved()
+    if not found.agrees(solved.spelt()):
+        raise ArithmeticError(found.otherwise())
+    return solved
+
+
+class _System:
+    """The equations of a blow, what is long in them named, and their solution."""
+
+    def __init__(self, found: Impact, rows: Rows) -> None:
+        self.found = found
+        self.names = Names(frozenset(found.letters))
+        self.before = [Sym(name, 1) for name in moving_names(found.subject)]
+        self.after = [Sym(after(x.name), 1) for x in self.before]
+        self.known = self._bound(found.rates_held_before(), self.before)
+        self.follow = self._follow([each.rate for each, _ in rows.conditions if is_zero(each.back)])
+        self.mass = [[self._entry(entry) for entry in row] for row in rows.mass]
+        self.gives = [self._named(row) for row in rows.gives]
+        self.rows = [(each, *self._named(row)) for each, row in rows.conditions]
+        self.acting = rows.impulses
+
+    def solved(self) -> Jumps:
+        """Without impulses where that is short: of what is free after the blow. Else impulses first, then the rates by them; last
+        the impulses of joints."""
+        rates, impulses, full = self._freely() or self._by_impulses()
+        joints, untold = {}, ""
+        try:
+            joints = self._joints(full)
+        except (TooLarge, Singular) as error:
+            untold = str(error)
+        used = self.names.used((*impulses.values(), *rates.values(), *joints.values(), *self.known.values()))
+        return Jumps(self.known, used, impulses, rates, joints, untold)
+
+    def _freely(self) -> tuple[Solution, Solution, Solution] | None:
+        """Where what holds after the blow leaves rates free, and the others follow from these by short expressions: impulses give
+        nothing to the balances of motions that it allows. Rates, impulses, and all of these by rates before."""
+        free = [x for x in self.after if x not in self.follow]
+        if len(self.follow) != len(self.rows) or not free:
+            return None
+        ways = [[self._way(x, w) for w in free] for x in self.after]
+        if not self._idle(ways):
+            return None
+        changes = [add(self.follow.get(x, x), negative(self._of_before(y))) for x, y in zip(self.after, self.before, strict=True)]
+        momenta = [add(*map(mul, row, changes), negative(rest)) for row, (_, rest) in zip(self.mass, self.gives, strict=True)]
+        balances = [(add(*(mul(way[k], p) for way, p in zip(ways, momenta, strict=True))), ZERO) for k in range(len(free))]
+        found = self._together(balances, free)
+        rates = {x: self._stated(tree, tree) for x, tree in found.items()}
+        if any(self._signs(tree) > _READABLE for tree in rates.values()):
+            return None
+        full = {**rates, **{x: replace(tree, rates) for x, tree in self.follow.items()}}
+        still = {x: tree for x, tree in full.items() if is_zero(tree)}
+        impulses = {x: self._finished(replace(tree, still)) for x, tree in self._by_rates(self.acting).items()}
+        return {**rates, **self._rest(full)}, impulses, {**full, **{x: replace(tree, full) for x, tree in impulses.items()}}
+
+    def _rest(self, full: Solution) -> Solution:
+        """The rates that follow, by rates before where that is brief."""
+        made = {x: self._stated(full[x], full[x]) for x in self.follow}
+        return {x: self.follow[x] if self._follows(x, tree) else tree for x, tree in made.items()}
+
+    def _way(self, x: Sym, free: Sym) -> Tree:
+        """What a rate is for a unit of a free one."""
+        return linear_in(self.follow.get(x, x), [free]).coefficients.get(free, ZERO)
+
+    def _idle(self, ways: Sequence[Sequence[Tree]]) -> bool:
+        """Whether no impulse gives anything to the balances of these motions."""
+        values, tables = self._numbers(), self.found.subject.tables
+        one, other = (
+            np.array([[float(evaluate(entry, values, tables)) for entry in row] for row in rows])
+            for rows in (ways, [row for row, _ in self.gives])
+        )
+        return bool(np.abs(one.T @ other).max(initial=0.0) < _DEPENDS)
+
+    def _by_impulses(self) -> tuple[Solution, Solution, Solution]:
+        """Impulses by rates before, and rates after by these or by impulses, then all of them by rates before."""
+        jumped = self._jumped()
+        impulses = self._impulses(jumped)
+        old = [self._of_before(x) for x in self.before]
+        full = {x: add(u, replace(jump, impulses)) for x, u, jump in zip(self.after, old, jumped, strict=True)}
+        rates = {x: self._stated(add(u, jump), full[x]) for x, u, jump in zip(self.after, old, jumped, strict=True)}
+        return rates, {x: self._stated(tree, tree) for x, tree in impulses.items()}, {**impulses, **full}
+
+    def _put(self, tree: Tree) -> Tree:
+        """An expression with what is 0 at the blow, and with letters for its angles."""
+        zeros = self.found.zeros
+        small = from_sympy(to_sympy(replace(tree, zeros))) if symbols(tree) & zeros.keys() else tree
+        return self.names.angles(small)
+
+    def _entry(self, tree: Tree) -> Tree:
+        return self.names.entry(factored(self._put(tree)))
+
+    def _named(self, row: Row) -> Row:
+        return [self._entry(entry) for entry in row[0]], self._put(row[1])
+
+    def _follows(self, rate: Sym, tree: Tree) -> bool:
+        """Whether a rate after the blow is better told by others."""
+        return rate in self.follow and self._signs(tree) > max(_BRIEF, self._signs(self.follow[rate]))
+
+    def _signs(self, tree: Tree) -> int:
+        return length(tree, self.found.letters)[0]
+
+    def _by_rates(self, wanted: Sequence[Sym]) -> Solution:
+        """Impulses by the rates before and after."""
+        balances = [(self.found.acting(each.balance), self.found.jump(each.balance)) for each in self.found.of_coordinates()]
+        chosen = [(self._put(left), self._put(replace(right, self.known))) for left, right in self._enough(balances, wanted)]
+        return {x: self._stated(tree, tree) for x, tree in self._one_by_one(chosen, wanted).items()}
+
+    def _follow(self, held: Sequence[Tree]) -> Solution:
+        """Rates after the blow by others, from what holds then."""
+        now = dict(zip(self.before, self.after, strict=True))
+        return self._bound([replace(rate, now) for rate in held], self.after)
+
+    def _bound(self, held: Sequence[Tree], there: Sequence[Sym]) -> Solution:
+        """Some rates by others where some expressions of them vanish; those that are short."""
+        there = [x for x in there if x not in self.found.zeros]
+        parts = [linear_in(rate, there) for rate in held]
+        rows = [[self._put(each.coefficients.get(x, ZERO)) for x in there] for each in parts]
+        if not rows:
+            return {}
+        values, tables = self._numbers(), self.found.subject.tables
+        table = np.array([[float(evaluate(entry, values, tables)) for entry in row] for row in rows])
+        if not (chosen := independent(table)):
+            return {}
+        simple = sorted(range(len(there)), key=lambda k: max(operations(rows[i][k]) for i in chosen))
+        bound = [simple[k] for k in independent(table[chosen][:, simple].T)]
+        if len(bound) > _MOST_TOGETHER:
+            return {}
+        free = [k for k in range(len(there)) if k not in bound]
+        right = [negative(add(*(mul(rows[i][k], there[k]) for k in free), self._put(parts[i].rest))) for i in chosen]
+        solution = solve([[rows[i][k] for k in bound] for i in chosen], right, self.found.letters, patience=_PATIENCE)
+        stated = {there[k]: self._finished(tree) for k, tree in zip(bound, solution, strict=True)}
+        return {x: tree for x, tree in stated.items() if operations(tree) <= _HELPS and not _divides(tree)}
+
+    def _of_before(self, rate: Sym) -> Tree:
+        return self.found.zeros.get(rate, self.known.get(rate, rate))
+
+    def _jumped(self) -> list[Tree]:
+        """What every rate changes by, by the impulses."""
+        sums = [add(*(mul(factor, x) for factor, x in zip(row, self.acting, strict=True)), rest) for row, rest in self.gives]
+        n = len(sums)
+        if all(is_zero(self.mass[i][k]) for i in range(n) for k in range(n) if i != k):
+            return [_divided(each, self.mass[i][i]) for i, each in enumerate(sums)]
+        _require_few(n)
+        return solve(self.mass, sums, self.found.letters, patience=0.0)
+
+    def _impulses(self, jumped: Sequence[Tree]) -> Solution:
+        made: list[_Sides] = []
+        for each, row, rest in self.rows:
+            total = add(*(mul(factor, change) for factor, change in zip(row, jumped, strict=True)))
+            old = add(*(mul(factor, self._of_before(x)) for factor, x in zip(row, self.before, strict=True)), rest)
+            made.append((total, ZERO if self.found.held_before(each) else negative(mul(add(ONE, each.back), old))))
+        return self._together(made, self.acting) if made else {}
+
+    def _joints(self, solution: Solution) -> Solution:
+        """From the balances of single bodies, as many as it takes."""
+        sizes = self.found.sizes()
+        wanted = [x for x in self.found.impulses.values() if x not in self.acting]
+        if not wanted:
+            return {}
+        if any(np.isnan(sizes[x]) for x in wanted):
+            raise Singular("the impulses in the joints are not determined: more is held than it takes")
+        balances = [(self.found.acting(each.balance), self.found.jump(each.balance)) for each in self.found.of_bodies()]
+        staged = self._one_by_one([(self._put(left), self._put(right)) for left, right in self._enough(balances, wanted)], wanted)
+        return {x: self._stated(tree, replace(replace(tree, self.known), solution)) for x, tree in staged.items()}
+
+    def _enough(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> list[_Sides]:
+        """The first equations that together give what is wanted, at the numbers of the blow."""
+        values = self._numbers()
+
+        def factor(x: Sym, tree: Tree) -> float:
+            return float(
+                evaluate(minus(replace(tree, {x: Num(1)}), replace(tree, {x: Num(0)})), values, self.found.subject.tables)
+            )
+
+        table = np.array([[factor(x, left) for x in wanted] for left, _ in equations])
+        return [equations[i] for i in independent(table)]
+
+    def _one_by_one(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> Solution:
+        """First each equation that has only one unknown left, then the rest together."""
+        for k, sides in enumerate(equations):
+            unknown = [x for x in wanted if x in symbols(*sides)]
+            if len(unknown) == 1 < len(wanted):
+                first = self._together([sides], unknown)
+                rest = [(replace(left, first), replace(right, first)) for left, right in (*equations[:k], *equations[k + 1 :])]
+                return {**first, **self._one_by_one(rest, [x for x in wanted if x not in first])}
+        return self._together(equations, wanted) if wanted else {}
+
+    def _together(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> Solution:
+        _require_few(len(wanted))
+        matrix, right = linear_system(equations, wanted)
+        require_brief([*(entry for row in matrix for entry in row), *right])
+        found = solve([list(map(spread, row)) for row in matrix], list(map(spread, right)), self.found.letters, patience=0.0)
+        require_brief(found)
+        return {x: self.names.plain_angles(_fourier(tree)) for x, tree in zip(wanted, found, strict=True)}
+
+    def _stated(self, staged: Tree, full: Tree) -> Tree:
+        """``full`` in its shortest form where that can be read, else ``staged``, which says it by other letters."""
+        import sympy
+
+        short, whole = self._finished(staged), self.names.spelt(full)
+        if operations(whole) > MOST_OPERATIONS:
+            return short
+        letters = self.found.letters
+        forms = (
+            [whole, self.names.plain_angles(_fourier(whole))] if any(isinstance(part, Fn) for part in walk(whole)) else [whole]
+        )
+        given = (sympy.together(to_sympy(form)) if isinstance(form, Add) else to_sympy(form) for form in forms)
+        made = (self._finished(shortest(form, letters, _PATIENCE)) for form in given)
+        best = min(made, key=lambda form: length(form, letters))
+        return best if self._signs(best) <= max(_READABLE, self._signs(short)) else short
+
+    def _finished(self, tree: Tree) -> Tree:
+        return with_positive_divisors(without_circles(self.names.plain_angles(tree)), self._numbers())
+
+    def _numbers(self) -> dict[Sym, float]:
+        """The numbers of all letters at the blow."""
+        found = self.found
+        values = found.values | found.rates_after | found.sizes()
+        for name, tree in self.names.made.items():
+            values[name] = float(evaluate(tree, values, found.subject.tables))
+        return values
+
+
+def independent(table: np.ndarray) -> list[int]:
+    """The first rows that do not depend on those before."""
+    chosen: list[int] = []
+    for i in range(len(table)):
+        if np.linalg.matrix_rank(table[[*chosen, i]], tol=_DEPENDS) > len(chosen):
+            chosen.append(i)
+    return chosen
+
+
+def _fourier(tree: Tree) -> Tree:
+    """A fraction with products of sines and cosines as sums, in which the angles between parts stand by themselves."""
+    import sympy
+    from sympy.simplify.fu import TR8
+
+    above, below = (TR8(sympy.expand(part)) for part in sympy.fraction(sympy.together(to_sympy(tree))))
+    return from_sympy(sympy.cancel(above / below))
+
+
+def _divides(tree: Tree) -> bool:
+    """Whether an expression is divided by something that is 0 in some places."""
+    below = (part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0)
+    return any(isinstance(part, Fn) for base in below for part in walk(base))
+
+
+def _divided(tree: Tree, by: Tree) -> Tree:
+    return add(*(quotient(term, by) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
+
+
+def _require_few(unknowns: int) -> None:
+    """Raises ``TooLarge``."""
+    if unknowns > _MOST_TOGETHER:
+        raise TooLarge(f"{unknowns} unknowns that hang together are too many for an answer in letters")

@@ -1,0 +1,145 @@
+"""What becomes of small departures: eigenvalues, what drifts, dies out or oscillates, and when."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Side, Words, listed
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.linearization import Linearised, Matrix, numbers
+from freebody.equations.modes import Modes, first_order, modes
+from freebody.equations.solve import Singular, TooLarge
+from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
+from freebody.symbolic.decimals import shown
+from freebody.symbolic.letters import Letter
+from freebody.symbolic.simplify import equal
+from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
+
+Factors = list[tuple[list[Tree], int]]
+
+
+def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter]) -> list[Block]:
+    """Characteristic equation, eigenvalues and stability of linear equations, in letters as far as they are short."""
+    made: list[Block] = []
+    positive = [letter.name for letter, value in subject.values.items() if not letter.dots and value > 0]
+    try:
+        matrix = found.first_order()
+        parts = factors(characteristic(matrix, subject.letters), subject.letters)
+        made += [
+            Heading("Eigenvalues"),
+            Equation(shown(_product(parts)), ZERO, ["The characteristic equation of the eigenvalues ", Sym("s")]),
+        ]
+        made += _eigenvalues(matrix, subject, positive)
+        made += _stability(parts, subject, found, letters, positive)
+    except (TooLarge, Singular) as error:
+        made.append(Paragraph(f"In letters no more is said: {error}."))
+    return made + _numbers(subject, found)
+
+
+def _product(parts: Factors) -> Tree:
+    """The factors as a person writes them, powers of s falling."""
+    made = [power(_sum(coefficients), count) for coefficients, count in parts]
+    return made[0] if len(made) == 1 else Mul(tuple(made))
+
+
+def _sum(coefficients: Sequence[Tree]) -> Tree:
+    order = len(coefficients) - 1
+    terms = [mul(factor, power(Sym("s"), order - i)) for i, factor in enumerate(coefficients) if not is_zero(factor)]
+    spread = [part for term in terms for part in (term.terms if isinstance(term, Add) else (term,))]
+    return spread[0] if len(spread) == 1 else Add(tuple(spread))
+
+
+def _eigenvalues(matrix: Matrix, subject: SymbolicState, positive: Sequence[str]) -> list[Block]:
+    try:
+        found = eigenvalues(matrix, subject.letters, positive=positive)
+    except TooLarge as error:
+        return [Paragraph(f"{str(error).capitalize()}.")]
+    return [Paragraph("The eigenvalues:"), Bullets(list(_paired(found)))]
+
+
+def _paired(found: Sequence[Eigenvalue]) -> list[Words]:
+    """Those that differ in a sign only as one line, with ±."""
+    left, made = list(found), list[Words]()
+    while left:
+        value = left.pop()
+        for part, other in (("imaginary", "real"), ("real", "imaginary")):
+            size = getattr(value, part)
+            twin = next(
+                (v for v in left if _opposite(getattr(v, part), size) and equal(getattr(v, other), getattr(value, other))), None
+            )
+            if twin and not is_zero(size):
+                left.remove(twin)
+                made.append(_stated(value, "± ", part))
+                break
+        else:
+            made.append(_stated(value))
+    return made[::-1]
+
+
+def _opposite(one: Tree, other: Tree) -> bool:
+    return equal(one, negative(other))
+
+
+def _stated(value: Eigenvalue, sign: str = "", signed: str = "") -> Words:
+    """``signed`` names the part that has both signs."""
+    real: list[str | Side] = [] if is_zero(value.real) and not is_zero(value.imaginary) else [shown(value.real)]
+    imaginary: list[str | Side] = [] if is_zero(value.imaginary) else [shown(value.imaginary), " i"]
+    between = (" " * bool(real) + sign) if signed == "imaginary" else " + " if real and imaginary else ""
+    return [sign if signed == "real" else "", *real, between, *imaginary, f", {value.count} times" * (value.count > 1)]
+
+
+def _stability(
+    parts: Factors, subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter], positive: Sequence[str]
+) -> list[Block]:
+    near = modes(subject, found)
+    stated = [stability(p, subject.letters, positive=positive, symmetric=near.symmetric) for p, _ in parts if not is_zero(p[-1])]
+    made: list[Block] = [Heading("Stability"), *_free(near, letters)]
+    if not stated:
+        return made
+    if near.grows and not any(each.never for each in stated):
+        return [*made, Paragraph("Equal eigenvalues share one direction, in which departures grow with time: it is unstable.")]
+    conditions = list(dict.fromkeys(c for each in stated for c in each.conditions))
+    never = any(each.never for each in stated)
+    moving = listed(Sym(letters[name].name) for name in near.moving)
+    made.append(Paragraph(_verdict(stated, bool(near.free), bool(conditions), never, moving)))
+    return made + [Bullets([[shown(condition), " > 0"] for condition in conditions])] * bool(conditions and not never)
+
+
+def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
+    """What nothing brings back."""
+    made: list[Block] = []
+    if near.drifting:
+        drifts = "they drift on, and do not" if len(near.drifting) > 1 else "it drifts on, and does not"
+        names = listed(Sym(letters[name].name) for name in near.drifting)
+        made.append(Paragraph(["Nothing brings back ", *names, f": with any small constant speed {drifts} stay near."]))
+    if rest := [name for name in near.free if name not in near.drifting]:
+        names = listed(Sym(letters[name].name) for name in rest)
+        made.append(Paragraph(["Nothing brings back ", *names, ": a small departure stays as it is."]))
+    return made
+
+
+def _verdict(stated: Sequence[Stability], free: bool, conditions: bool, never: bool, moving: Sequence[str | Side]) -> Words:
+    kinds = {each.kind for each in stated}
+    what: list[str | Side] = ["Apart from that small departures of ", *moving] if free else ["Small departures"]
+    if never:
+        return [*what, " grow, whatever the values of the letters: it is unstable."]
+    does = {"decays": "die out", "oscillates": "stay small and oscillate"}.get(*kinds) if len(kinds) == 1 else None
+    does = does or "stay small: some die out, others oscillate"
+    return [*what, f" {does}{' if' if conditions else ' for all values of the letters (those of the model being positive).'}"]
+
+
+def _numbers(subject: SymbolicState, found: Linearised) -> list[Block]:
+    try:
+        roots = np.linalg.eigvals(first_order(*(numbers(subject, part) for part in (found.mass, found.damping, found.stiffness))))
+    except np.linalg.LinAlgError:
+        return []
+    stated = sorted({(round(float(r.real), 6), round(abs(float(r.imag)), 6)) for r in roots})
+    said = [_figures(a, b) for a, b in stated]
+    return [Heading("In numbers"), Paragraph("With the parameters of the model the eigenvalues are"), Bullets(said)]
+
+
+def _figures(real: float, imaginary: float) -> str:
+    front = f"{real:.5g} ".replace("-", "−") if real or not imaginary else ""
+    return f"{front}± {imaginary:.5g} i 1/s (period {2 * np.pi / imaginary:.5g} s)" if imaginary else f"{front}1/s"

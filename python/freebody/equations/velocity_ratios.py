@@ -1,0 +1,184 @@
+"""One degree of freedom in closed loops: ratios of rates named one after the other, and the one equation of motion with them.
+
+With q̇ = k ż and q̈ = k z̈ + c of all coordinates, Lagrange's equations M q̈ + b = 0, added up with the factors k, hold no load of
+what closes the loops: (kᵀ M k) z̈ + kᵀ (M c + b) = 0. The factor of z̈ is the inertia that is felt at z."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from dataclasses import replace as replaced
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from freebody.document.blocks import Block, Equation, Paragraph, Words, Written
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.linear import Linear
+from freebody.equations.solve import TooLarge, coefficients, solve
+from freebody.symbolic.decimals import measured
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.simplify import PATIENCE, shortest
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, mul, negative, operations, over, replace, symbols
+
+Put = Callable[[Tree], Tree]
+MOST_TOGETHER = 3
+"""Coordinates that are solved for together."""
+_SHORT = 2
+"""Operations up to which a ratio has no letter of its own."""
+_NOTHING = 1e-9
+"""Factor of a coordinate, SI, below which a row does not tell it."""
+
+
+@dataclass
+class Ratios:
+    """By the coordinate ``free``: ``named`` letters, k of rates and c of accelerations, each by those before; ``rates`` and ``rests``
+    of every coordinate by them; the ``inertia`` that is felt at it, and its ``load``. Where a motion has ``prescribed`` its
+    acceleration, what it takes is ``driving``."""
+
+    free: str
+    named: dict[Sym, Tree] = field(default_factory=dict)
+    rates: dict[str, Tree] = field(default_factory=dict)
+    rests: dict[str, Tree] = field(default_factory=dict)
+    inertia: Tree = ZERO
+    load: Tree = ZERO
+    prescribed: Tree | None = None
+    driving: dict[Sym, Tree] = field(default_factory=dict)
+
+    def moving(self, tree: Tree) -> Tree:
+        """An expression with the rates that have no letter of their own by that of the free coordinate."""
+        plain = {Sym(n, 1): mul(k, Sym(self.free, 1)) for n, k in self.rates.items() if k not in self.named}
+        return from_sympy(to_sympy(replace(tree, plain))) if symbols(tree) & plain.keys() else tree
+
+    def letters(self) -> dict[Sym, Tree]:
+        """The named letters and all accelerations, each by those before."""
+        others = {Sym(name, 2): self.acceleration(name) for name in self.rates if name != self.free}
+        return self.named | {Sym(self.free, 2): self.acceleration(self.free)} | others
+
+    def acceleration(self, name: str) -> Tree:
+        """Of a coordinate; others by that of the free one."""
+        if name == self.free:
+            return over(self.load, self.inertia) if self.prescribed is None else self.prescribed
+        return add(mul(self.rates[name], Sym(self.free, 2)), self.rests[name])
+
+
+def ratios(subject: SymbolicState, put: Put, free: str) -> Ratios:
+    """The ratios where loops leave one coordinate, which a motion may drive. Raises ``TooLarge`` where they leave more."""
+    names = [c["name"] for c in subject.coordinates]
+    found = Ratios(free, rates={free: ONE}, rests={free: ZERO})
+    rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest))
+            for row in subject.rows if row.kind != "motion"]  # fmt: skip
+    while unknown := [name for name in names if name not in found.rates]:
+        block, of = _block(rows, unknown, subject.values)
+        _stated(found, subject, block, of)
+    _sum_up(found, subject, put, names)
+    _drive(found, subject, put)
+    return found
+
+
+def driven(subject: SymbolicState) -> str | None:
+    """The coordinate whose acceleration a motion prescribes. Raises ``TooLarge`` where it prescribes anything else."""
+    motions = [row for row in subject.rows if row.kind == "motion"]
+    if len(motions) > 1 or any(len(row.linear.coefficients) != 1 for row in motions):
+        raise TooLarge("motions prescribe more than one coordinate; ask for numbers")
+    return next(iter(motions[0].linear.coefficients)).name if motions else None
+
+
+def _drive(found: Ratios, subject: SymbolicState, put: Put) -> None:
+    """What the motion takes: J z̈ less the other loads."""
+    for row in subject.rows:
+        if row.kind == "motion":
+            [factor] = row.linear.coefficients.values()
+            found.prescribed = negative(over(put(row.linear.rest), put(factor)))
+            force = next(Sym(load.symbol) for load in subject.free.loads if load.kind == "motion" and load.unknown)
+            [[own], rest] = coefficients(found.load, [force])
+            whole = add(mul(found.inertia, Sym(found.free, 2)), negative(rest))
+            found.driving = {force: whole if own == ONE else over(whole, own)}
+
+
+def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, float]) -> tuple[list[Linear], list[str]]:
+    """The fewest rows that tell as many coordinates, with these."""
+    sizes = np.array([[evaluate(row.coefficients.get(Sym(n, 2), ZERO), values) for n in unknown] for row in rows], float)
+    for count in range(1, MOST_TOGETHER + 1):
+        for chosen in combinations(range(len(rows)), count):
+            held = [i for i in range(len(unknown)) if np.abs(sizes[list(chosen), i]).max() > _NOTHING]
+            if len(held) == count and np.linalg.matrix_rank(sizes[np.ix_(chosen, held)]) == count:
+                return [rows[i] for i in chosen], [unknown[i] for i in held]
+    raise TooLarge("loops leave more than one coordinate free; put numbers by set, or ask for numbers")
+
+
+def _stated(found: Ratios, subject: SymbolicState, block: Sequence[Linear], of: Sequence[str]) -> None:
+    matrix = [[_plain(row.coefficients.get(Sym(name, 2), ZERO)) for name in of] for row in block]
+    for stem, stated, own in (("k", found.rates, False), ("c", found.rests, True)):
+        right = [negative(_plain(add(*_known(row, stated), *([found.moving(row.rest)] if own else [])))) for row in block]
+        for name, tree in zip(of, solve(matrix, right, subject.letters, patience=PATIENCE / 5), strict=True):
+            letter = _letter(subject, stem, name)
+            stated[name] = tree if operations(tree) <= _SHORT else letter
+            found.named |= {letter: tree} if stated[name] is letter else {}
+
+
+def _known(row: Linear, stated: Mapping[str, Tree]) -> list[Tree]:
+    return [mul(tree, stated[x.name]) for x, tree in row.coefficients.items() if x.name in stated]
+
+
+def _letter(subject: SymbolicState, stem: str, name: str) -> Sym:
+    """k_ψ or c_ψ, or a longer stem if the model has that."""
+    while (letter := f"{stem}_{name}") in subject.letters:
+        stem += stem
+    return Sym(letter)
+
+
+def _plain(tree: Tree) -> Tree:
+    """With sines of numbers and roots of numbers as numbers, which loops of gears are full of, exactly where they are plain."""
+    import sympy
+
+    expression = to_sympy(tree)
+    constants = [f for f in expression.atoms(sympy.Function, sympy.Pow) if not f.free_symbols and not f.is_rational]
+    return measured(expression.xreplace({f: f.evalf(17) for f in constants})) if constants else tree
+
+
+def _sum_up(found: Ratios, subject: SymbolicState, put: Put, names: Sequence[str]) -> None:
+    """The inertia felt and the load."""
+    from freebody.equations.topics.lagrange import equations
+
+    gone = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown and load.kind != "motion"}
+    gone |= {Sym(name, 1): ZERO for name in names if subject.at_rest}
+    accelerations = [Sym(name, 2) for name in names]
+    stated = equations(replaced(subject, at_rest=False))[2]  # the rates are letters of the kinetic energy
+    rows = [coefficients(found.moving(replace(put(each.residual), gone)), accelerations) for each in stated]
+    k, c = ([part[name] for name in names] for part in (found.rates, found.rests))
+    inertia = [mul(k[i], entry, k[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
+    moved = [mul(k[i], entry, c[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
+    rests = [mul(k[i], rest) for i, (_, rest) in enumerate(rows)]
+    found.inertia = _collected(add(*inertia), subject)
+    found.load = _collected(negative(add(*moved, *rests)), subject)
+
+
+def _collected(tree: Tree, subject: SymbolicState) -> Tree:
+    """A sum by masses and loads, each with the short form of its factor."""
+    import sympy
+
+    expression = sympy.expand(to_sympy(_plain(tree)))
+    heavy = [sympy.Symbol(name) for name in sorted(subject.letters.of_kind("parameter", "constant"), key=subject.letters.place)
+             if name not in subject.letters.geometric()]  # fmt: skip
+    parts: dict[Any, Any] = {}
+    for term in sympy.Add.make_args(expression):
+        key = sympy.Mul(*(f for f in sympy.Mul.make_args(term) if f in heavy))
+        parts[key] = parts.get(key, 0) + term / key
+    return add(*(mul(from_sympy(key), shortest(factor, subject.letters, PATIENCE / 5)) for key, factor in parts.items()))
+
+
+def blocks(found: Ratios, wanted: Sequence[str], shown: Put) -> list[Block]:
+    """The ratios, what they are, the one equation of motion, and the accelerations wanted by that of the free coordinate."""
+    rate, acceleration = Sym(found.free, 1), Sym(found.free, 2)
+    said: Words = ["Loops leave one coordinate free. With ", Sym(found.free), " all others move, at the rates"]
+    made: list[Block] = [Paragraph(said)]
+    made += [Equation(Sym(name, 1), shown(mul(k, rate))) for name, k in found.rates.items() if name != found.free]
+    made += [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(found.named.items())]
+    stated = "Lagrange's equations, added up with these factors, hold no load of what closes the loops: the inertia that is felt is"
+    made += [Paragraph(stated), Equation(Written("J", "J"), shown(found.inertia))]
+    made.append(Equation(mul(Sym("J"), acceleration), shown(found.load), "And with it"))
+    others = [name for name in wanted if name != found.free]
+    return made + [Equation(Sym(name, 2), shown(found.acceleration(name)), "" if i else "So") for i, name in enumerate(others)]

@@ -1,0 +1,129 @@
+"""A model at rest that is struck: an impulse at a point, and what it does at once.
+
+An impulse does to velocities what a force does to the accelerations of what is at rest. So a strike is the instant of the model
+without all that stays finite, with a force in place of the impulse: N·s for N, rates for accelerations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import Change, CompiledModel, FreeBodies, Impulses, Load, Snapshot, State, SymbolicAnswers
+from freebody.impact.impacts import Impulsive, NoImpact, Question
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+_NAME = "blow"
+_LETTERS = ("J", "J0", "J_blow")
+_ROUND_OFF = 1e-12
+"""Of the impulse over the mass of all bodies, below which a rate is what is left of 0."""
+_STILL = 1e-9
+"""Rate, m/s or rad/s, below which a model is at rest."""
+
+
+@dataclass(frozen=True)
+class AppliedImpulse(Impulsive):
+    """The impulse ``letter``, a parameter of ``source`` (N for N·s), on a ``whole`` model at rest.
+
+    ``before`` is its state without the impulse; ``source`` is the model without weights, springs, dampers, motors and friction of joints; its force ``blow`` is the impulse."""
+
+    whole: CompiledModel
+    source: CompiledModel
+    state: State
+    before: State
+    letter: str
+
+    @property
+    def given(self) -> Mapping[str, str]:
+        """The letter of the impulse, by the name of its load."""
+        return {_NAME: self.letter}
+
+    @cached_property
+    def free(self) -> FreeBodies:
+        """All loads while it acts, in N for N·s. Raises ``MotionError`` where they leave the outcome open."""
+        return self.source.free_bodies(self.state)
+
+    @property
+    def size(self) -> float:
+        """The impulse in numbers, N·s."""
+        places = [each["name"] for each in self.source.about["parameters"]]
+        return float(self.state.p[places.index(self.letter)])
+
+    @property
+    def finite(self) -> list[Load]:
+        """Loads of the whole model that stay finite: weights, springs, dampers, motors."""
+        return [x for x in self.whole.free_bodies(self.before).loads if not self.grows(x)]
+
+    @cached_property
+    def change(self) -> Change:
+        """Rates jump from 0."""
+        names = [c["name"] for c in self.source.about["coordinates"]]
+        q = dict(zip(names, map(float, self.state.q), strict=True))
+        small = _ROUND_OFF * abs(self.size) / (sum(body.mass for body in self.free.bodies.values()) or 1.0)
+        jumps = {name: u if abs(u) > small else 0.0 for name, u in self.free.accelerations.items()}
+        loaded = {load.name for load in self.free.loads}
+        spared = tuple(name for name in self._closed() if name not in loaded)
+        stated = Impulses({}, {}, spared=spared)
+        before, after = Snapshot(q, dict.fromkeys(names, 0.0)), Snapshot(q, {name: jumps[name] for name in names})
+        return Change(self.state.t, "struck", (), -self._energy(jumps), impulses=stated, before=before, after=after)
+
+    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
+        """What the core tells of it in letters."""
+        return self.source.letters(self.state, questions)
+
+    def rows_before(self) -> list[Any]:
+        """What holds the model at rest, in letters."""
+        return self.whole.letters(self.before, [{"ask": "rows"}]).answers[0]
+
+    def _closed(self) -> list[str]:
+        limits = {each["name"] for each in self.source.about["limits"]}
+        return list(dict.fromkeys(row["name"] for row in self.rows_before() if row["name"] in limits))
+
+    def _energy(self, jumps: Mapping[str, float]) -> float:
+        """What it gives, J: half of every momentum by its rate."""
+        total = 0.0
+        for body in self.free.bodies.values():
+            x, y, turn = sum((np.array(by) * jumps[name] for name, by in body.by_accelerations.items()), np.zeros(3))
+            total += body.mass * (x * x + y * y) + body.inertia * turn * turn
+        return float(total / 2)
+
+
+def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, impulse: Any = 1.0, frame: str = "fixed") -> AppliedImpulse:
+    """An ``impulse`` (N·s) at a named point on a model at rest, along a ``direction`` (``"-90 deg"``, or an expression) from the x
+    axis of the ``frame``, ``fixed`` or ``body``. Where joints alone hold it, rates
+    that it had before stay and the jumps add to them. Raises ``NoImpact`` where it moves and may touch something, ``ModelFileError``
+    for a point that there is not."""
+    if np.abs(state.u).max(initial=0.0) > _STILL and mechanism.source().about["limits"]:
+        raise NoImpact(
+            "the model moves at its start, and it has contacts, strings or stops, which then decide by that motion what a blow does; "
+            "what is struck here stands still: give the start no rates, or let a run strike it"
+        )
+    state = replace(state, u=np.zeros_like(state.u))
+    from freebody.equations.substitutions import given_quantity
+
+    taken = {c["name"] for kind in ("parameters", "coordinates") for c in mechanism.source().about[kind]}
+    letter = next(name for name in _LETTERS if name not in taken)
+    model = mechanism.copy()
+    model.parameter(letter, given_quantity(impulse, "N*s"))
+    model.force(name=_NAME, at=point, value=letter, direction=direction, frame=frame)
+    lowered = model.lowered()
+    core = CompiledModel.of(_bare(lowered.spec))
+    source = replace(mechanism.source(), mechanism=core.mechanism, spec=lowered.spec)
+    p = dict(zip((each["name"] for each in mechanism.source().about["parameters"]), state.p, strict=True))
+    values = np.array([p.get(each["name"], given_quantity(impulse, "N*s")) for each in source.about["parameters"]])
+    return AppliedImpulse(mechanism.source(), source, replace(state, p=values), state, letter)
+
+
+def _bare(spec: Mapping[str, Any]) -> dict[str, Any]:
+    """A model without what stays finite, and with prescribed motions that stand still."""
+    joints = [joint | {"with": {k: v for k, v in joint["with"].items() if k != "friction"}} for joint in spec["joints"]]
+    joints = [{k: v for k, v in joint.items() if k != "friction"} for joint in joints]
+    still = [motion | {"is": 0.0, "level": "velocity"} for motion in spec["motions"]]
+    impact = [force for force in spec["forces"] if force["name"] == _NAME]
+    return {**spec, "gravity": None, "joints": joints, "motions": still, "forces": impact, "events": []}

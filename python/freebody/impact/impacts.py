@@ -1,0 +1,208 @@
+"""Blows of a run: what acts during one, its impulses, and what jumps."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from freebody.core import Body, Change, CompiledModel, FreeBodies, Load, State, SymbolicAnswers
+from freebody.run.records import Array
+
+if TYPE_CHECKING:
+    from freebody.run.simulation import Run
+
+Question: TypeAlias = Mapping[str, Any]
+_ROUND_OFF = 1e-13
+"""Of the largest impulse, below which one is what is left of 0."""
+_JUST_BEFORE = 1e-6
+"""Of the time since the change before: far enough from a blow to be in the motion before it."""
+
+
+class NoImpact(ValueError):
+    """A blow that a run does not have; the sentence says why."""
+
+
+class Impulsive(ABC):
+    """A moment in which rates jump, because loads grow beyond all bounds: a blow of a run, or one that a model is given."""
+
+    change: Change
+    """What happened, with the state before and after."""
+    state: State
+    """The state just before."""
+    source: CompiledModel
+    """The mechanism, to be drawn in that state."""
+    free: FreeBodies
+    """All loads during the blow: those of what was struck for a unit of each."""
+
+    @abstractmethod
+    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
+        """What the core tells of it in letters, with the rates before it."""
+
+    @abstractmethod
+    def rows_before(self) -> list[Any]:
+        """What held just before, in letters, as the core tells its rows."""
+
+    @property
+    def given(self) -> Mapping[str, str]:
+        """The letters of impulses that are given from outside, by the names of their loads."""
+        return {}
+
+    def grows(self, load: Load) -> bool:
+        """Whether a load has an impulse."""
+        return load.unknown or load.follows is not None or (load.kind == "force" and load.name in self.given)
+
+    @property
+    def acting(self) -> list[Load]:
+        """Loads that may grow beyond all bounds and so have impulses: reactions, contacts, strings, stops, their friction."""
+        return [load for load in self.free.loads if self.grows(load)]
+
+    @property
+    def finite(self) -> list[Load]:
+        """Loads of the model that stay finite: weights, springs, dampers, motors."""
+        return [load for load in self.free.loads if not self.grows(load)]
+
+    def absent(self, *group: str) -> list[str]:
+        """In sentences, what has no impulse on a group of bodies (all by default), and why."""
+        chosen = set(group or self.free.bodies)
+        stated = [f"{', '.join(words)}: finite, so no impulse in a time that goes to 0"] if (words := self._weak(chosen)) else []
+        sides = {
+            each["name"]: {each["first"], each["second"]} for each in self.source.about["joints"] + self.source.about["limits"]
+        }
+        impulses, joints = self.change.impulses, self.source.spec["joints"]
+        spared = impulses.spared if impulses else ()
+        here = [name for name in spared if sides[name] & chosen]
+        idle = [name for name in self._idle() if name not in spared and sides[name] & chosen]
+        has_friction = [joint["name"] for joint in joints if joint.get("friction") and sides[joint["name"]] & chosen]
+        stated += [f"{name}, which lets go: its impulse would have to be negative" for name in here]
+        stated += [f"{name}: nothing drives it closed in the blow, so it has no impulse" for name in idle]
+        return stated + [f"friction of {name}: left out, joints pass impulses on without it" for name in has_friction]
+
+    def _idle(self) -> list[str]:
+        """Contacts, strings and stops that were closed before and have no part in the blow."""
+        loaded = {load.name for load in self.acting}
+        closed = dict.fromkeys(row["name"] for row in self.rows_before())
+        return [each["name"] for each in self.source.about["limits"] if each["name"] in closed.keys() - loaded]
+
+    def _weak(self, group: Collection[str]) -> list[str]:
+        """The names of the finite loads on a group from outside."""
+        here = (x for x in self.finite if not x.inside(group) and any(part.body in group for part in x.on))
+        return list(dict.fromkeys(f"weight of {load.of[-1]}" if load.kind == "weight" else load.name for load in here))
+
+    @cached_property
+    def impulses(self) -> FreeBodies:
+        """The impulse diagrams as data: loads are impulses, N·s and N·m·s; in place of accelerations stand the jumps of the
+        velocities, so that for each body, and each group, impulses add up to m Δv at G and I Δω."""
+        bodies = {name: _jumped(body, self._jump(body)) for name, body in self.free.bodies.items()}
+        loads, sizes = self.free.loads, self._sizes(bodies)
+        stated = [replace(load, value=sizes[i]) for i, load in enumerate(loads) if self.grows(load)]
+        place = {i: k for k, i in enumerate(i for i, load in enumerate(loads) if self.grows(load))}
+        linked = (replace(x, follows=(place[x.follows[0]], x.follows[1])) if x.follows else x for x in stated)
+        return FreeBodies(bodies, tuple(linked))
+
+    def _jump(self, body: Body) -> Array:
+        """Δv of the mass centre and Δω (3,): velocities are as linear in the rates as accelerations in theirs."""
+        before, after = self.change.before, self.change.after
+        assert before is not None and after is not None
+        parts = (np.array(by) * (after.u[name] - before.u[name]) for name, by in body.by_accelerations.items())
+        return sum(parts, np.zeros(3))
+
+    def _sizes(self, bodies: dict[str, Body]) -> Array:
+        """The impulse of every load, from the momentum of every body; NaN of one that this does not determine."""
+        loads = self.free.loads
+        unknown = [i for i, load in enumerate(loads) if load.unknown and not load.follows]
+        known = [i for i, load in enumerate(loads) if self.grows(load) and not load.unknown and not load.follows]
+        gives = np.zeros((3 * len(bodies), len(loads)))
+        for k, body in enumerate(bodies.values()):
+            for i, load in enumerate(loads):
+                gives[3 * k : 3 * k + 3, i] = load.unit([body.name], body.G)
+        for i, load in enumerate(loads):
+            if load.follows:
+                gives[:, load.follows[0]] += load.follows[1] * gives[:, i]
+        jumps = np.concatenate([body.effective(body.G) for body in bodies.values()] or [np.zeros(0)])
+        sizes = np.zeros(len(loads))
+        sizes[known] = 1.0  # of what is given the parts are what acts
+        sizes[unknown] = np.linalg.lstsq(gives[:, unknown], jumps - gives[:, known] @ sizes[known], rcond=None)[0]
+        for i, load in enumerate(loads):
+            if load.follows:
+                sizes[i] = load.follows[1] * sizes[load.follows[0]]
+        sizes[np.abs(sizes) < _ROUND_OFF * np.abs(sizes).max(initial=0.0)] = 0.0
+        return np.where([load.determinate for load in loads], sizes, np.nan)
+
+
+@dataclass(frozen=True)
+class Impact(Impulsive):
+    """A blow of a ``run``: the change that tells of it, and its ``place`` among all changes."""
+
+    run: Run
+    change: Change
+    place: int
+
+    @cached_property
+    def state(self) -> State:
+        """The state just before."""
+        before = self.change.before
+        assert before is not None
+        p = self.run.end.p
+        return State(p, self.change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
+
+    @cached_property
+    def source(self) -> CompiledModel:
+        """The mechanism, to be drawn in the state of the blow."""
+        source = self.run.source
+        return _During(source.mechanism, source.spec, source.model, source.report, source.notes, self.run)
+
+    @cached_property
+    def free(self) -> FreeBodies:
+        """All loads during the blow: those of what was struck for a unit of each."""
+        return self.run.motion.free_bodies_of_impact(self.place)
+
+    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
+        """What the core tells of it in letters, with the rates before it."""
+        return self.run.motion.letters_of_impact(self.place, questions)
+
+    def rows_before(self) -> list[Any]:
+        """What held just before, in letters; nothing where that is not known, as at the start."""
+        t = self.change.t
+        since = max((each.t for each in self.run.changes if each.t < t), default=float(self.run.t[0]))
+        if not since < t:
+            return []
+        return self.run.motion.letters(t - _JUST_BEFORE * (t - since), [{"ask": "rows"}]).answers[0]
+
+
+@dataclass(frozen=True, eq=False)
+class _During(CompiledModel):
+    """The model, whose expressions are read of a run at the time: by itself a state that strikes may have no answer."""
+
+    run: Run | None = None
+
+    def evaluate(self, texts: Sequence[str], state: State) -> Array:
+        """Values (k,) of expressions."""
+        assert self.run is not None
+        return self.run.motion.evaluate(texts, np.array([state.t]))[0]
+
+
+def impacts(run: Run) -> Iterator[Impact]:
+    """All blows of a run, in order of time."""
+    yield from (Impact(run, change, place) for place, change in enumerate(run.changes) if change.impulses)
+
+
+def find(run: Run, number: int = 1, *, of: str | None = None, after: float | None = None) -> Impact:
+    """The blow of a ``number``, from 1: of all, of those of one contact, string or stop, or of those not before a time in s.
+    Raises ``NoImpact``."""
+    if run.recorded:
+        raise NoImpact("a run from a file does not know what acted during its blows; run it again")
+    asked = [impact for impact in impacts(run) if of in (None, *impact.change.of) and (after is None or impact.change.t >= after)]
+    if not 1 <= number <= len(asked):
+        which = (f" of {of}" if of else "") + (f" from {after:g} s on" if after is not None else "")
+        raise NoImpact(f"the run has {len(asked)} blows{which}, none of number {number}; let it run longer, or start it otherwise")
+    return asked[number - 1]
+
+
+def _jumped(body: Body, jump: Array) -> Body:
+    x, y, turn = (float(part) for part in jump)
+    return replace(body, a=(x, y), alpha=turn)

@@ -1,0 +1,1 @@
+"""Motions: simulation, sampling, mode changes, sequences of models, storage, comparison."""

@@ -1,0 +1,83 @@
+"""A motion that goes on as another model: one run after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from freebody.core import CompiledModel, MotionError, Settings, State
+from freebody.run.records import quote
+from freebody.run.sampling import Times
+from freebody.run.simulation import Progress, Run, simulate
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A model with what its run is asked to be; ``overrules`` are settings that hold for every model."""
+
+    mechanism: Builder
+    settings: Settings
+    overrules: Mapping[str, Any]
+    t_eval: Times | None = None
+    progress: Progress | None = None
+
+    def run(self, state: State, notes: Sequence[str]) -> Run:
+        """The motion from a state."""
+        return simulate(self.mechanism.source(notes), state, self.settings, self.t_eval, self.progress)
+
+    def after(self, run: Run) -> Stage | None:
+        """The model to which a run of this one handed over; None when it ended in another way."""
+        handing = self.mechanism.lowered().hand_over
+        file = next((handing[event.name] for event in reversed(run.events) if event.name in handing), None)
+        if file is None or run.outcome.name != "StoppedByEvent" or run.end.t >= self.settings.until:
+            return None
+        other = self.mechanism.handed(file)
+        own = other.run_numbers().until
+        until = self.settings.until if own is None else max(own, self.settings.until)
+        return Stage(other, other.run_plan(until, self.overrules), self.overrules, self.t_eval, self.progress)
+
+
+def follow(stage: Stage, first: Run) -> Run:
+    """The run, with those of the models to which it hands over as ``next`` of one another.
+
+    Raises ``ModelFileError``, and ``MotionError`` when models hand over to one another at one instant.
+    """
+    run = first
+    while (later := stage.after(run)) is not None:
+        at_once = run.end.t == run.start.t
+        state, notes = later.mechanism.start(None, run.end.t, **carried(stage.mechanism, run, later.mechanism))
+        stage, run.next = later, later.run(state, notes)
+        run = run.next
+        if at_once and run.end.t == run.start.t:
+            what = f"the models hand over to one another at t = {run.end.t:g} s without any motion between"
+            raise MotionError("hands_over_at_once", "", what, "let each begin on the far side of its event")
+    return first
+
+
+def carried(before: Builder, run: Run, after: Builder) -> dict[str, Any]:
+    """What a model takes over from the end of a run: parameters, and coordinates with their rates.
+
+    They are those of the same name; for a coordinate also a gauge of that name.
+    """
+    from freebody.model.start import parameter_values
+
+    end, core = run.end, run.source
+    gauges = [gauge["name"] for gauge in before.lowered().spec["gauges"]]
+    known = {*coordinates(core), *gauges}
+    names = [name for name in coordinates(after.compile()) if name in known]
+    texts = [quote(name) for name in names] + [f"rate({quote(name)})" for name in names]
+    values = core.evaluate(texts, end).tolist() if texts else []
+    taken = after.lowered().start.parameters
+    parameters = {name: value for name, value in parameter_values(core, end.p).items() if name in taken}
+    rates = {"rates": dict(zip(names, values[len(names) :], strict=True))} if names else {}
+    return parameters | dict(zip(names, values, strict=False)) | rates
+
+
+def coordinates(core: CompiledModel) -> list[str]:
+    """The names of all coordinates, also of those that only close loops."""
+    about = core.about
+    return [coordinate["name"] for coordinate in about["coordinates"] + about["closure_coordinates"]]

@@ -1,0 +1,346 @@
+"""A simulation and what can be asked of it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import Change, CompiledModel, Event, Motion, Outcome, Settings, Spec, State, Trajectory
+from freebody.run import storage
+from freebody.run.records import (
+    BEFORE,
+    ENTRIES,
+    KINDS,
+    Array,
+    Column,
+    Energy,
+    Reported,
+    ReportItem,
+    Window,
+    columns_of,
+    quote,
+    reduce,
+    unit_of,
+)
+from freebody.run.sampling import Times, output_times
+from freebody.solve.instant import Instant, Reaction, Reactions, refuse_indeterminate
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Progress = Callable[[float], bool]
+
+
+def simulate(
+    source: CompiledModel,
+    start: State,
+    settings: Settings,
+    t_eval: Times | None = None,
+    progress: Progress | None = None,
+    after: Trajectory | None = None,
+) -> Run:
+    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps. ``after``: the
+    motion that ended in this state."""
+    options = {key: value for key, value in asdict(settings).items() if key != "every"}
+    trajectory = source.simulate(start, progress=progress, after=after, **options)
+    return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
+
+
+class Run:
+    """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it.
+
+    ``next`` is the run of the model to which this one handed over, if it did.
+    """
+
+    next: Run | None = None
+
+    def __init__(
+        self,
+        source: CompiledModel,
+        start: State,
+        settings: Settings,
+        motion: Motion,
+        t: Array,
+        report: Mapping[str, Reported] | None = None,
+    ) -> None:
+        self.source = source
+        self.start = start
+        self.settings = settings
+        self.motion = motion
+        self.t = t
+        self.about = source.about
+        self.name = source.name
+        if report is not None:
+            self.report = dict(report)
+
+    # What happened
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the run ended."""
+        return self.motion.outcome
+
+    @property
+    def events(self) -> list[Event]:
+        """What happened, in order of time."""
+        return self.motion.events
+
+    @property
+    def changes(self) -> list[Change]:
+        """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
+        return self.motion.changes
+
+    @property
+    def impacts(self) -> list[Change]:
+        """The changes with impulses."""
+        return [change for change in self.changes if change.impulses]
+
+    @property
+    def stats(self) -> dict[str, Any]:
+        """What it took: accepted and rejected steps, evaluations, the worst gap of a loop."""
+        return self.motion.stats
+
+    # The motion
+
+    @property
+    def q(self) -> Array:
+        """Coordinates (nt, n), m or rad."""
+        return self._sampled[0]
+
+    @property
+    def u(self) -> Array:
+        """Rates (nt, n), m/s or rad/s."""
+        return self._sampled[1]
+
+    @cached_property
+    def accelerations(self) -> Array:
+        """Second time derivatives of the coordinates (nt, n), solved again at each time."""
+        texts = [f"accel({quote(name)})" for name in self.coordinates]
+        return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
+
+    @cached_property
+    def poses(self) -> Array:
+        """Frame origin x, y (m) and angle (rad) of every body (nt, nb, 3)."""
+        return self.motion.poses(self.t)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates, in the order of ``q``."""
+        return [c["name"] for c in self.about["coordinates"]]
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies, in the order of ``poses``."""
+        return [b["name"] for b in self.about["bodies"]]
+
+    @cached_property
+    def points(self) -> dict[str, tuple[str, float, float]]:
+        """Named points: body, x and y in its frame (m)."""
+        return self.source.points(self.start.p)
+
+    def point(self, name: str) -> Array:
+        """Path of a named point (nt, 2) in the fixed axes, m."""
+        body, x, y = self.points[name]
+        if body == "ground":
+            return np.tile([x, y], (len(self.t), 1))
+        px, py, angle = self.poses[:, self.bodies.index(body)].T
+        return np.column_stack([px + x * np.cos(angle) - y * np.sin(angle), py + x * np.sin(angle) + y * np.cos(angle)])
+
+    # Forces and energy
+
+    @cached_property
+    def reactions(self) -> Reactions:
+        """Reaction of every joint over ``t``, on its second body unless ``.on(body)`` says otherwise."""
+        return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self.about["joints"])})
+
+    @cached_property
+    def energy(self) -> Energy:
+        """The energy ledger over ``t``."""
+        names, values = self.motion.ledger(self.t)
+        return Energy(self.t, tuple(names), values)
+
+    # Anything by name
+
+    def __getitem__(self, name: str) -> Array:
+        """Values over ``t`` of a column, a point's path (nt, 2), or any expression."""
+        if name == "t":
+            return self.t
+        if name in ENTRIES:
+            return self.energy[name]
+        return self.point(name) if name in self.points else np.asarray(self.evaluate(name))
+
+    def evaluate(self, text: str, t: float | Times | None = None) -> Any:
+        """Values of an expression at times within the run (default ``t``); a single time gives a single number.
+
+        An expression that reads a reaction that is not determined raises ``Indeterminate``.
+        """
+        times = np.atleast_1d(np.asarray(self.t if t is None else t, float))
+        values = self.motion.evaluate([text], times)[:, 0]
+        if np.isnan(values).any():
+            refuse_indeterminate(text, self.reactions, self.about)
+        return float(values[0]) if np.isscalar(t) else values
+
+    def instant(self, t: float, route: str = "minimal") -> Instant:
+        """The whole instant at a time within the run, with what is in place and holds then."""
+        q, u = self.motion.sample(np.array([t]))
+        return Instant(self.source, State(self.end.p, t, q[0], u[0]), route, self.motion)
+
+    def before(self, text: str, t: float) -> float:
+        """The value of an expression just before a time, at which something may switch."""
+        if t > self.edges[0]:
+            return self.evaluate(text, float(np.nextafter(t, -np.inf)))
+        return float(self.source.evaluate([text], self.start)[0])
+
+    @cached_property
+    def report(self) -> dict[str, Reported]:
+        """The quantities that the model asks for, by label."""
+        return {item.label: self.reported(item) for item in self.source.report}
+
+    def reported(self, item: ReportItem) -> Reported:
+        """One such quantity."""
+        si = unit_of(item.value, self.columns)
+        if item.how != "at":
+            when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
+            return Reported.of(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
+        at, before = (item.at[len(BEFORE) :], True) if str(item.at).startswith(BEFORE) else (item.at, False)
+        moments = self._moments(at)
+        if not moments:
+            return Reported(None, "", note=f"{at} did not happen")
+        note = ", ".join(["just before"] * before + [f"the first of {len(moments)}"] * (len(moments) > 1))
+        return Reported.of(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
+
+    def _moments(self, at: str | float) -> list[float]:
+        if at in ("start", "end"):
+            return [float(self.edges[0 if at == "start" else -1])]
+        if isinstance(at, str):
+            return [event.t for event in self.events if event.name == at]
+        return [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
+
+    @cached_property
+    def edges(self) -> Array:
+        """Times (…,) at which steps and events end: between them the motion is smooth."""
+        return np.union1d(self.motion.steps, [*(event.t for event in self.events), *self.jumps])
+
+    @cached_property
+    def jumps(self) -> Array:
+        """Times (…,) at which something switched after the start, within the run: rates and forces may jump there."""
+        first, last = self.motion.steps[0], self.motion.steps[-1]
+        return np.unique([change.t for change in self.changes if first < change.t <= last])
+
+    # As a table
+
+    @cached_property
+    def columns(self) -> list[Column]:
+        """Everything that is kept over ``t``, in the order of ``blocks``."""
+        return [column for kind in KINDS for column in columns_of(kind, self.about, self.energy.names)]
+
+    @property
+    def blocks(self) -> dict[str, Array]:
+        """Values of the columns by kind, each (nt, k); an indeterminate reaction is NaN."""
+        nt = len(self.t)
+        arrays = (self.q, self.u, self.accelerations, self._reactions, self._limits, self.energy.values, self.poses)
+        return {kind: array.reshape(nt, -1) for kind, array in zip(KINDS, arrays, strict=True)}
+
+    def to_xarray(self) -> xarray.Dataset:
+        """An xarray Dataset with time, coordinate, joint, ledger and body as dimensions."""
+        return storage.to_xarray(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A pandas table, one row a time and one column each of ``columns``; indeterminate reactions are NaN."""
+        return storage.to_pandas(self)
+
+    def save(self, path: str | Path) -> Path:
+        """Write ``.nc`` (netCDF) or ``.csv``, with the model, the settings and the versions inside."""
+        return storage.save(self, Path(path))
+
+    @staticmethod
+    def load(path: str | Path, mechanism: Callable[[Spec], CompiledModel] = CompiledModel.of) -> Run:
+        """A run from a file. It knows its saved times; ``again()`` knows all. ``mechanism`` compiles its model (default: the core)."""
+        source, start, settings, motion, report = storage.load(Path(path), mechanism)
+        return Run(source, start, settings, motion, motion.saved_times, report)
+
+    # On from here
+
+    @property
+    def recorded(self) -> bool:
+        """Whether the run comes from a file and is known at its saved times only."""
+        return hasattr(self.motion, "saved_times")
+
+    @property
+    def end(self) -> State:
+        """The state at the end, enough to continue from."""
+        return self.motion.end
+
+    def continue_(self, until: float, progress: Progress | None = None) -> Run:
+        """The motion from the end of this run on, with what is in place then. Works and the ledger start anew.
+
+        Raises ``ValueError`` for a run from a file on whose way parts were released or engaged: the file does not hold them.
+        """
+        after = self.motion if isinstance(self.motion, Trajectory) else None
+        if after is None and any(change.kind in ("released", "engaged") for change in self.changes):
+            raise ValueError("a saved run does not know what its events released and engaged\n  simulate again, to the later end")
+        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress, after=after)
+
+    def at(self, times: Times) -> Run:
+        """The same run on other output times."""
+        return Run(self.source, self.start, self.settings, self.motion, np.asarray(times, float))
+
+    def again(self) -> Run:
+        """The same simulation once more, with the same output times."""
+        return simulate(self.source, self.start, self.settings, t_eval=self.t)
+
+    def __str__(self) -> str:
+        lines = [f"{self.name}: {self.outcome.sentence}"]
+        lines += [f"  {event.name} at t = {event.t:.6g} s" for event in self.events]
+        if kinds := Counter(change.kind for change in self.changes):
+            lines.append("  what switched: " + ", ".join(f"{count} × {kind}" for kind, count in kinds.items()))
+        lines += [f"  {label}: {value}" for label, value in self.report.items()]
+        return "\n".join(lines)
+
+    # Inside
+
+    @cached_property
+    def _sampled(self) -> tuple[Array, Array]:
+        return self.motion.sample(self.t)
+
+    @cached_property
+    def _reactions(self) -> Array:
+        values, determinate = self.motion.instants(self.t)
+        known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
+        return np.where(known, values, np.nan)
+
+    @cached_property
+    def _limits(self) -> Array:
+        texts = [column.name for column in columns_of("limit", self.about, ())]
+        return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
+
+    def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
+        texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
+        values = self._reactions[:, i]
+        return Reaction(
+            name=joint["name"],
+            first=joint["first"],
+            second=joint["second"],
+            body=joint["second"],
+            values=values,
+            determined=~np.isnan(values),
+            smallest=lambda: self._least(i),
+            local=lambda: self.motion.evaluate(texts, self.t),
+            has_couple=joint["couple"],
+            carries=bool(joint["reaction"]),
+        )
+
+    def _least(self, i: int) -> Array:
+        p = self.end.p
+        if not np.array_equal(p, self.start.p):
+            raise ValueError("an event changed parameters during this run: ask for the least reactions instant by instant")
+        rows = zip(self.t, self.q, self.u, strict=True)
+        least = [self.source.instant(State(p, float(t), q, u)).least_reactions for t, q, u in rows]
+        return np.array(least)[:, i]

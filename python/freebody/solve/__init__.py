@@ -1,0 +1,1 @@
+"""One instant solved: accelerations, reactions, free-body diagrams as data, equilibrium."""

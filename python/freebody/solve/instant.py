@@ -1,0 +1,285 @@
+"""One instant, solved: accelerations and every reaction, each with its sign and its right to be believed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from freebody.core import CompiledModel, FreeBodies, Indeterminate, Limit, Motion, State
+from freebody.run.records import PARTS, Array, quote
+from freebody.solve import rich_tables
+from freebody.solve.rich_tables import figure
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+STILL = 1e-4
+"""Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
+it a load that nothing carries."""
+_FORCES = "N|T|F|Fx|Fy|tension"
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """The reaction of a joint on the body ``body``, at an instant or over time.
+
+    ``values`` (…, 3): force components Fx, Fy in N in the fixed axes and the couple M in N·m, counter-clockwise,
+    about the joint's point; ``determined`` (…, 3) says which of them the balance equations determine.
+    ``has_couple`` is False for a joint that passes none: its M is 0; ``carries`` is False for one that passes no load at all.
+    A component that they do not determine is never given as a number; ``least`` is the way to opt in.
+    """
+
+    name: str
+    first: str
+    second: str
+    body: str
+    values: Array = field(repr=False)
+    determined: NDArray[np.bool_] = field(repr=False)
+    smallest: Callable[[], Array] = field(repr=False)
+    local: Callable[[], Array] = field(repr=False)
+    has_couple: bool = True
+    carries: bool = True
+
+    @property
+    def Fx(self) -> Any:
+        """Force along the fixed x axis, N."""
+        return self._part(0)
+
+    @property
+    def Fy(self) -> Any:
+        """Force along the fixed y axis, N."""
+        return self._part(1)
+
+    @property
+    def M(self) -> Any:
+        """Couple about the joint's point, N·m, counter-clockwise."""
+        return self._part(2)
+
+    @property
+    def size(self) -> Any:
+        """Size of the force, N."""
+        return np.hypot(self.Fx, self.Fy)
+
+    @property
+    def Fs(self) -> Any:
+        """Force along the first body's line of the joint, N."""
+        return self._along(0)
+
+    @property
+    def Fn(self) -> Any:
+        """Force across the first body's line of the joint (a quarter turn to its left), N."""
+        return self._along(1)
+
+    @property
+    def determinate(self) -> bool:
+        """Whether the balance equations determine every component at all times."""
+        return bool(self.determined.all())
+
+    @property
+    def least(self) -> Reaction:
+        """The reactions of least norm, one choice of infinitely many where they are indeterminate."""
+        sign = 1.0 if self.body == self.second else -1.0
+        return replace(self, values=sign * self.smallest(), determined=np.ones_like(self.determined))
+
+    def on(self, body: str) -> Reaction:
+        """The same reaction as it acts on one of the joint's two bodies."""
+        if body not in (self.first, self.second):
+            raise KeyError(f"{self.name} joins {self.first} and {self.second}; it does not act on {body}")
+        return self if body == self.body else replace(self, body=body, values=-self.values)
+
+    def _part(self, i: int) -> Any:
+        if not self.determined[..., i].all():
+            raise self._indeterminate(PARTS[i])
+        return self.values[..., i]
+
+    def _along(self, i: int) -> Any:
+        values = self.local()[..., i]
+        if np.isnan(values).any():
+            raise self._indeterminate(("Fs", "Fn")[i])
+        return values if self.body == self.second else -values
+
+    def _indeterminate(self, part: str) -> Indeterminate:
+        return Indeterminate(
+            f"{self.name}.{part} is not determined: the joints hold the mechanism in more ways than it needs, "
+            f"so its parts can be pre-stressed. .least.{part} is the member of least norm, if one is wanted."
+        )
+
+
+class Reactions(Mapping[str, Reaction]):
+    """The reactions of all joints by name."""
+
+    def __init__(self, items: Mapping[str, Reaction]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, name: str) -> Reaction:
+        try:
+            return self._items[name]
+        except KeyError:
+            raise KeyError(f"no joint is called {name!r}; there are {', '.join(self._items)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+
+class Instant:
+    """Accelerations and all reactions at a state. ``motion``: one that is at this state then; what it has switched holds here, too."""
+
+    def __init__(
+        self,
+        core: CompiledModel,
+        state: State,
+        route: str = "minimal",
+        motion: Motion | None = None,
+    ) -> None:
+        self.state = state
+        self.route = route
+        self.core = core
+        self._about = core.about
+        self.motion = motion
+        self._solved = core.instant(state, route) if motion is None else motion.instant(state.t, route)
+
+    @property
+    def accelerations(self) -> dict[str, float]:
+        """Second time derivatives of the coordinates by name, m/s² or rad/s²."""
+        names = (c["name"] for c in self._about["coordinates"])
+        return dict(zip(names, self._solved.accelerations.tolist(), strict=True))
+
+    @property
+    def bodies(self) -> dict[str, tuple[float, float, float]]:
+        """Acceleration ax, ay of the mass centre (m/s²) and angular acceleration (rad/s²) by body."""
+        names = (b["name"] for b in self._about["bodies"])
+        return {name: tuple(row) for name, row in zip(names, self._solved.body_accelerations.tolist(), strict=True)}
+
+    @property
+    def reactions(self) -> Reactions:
+        """Reaction of every joint, on its second body unless ``.on(body)`` says otherwise."""
+        return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self._about["joints"])})
+
+    @property
+    def limits(self) -> dict[str, Limit]:
+        """What every contact, string and stop does, by name."""
+        return self._solved.limits
+
+    @property
+    def motions(self) -> dict[str, float]:
+        """Force (N) or torque (N·m) that each prescribed motion takes."""
+        names = (m["name"] for m in self._about["motions"])
+        return dict(zip(names, self._solved.motions.tolist(), strict=True))
+
+    @property
+    def residual(self) -> float:
+        """Largest momentum-balance residual of a body, relative to its largest term."""
+        return float(self._solved.residual)
+
+    @property
+    def sizes(self) -> tuple[float, float]:
+        """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
+        return self._solved.sizes
+
+    def nonequilibrium(self) -> dict[str, str]:
+        """What moves or accelerates, in words, by coordinate; nothing in an equilibrium."""
+        found: dict[str, str] = {}
+        for coordinate, rate, acceleration in zip(
+            self._about["coordinates"], self.state.u, self._solved.accelerations, strict=True
+        ):
+            name, unit = coordinate["name"], coordinate["dimension"]
+            if rate != 0:
+                found[name] = f"moves with {figure(rate)} {unit}/s"
+            elif abs(acceleration) > STILL * self.sizes[1]:
+                found[name] = f"accelerates with {figure(acceleration)} {unit}/s²"
+        return found
+
+    @property
+    def residuals(self) -> dict[str, tuple[float, float, float]]:
+        """What is left of each body's momentum balance: N, N, N·m."""
+        names = (b["name"] for b in self._about["bodies"])
+        return {name: tuple(row) for name, row in zip(names, self._solved.body_residuals.tolist(), strict=True)}
+
+    def free_bodies(self) -> FreeBodies:
+        """Every load on every body, and what it gives their mass centres."""
+        return self.core.free_bodies(self.state) if self.motion is None else self.motion.free_bodies(self.state.t)
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom, by rank."""
+        return self._solved.rank.freedom
+
+    @property
+    def explanation(self) -> str:
+        """How the degrees of freedom come about, and what is redundant, in words."""
+        return self._solved.rank.explanation
+
+    @property
+    def self_stress(self) -> list[str]:
+        """In words, each way in which the parts could be pre-stressed."""
+        return self._solved.rank.self_stress
+
+    def __getitem__(self, text: str) -> float:
+        """The value of any expression at this instant; a reaction that is not determined raises."""
+        value = float(self._values([text])[0])
+        if np.isnan(value):
+            refuse_indeterminate(text, self.reactions, self._about)
+        return value
+
+    def _values(self, texts: list[str]) -> Array:
+        if self.motion is not None:
+            return self.motion.evaluate(texts, np.array([self.state.t]))[0]
+        return self.core.evaluate(texts, self.state)
+
+    def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
+        texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
+        return Reaction(
+            name=joint["name"],
+            first=joint["first"],
+            second=joint["second"],
+            body=joint["second"],
+            values=self._solved.reactions[i],
+            determined=self._solved.determinate[i],
+            smallest=lambda: self._solved.least_reactions[i],
+            local=lambda: self._values(texts),
+            has_couple=joint["couple"],
+            carries=bool(joint["reaction"]),
+        )
+
+    def tables(self) -> list[Table]:
+        """Accelerations, reactions on both bodies, what contacts, strings and stops do, and residuals, for rich."""
+        return [
+            rich_tables.of_accelerations(self._about["coordinates"], self.accelerations),
+            rich_tables.of_reactions(self.reactions.values()),
+            rich_tables.of_limits(self.limits.values()),
+            rich_tables.of_forces(self.limits.values()),
+            rich_tables.of_residuals(self.residuals),
+        ]
+
+    def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
+        from rich.text import Text
+
+        yield from (table for table in self.tables() if table.row_count)
+        yield Text("\n".join([f"largest relative residual {self.residual:.1e}", self.explanation, *self.self_stress]))
+
+    def __str__(self) -> str:
+        from rich.console import Console
+
+        console = Console(width=100, no_color=True, highlight=False)
+        with console.capture() as capture:
+            console.print(self)
+        return capture.get()
+
+
+def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], about: Mapping[str, Any]) -> None:
+    """Raise where an expression reads a reaction, or a force of a contact, that is not determined."""
+    for limit in about["limits"]:
+        if re.search(rf"(?<![\w.]){re.escape(quote(limit['name']))}\.({_FORCES})\b", text):
+            raise Indeterminate(f"{text!r} reads a force of {limit['name']}, which the balances do not determine")
+    for name, reaction in reactions.items():
+        if f"{quote(name)}." in text and not reaction.determinate:
+            raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")

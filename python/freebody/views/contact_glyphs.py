@@ -1,0 +1,218 @@
+"""How contacts and strings look: surfaces hatched on their solid side, strings along eyelets, pulleys and drums."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from freebody.core import GROUND
+from freebody.run.records import Array, quote
+from freebody.views import shapes
+from freebody.views.sketch import Cord, Sketch
+
+Surface = Mapping[str, Any]
+_ROUND = np.linspace(0, 2 * np.pi, 121)
+_SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
+
+
+# Surfaces
+
+
+def draw_contacts(sketch: Sketch) -> None:
+    """Every surface that is no body, once; lines as far as what touches them comes, and between the points that name them."""
+    touched: dict[str, list[Surface]] = {}
+    for contact in sketch.spec.get("contacts", []):
+        for surface, other in (contact["of"], contact["of"][::-1]):
+            touched.setdefault(json.dumps(surface), []).append(other)
+    for text, others in touched.items():
+        [(kind, shape)] = json.loads(text).items()
+        if kind == "line":
+            _draw_line(sketch, shape, others)
+        elif kind == "circle":
+            _draw_circle(sketch, shape)
+        elif kind == "track":
+            hatched_path(sketch, sketch.at[shape["start"]][0], _track(sketch, shape))
+        elif kind in ("polyline", "polygon") and all(name in sketch.at for name in shape):
+            body, corners = sketch.at[shape[0]][0], np.array([sketch.at[name][1] for name in shape])
+            if kind == "polyline":
+                hatched_path(sketch, body, corners)
+            else:
+                sketch.figures[body].add(corners, "block" if body == GROUND else "mark")
+
+
+def _draw_line(sketch: Sketch, line: Surface, others: Sequence[Surface]) -> None:
+    body, origin, along = sketch.line(line)
+    reaches = [_reach(sketch, body, other) for other in others]
+    named = [sketch.at[line[key]][1] for key in ("point", "towards") if isinstance(line, dict) and line.get(key)]
+    reaches += [(np.array([place]), -3 * sketch.size) for place in named if line.get("towards")]
+    ways = np.concatenate([((path - origin) @ along)[:, None] + [-far, far] for path, far in reaches])
+    start, end = ways.min() - 3 * sketch.size, ways.max() + 3 * sketch.size
+    if body == GROUND:
+        hatched_path(sketch, body, origin + np.outer([start, end], along))
+        return
+    solid = np.vstack([origin, *(stroke.points for stroke in sketch.figures[body].strokes)])
+    own = (solid - origin) @ along
+    if np.ptp(own):
+        # Where the body ends, its surface is not shown to go on.
+        start, end = max(start, own.min()), min(end, own.max())
+    sketch.figures[body].add(origin + np.outer([start, end], along), "rail", closed=False)
+
+
+def _track(sketch: Sketch, track: Surface) -> Array:
+    """The way (k, 2) along lines and arcs, in the frame of their body."""
+    path = [sketch.at[track["start"]][1]]
+    for stretch in track["stretches"]:
+        start, end = path[-1], sketch.at[stretch["to"]][1]
+        if stretch["centre"] is not None:
+            centre = sketch.at[stretch["centre"]][1]
+            a, b = (complex(*(place - centre)) for place in (start, end))
+            turns = a * np.exp(1j * np.angle(b / a) * _ARC[1:-1])
+            path += list(centre + np.column_stack([turns.real, turns.imag]))
+        path.append(end)
+    return np.array(path)
+
+
+def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, float]:
+    """The path (nt, 2) of a surface in the frame of a body, and how far it extends about it, m."""
+    if "point" in surface:
+        return sketch.seen_from(seen_from, surface["point"]), 0.0
+    [(kind, shape)] = surface.items()
+    name = shape[0] if isinstance(shape, list) else shape[{"circle": "centre", "track": "start"}.get(kind, "point")]
+    if kind == "circle":
+        return sketch.seen_from(seen_from, name), sketch.number(shape["radius"])
+    owner = sketch.owners[name]
+    far = max((float(np.hypot(*stroke.points.T).max()) for stroke in sketch.figures[owner].strokes), default=0.0)
+    return sketch.seen_from(seen_from, f"{owner}.origin"), far
+
+
+def _draw_circle(sketch: Sketch, circle: Surface) -> None:
+    body, at = sketch.at[circle["centre"]]
+    radius = sketch.number(circle["radius"])
+    if circle.get("ends"):
+        start, end = (sketch.number(angle) for angle in circle["ends"])
+        # What is solid lies on the right as one goes along it.
+        way = np.linspace(start, end, 121) if circle.get("hollow") else np.linspace(end, start, 121)
+        hatched_path(sketch, body, at + radius * np.column_stack([np.cos(way), np.sin(way)]))
+    elif circle.get("hollow"):
+        hatched_path(sketch, body, at + radius * np.column_stack([np.cos(_ROUND), np.sin(_ROUND)]))
+    else:
+        _wheel(sketch, body, at, radius)
+
+
+def _wheel(sketch: Sketch, body: str, at: Array, radius: float) -> None:
+    """A circle, unless the body shows it already."""
+    figure = sketch.figures[body]
+    seen = any(len(s.points) > 12 and np.allclose(np.hypot(*(s.points - at).T), radius) for s in figure.strokes)
+    if not seen:
+        figure.add(shapes.circle(at, radius), "block" if body == GROUND else "mark")
+
+
+def hatched_path(sketch: Sketch, body: str, path: Array) -> None:
+    """A polyline, hatched on its right-hand side."""
+    s, figure = sketch.size, sketch.figures[body]
+    figure.add(path, "rail", closed=False)
+    lengths = np.hypot(*np.diff(path, axis=0).T)
+    step = max(0.65 * s, lengths.sum() / 120)
+    foot = 0.7 * s
+    for (start, end), length in zip(pairwise(path), lengths, strict=True):
+        along = (end - start) / (length or 1.0)
+        lean = (np.array([along[1], -along[0]]) - along) * 0.55 * s
+        while foot <= length:
+            root = start + foot * along
+            figure.add(np.array([root, root + lean]), "hatch", closed=False)
+            foot += step
+        foot -= length
+
+
+# Strings
+
+
+def draw_strings(sketch: Sketch) -> None:
+    """Every string over its guides, with the rims on which it lies."""
+    gravity = np.array([sketch.number(x) for x in sketch.spec.get("gravity") or (0.0, -1.0)])
+    down = gravity / (np.hypot(*gravity) or 1.0)
+    for string in sketch.spec.get("strings", []):
+        names, radii = zip(*(_guide(sketch, place) for place in _places(string)), strict=True)
+        centres = [sketch.seen_from(GROUND, name) for name in names]
+        slack = np.maximum(sketch.gap(string["name"]), 0.0)
+        path = way(centres, radii, slack, down)
+        shown = sketch.there(string["name"], string.get("engaged", True))
+        sketch.cords.append(Cord(string["name"], path, slack <= 1e-3 * sketch.size, shown))
+        for name, radius in zip(names, radii, strict=True):
+            body, at = sketch.at[name]
+            if radius:
+                _wheel(sketch, body, at, abs(radius))
+            if radius or body == GROUND or name not in (names[0], names[-1]):
+                sketch.figures[body].add(shapes.circle(at, 0.3 * sketch.size), "pin")
+
+
+def _places(string: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Ends and guides from the first end on; the sense of the last drum turned round, to be followed from the first end."""
+    first, last = string["ends"]
+    if "drum" in last:
+        last = {"drum": {**last["drum"], "sense": -last["drum"]["sense"]}}
+    return [first, *string.get("over", []), last]
+
+
+def _guide(sketch: Sketch, place: Mapping[str, Any]) -> tuple[str, float]:
+    """Point and radius (m; below 0 for one passed clockwise, 0 for a point) of an end or guide."""
+    [shape] = place.values()
+    return (shape, 0.0) if isinstance(shape, str) else (shape["centre"], shape["sense"] * sketch.number(shape["radius"]))
+
+
+def way(centres: Sequence[Array], radii: Sequence[float], slack: Array, down: Array) -> Array:
+    """The way (nt, k, 2) of a string over circles with centres (nt, 2) and radii, which are positive where the string goes round
+    counter-clockwise; what is slack (nt,) hangs down in the longest free part."""
+    spans = [_span(*pair) for pair in pairwise(zip(centres, radii, strict=True))]
+    longest = int(np.argmax([np.hypot(*(end - start).T).mean() for start, end in spans]))
+    parts: list[Array] = []
+    for i, (start, end) in enumerate(spans):
+        if i:
+            parts.append(_bow(centres[i], radii[i], spans[i - 1][1], start))
+        parts.append(_hanging(start, end, slack, down) if i == longest else np.stack([start, end], axis=1))
+    return np.concatenate(parts, axis=1)
+
+
+def _span(first: tuple[Array, float], second: tuple[Array, float]) -> tuple[Array, Array]:
+    """Where (nt, 2) the straight part leaves one circle and meets the next."""
+    (a, r), (b, s) = first, second
+    apart = b - a
+    length = np.maximum(np.hypot(*apart.T), 1e-12)
+    lean = np.arcsin(np.clip((s - r) / length, -1.0, 1.0))
+    c, n = np.cos(lean), np.sin(lean)
+    x, y = apart.T / length
+    along = np.column_stack([c * x + n * y, c * y - n * x])
+    left = np.column_stack([-along[:, 1], along[:, 0]])
+    return a - r * left, b - s * left
+
+
+def _bow(centre: Array, radius: float, start: Array, end: Array) -> Array:
+    """The arc (nt, k, 2) about a centre, round the way that the sign of the radius says."""
+    a, b = (np.arctan2(*(place - centre).T[::-1]) for place in (start, end))
+    sense = np.sign(radius) or 1.0
+    sweep = (sense * (b - a)) % (2 * np.pi)
+    # A string that only just touches goes round by nothing, not by a full turn.
+    angles = a[:, None] + sense * np.where(sweep > 2 * np.pi - 0.05, 0.0, sweep)[:, None] * _ARC
+    return centre[:, None] + abs(radius) * np.stack([np.cos(angles), np.sin(angles)], axis=2)
+
+
+def _hanging(start: Array, end: Array, slack: Array, down: Array) -> Array:
+    """A parabola (nt, k, 2) longer than its chord by what is slack, to first order (s = 8 d²/3c)."""
+    chord = np.hypot(*(end - start).T)
+    sag = np.minimum(np.sqrt(3 * chord * slack / 8), (chord + slack) / 2)
+    straight = start[:, None] + (end - start)[:, None] * _SAG[:, None]
+    drop: Array = straight + (4 * sag[:, None] * _SAG * (1 - _SAG))[..., None] * down
+    return drop
+
+
+def string_label(sketch: Sketch, cord: Cord) -> tuple[str, Array]:
+    """The name of a string and the middle of its longest part, at the drawn state."""
+    path = cord.path[0]
+    steps = np.hypot(*np.diff(path, axis=0).T)
+    i = int(steps.argmax())
+    text = f"{quote(cord.name)}.tension"
+    return f"{cord.name}: {sketch.value(text):.4g} N" if cord.taut[0] else cord.name, (path[i] + path[i + 1]) / 2

@@ -1,0 +1,198 @@
+"""What coordinates measure, as arrows: angles from where they are 0, lengths along their line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from freebody.core import GROUND
+from freebody.run.records import Array
+from freebody.views import shapes
+from freebody.views.glyphs import points_of_curve
+from freebody.views.sketch import Sketch, named_points
+
+_ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
+_SEEN = 0.2  # rad, the least angle whose arc can be seen
+_LEVELS = 5  # places further and further out where an arrow may keep off others
+_APART = 1.6  # sizes of symbols between two arrows
+_Marks: TypeAlias = tuple[Array, list[Array]]
+"""Arrow and guides."""
+_TWO_POINTS = "direction"
+_OWN_ANGLE = "phi"  # of a body by itself
+_AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
+
+
+@dataclass(frozen=True)
+class DimensionLine:
+    """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guides`` (2, 2) to where it is 0 and, of an
+    angle, to where it ends, and its value in words. An arrow of fixed size shows the sense of one that is nearly 0. ``place`` is the joint's point on the second
+    body; an angle has its vertex there, or, of a direction from point to point, at the first of these. ``of_axis``: it is the angle
+    of the second body's x axis."""
+
+    coordinate: str
+    first: str
+    second: str
+    arrow: Array
+    guides: list[Array]
+    place: Array
+    angle: bool
+    of_axis: bool
+    value: str
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A coordinate of a joint: ``word`` is what the joint's card calls it."""
+
+    name: str
+    joint: Mapping[str, Any]
+    first: str
+    second: str
+    word: str
+    dimension: str
+    sense: int
+    value: float
+
+
+def dimension_lines(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
+    """Every coordinate that can be drawn at the sketched state, off each other; ``radius`` of the arcs in sizes of symbols."""
+    return _apart(sketch, _asked(sketch), radius)
+
+
+def places(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
+    """x and y of every mass centre from ``ground.O`` and the angle of every body that has one, as if each were free."""
+    return _apart(sketch, _as_if_free(sketch), radius)
+
+
+def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[DimensionLine]:
+    taken: list[Array] = []
+    for asked in wanted:
+        place = place_of(sketch, asked.joint)
+        if place is None:
+            continue
+        drawn = [_drawn(sketch, asked, place, radius, level) for level in range(_LEVELS)]
+        clear = (each for each in drawn if _clear(each[0], taken, _APART * sketch.size))
+        arrow, guides = next(clear, drawn[0])
+        taken.append(arrow)
+        angle = asked.dimension == "rad"
+        stated = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
+        of_axis = angle and asked.word not in (_TWO_POINTS, _OWN_ANGLE)
+        yield DimensionLine(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, stated)
+
+
+def _asked(sketch: Sketch) -> Iterator[_Asked]:
+    stated = {joint["name"]: joint for joint in sketch.spec["joints"]}
+    about = {joint["name"]: joint for joint in sketch.about["joints"]}
+    for coordinate, value in zip(sketch.about["coordinates"], sketch.q[0], strict=True):
+        first, second = (about[coordinate["joint"]][end] for end in ("first", "second"))
+        # A body that nothing joins to ground is free from its origin.
+        joint = stated.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
+        name = coordinate["name"]
+        given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
+        yield _Asked(name, joint, first, second, coordinate["word"], coordinate["dimension"], given.get("sense", 1), float(value))
+
+
+def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
+    for body in sketch.spec["bodies"]:
+        name = body["name"]
+        joint = {"type": "free", "with": {"of": [f"{GROUND}.O", f"{name}.G"]}}
+        x, y = sketch.place(f"{name}.G") - sketch.place(f"{GROUND}.O")
+        yield _Asked(f"x_{name}", joint, GROUND, name, "x", "m", 1, float(x))
+        yield _Asked(f"y_{name}", joint, GROUND, name, "y", "m", 1, float(y))
+        if not body["particle"]:
+            angle = float(sketch.poses[0, sketch.names.index(name), 2])
+            yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", 1, angle)
+
+
+def _clear(arrow: Array, taken: list[Array], gap: float) -> bool:
+    """Whether an arrow keeps off others."""
+    mine = _places(arrow, gap)
+    return all(np.hypot(*(mine[:, None] - _places(other, gap)).transpose(2, 0, 1)).min() > gap for other in taken)
+
+
+def _places(arrow: Array, gap: float) -> Array:
+    """Places along an arrow, close enough to see what comes within a gap; of a long one not too many."""
+    return shapes.dense([arrow], max(gap / 2, float(np.hypot(*np.diff(arrow, axis=0).T).sum()) / 200))
+
+
+def _drawn(sketch: Sketch, asked: _Asked, place: Array, radius: float, level: int) -> _Marks:
+    """Those of a higher level lie further out."""
+    if asked.dimension == "rad":
+        return _angle(sketch, asked, place, (1 + 0.35 * level) * radius * sketch.size)
+    aside = (2.6 + 2.4 * level) * sketch.size
+    return _length(sketch, asked, place, aside) if asked.dimension else _along_curve(sketch, asked, aside)
+
+
+def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Marks:
+    """About the joint to the second body's x axis, or about the first of two points to the second."""
+    if asked.word == _TWO_POINTS:
+        at, second = (sketch.place(name) for name in _two_points(asked.joint))
+        end = float(np.arctan2(*(second - at)[::-1]))
+    else:
+        at, end = place, float(sketch.poses[0, sketch.names.index(asked.second), 2])
+    turn = asked.sense * np.fmod(asked.value, 2 * np.pi)
+    start = end - turn
+    guides = [np.array([at, at + 1.25 * radius * np.array([np.cos(way), np.sin(way)])]) for way in (start, end)]
+    return shapes.arc(at, radius, start, start + (turn if abs(asked.value) > _SEEN else 0.35 * asked.sense)), guides
+
+
+def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Marks:
+    """Beside the way from where the joint would be at 0."""
+    along = _way(sketch, asked)
+    zero = place - asked.value * asked.sense * along
+    shown = asked.value if abs(asked.value) > sketch.size else 3 * sketch.size
+    left = aside * np.array([-along[1], along[0]])
+    arrow = np.array([zero, zero + shown * asked.sense * along]) + left
+    foot = sketch.place(asked.joint["with"]["of"][0]) if asked.word in _AXES else zero
+    return arrow, [np.array([foot, arrow[0] + 0.2 * left])]
+
+
+def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Marks:
+    """Beside the curve from where its parameter is 0."""
+    curve = next(each for each in sketch.spec["curves"] if each["name"] == asked.joint["with"]["along"])
+    start = points_of_curve(sketch, curve, np.array([0.0, 1e-4]))
+    least = sketch.size * 1e-4 / float(np.hypot(*(start[1] - start[0])))
+    end = asked.value if abs(asked.value) > least else 3 * least
+    line = sketch.moved(curve["body"], points_of_curve(sketch, curve, np.linspace(0.0, end, 61)))
+    slopes = np.gradient(line, axis=0) * np.sign(end)
+    left = aside * np.column_stack([-slopes[:, 1], slopes[:, 0]]) / np.hypot(*slopes.T)[:, None]
+    return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])]
+
+
+def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
+    """Where a joint is: at the point of its second body."""
+    fields = joint["with"]
+    if "line" in fields:
+        body, point, _ = sketch.line(fields["line"])
+        return sketch.moved(body, point[None])[0]
+    for key in ("point", "points", "circle", "follower", "of"):
+        names = [name for name in named_points(fields.get(key, [])) if name in sketch.at]
+        if names:
+            return sketch.place(names[-1] if key == "of" else names[0])
+    return None
+
+
+def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
+    fields = joint["with"]
+    return tuple(fields["of"]) if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
+
+
+def _way(sketch: Sketch, asked: _Asked) -> Array:
+    """Unit direction in which a length grows: an axis of the first body, from the first point to the second, or the line's."""
+    fields = asked.joint["with"]
+    if asked.word == "r":
+        first, second = (sketch.place(name) for name in _two_points(asked.joint))
+        return (second - first) / (float(np.hypot(*(second - first))) or 1.0)
+    if asked.word in _AXES:
+        body, along = asked.first, _AXES[asked.word]
+    else:
+        body, _, along = sketch.line(fields.get("along") or fields["on"])
+    return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
+
+
+def digits(value: float) -> str:
+    """Four digits for people."""
+    return f"{0.0 if abs(value) < _ROUND_OFF else value:.4g}".replace("-", "−")

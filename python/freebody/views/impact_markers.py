@@ -1,0 +1,62 @@
+"""Impacts in films: where and when they are, and the star that flashes up there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.impact.impacts import Impact, impacts
+from freebody.run.records import Array
+
+if TYPE_CHECKING:
+    from freebody.run.simulation import Run
+
+LASTING = 0.3
+"""How long a flash is seen, in s of the film."""
+_FAINT = 0.02
+"""Of the largest impulse, below which an impact is not shown."""
+_RAYS = 8
+
+
+@dataclass(frozen=True)
+class ImpactMarker:
+    """An impact at a time and a place (m, fixed axes); ``strength``: root of its impulse over the largest of the run."""
+
+    t: float
+    at: tuple[float, float]
+    strength: float
+
+    def glow(self, t: float, lasting: float) -> float:
+        """How bright it is at a time, 1 as it strikes and 0 when ``lasting`` s have gone."""
+        return 1 - (t - self.t) / lasting if self.t <= t < self.t + lasting else 0.0
+
+    def rays(self, size: float) -> Array:
+        """Its rays (k, 2, 2) in the fixed axes, for sparks of a ``size``."""
+        angles = 2 * np.pi * (np.arange(_RAYS) + 0.5) / _RAYS
+        out = np.column_stack([np.cos(angles), np.sin(angles)])
+        return np.array(self.at) + size * np.stack([0.4 * out, (0.4 + self.strength) * out], axis=1)
+
+
+def impact_markers(run: Run) -> list[ImpactMarker]:
+    """The impacts of a run worth a flash; none of a run from a file, which does not know where it was struck."""
+    if run.recorded:
+        return []
+    struck = [(impact, name, size) for impact in impacts(run) for name, size in _struck(impact).items()]
+    largest = max((size for _, _, size in struck), default=0.0)
+    seen = [(impact, name, size) for impact, name, size in struck if size > _FAINT * largest]
+    places = ((impact.change.t, _place(impact, name), size) for impact, name, size in seen)
+    return [ImpactMarker(t, at, float(np.sqrt(size / largest))) for t, at, size in places if at is not None]
+
+
+def _struck(impact: Impact) -> dict[str, float]:
+    impulses = impact.change.impulses
+    assert impulses is not None
+    return {name: size for name, size in impulses.sizes.items() if name in impact.change.of}
+
+
+def _place(impact: Impact, name: str) -> tuple[float, float] | None:
+    """Where the load of a contact, string or stop takes hold, in the middle of its places on what is struck."""
+    places = [part.point for load in impact.free.loads if load.name == name for part in load.on if not part.idle]
+    return None if not places else (float(np.mean([x for x, _ in places])), float(np.mean([y for _, y in places])))
