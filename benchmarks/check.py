@@ -3,7 +3,7 @@
     python benchmarks/check.py [--count 2000] [--sample N] [--seed 1] [--show]
 
 A false alarm is a correct equation not called true. A mutant is left out where it is true as well, by its values at true
-states of another draw. A slip is found where the equation before it is among the smallest mends, judged by values at
+states of another draw. A slip is found where the equation before it is among the smallest corrections, judged by values at
 places that are no true states. The models and their correct equations are in tests/check/corpus.py.
 """
 
@@ -67,7 +67,7 @@ def table(done: Sequence[Outcome], show: bool) -> Iterator[str]:
     yield f"correct, rearranged: {len(correct)} from {models} models; false alarms {len(alarms)}; {_times(correct)}"
     yield f"one slip: {len(slips)} from {models} models; accepted {len(accepted)}; {_times(slips)}"
     shares = [100 * np.mean([flag(o) for o in slips]) for flag in (lambda o: o.found, lambda o: o.first)]
-    yield f"slip among the smallest mends {shares[0]:.1f} %, the first of them {shares[1]:.1f} %"
+    yield f"slip among the smallest corrections {shares[0]:.1f} %, the first of them {shares[1]:.1f} %"
     total, found = Counter(o.slip for o in slips), Counter(o.slip for o in slips if o.found)
     yield from (f"  {slip:14} {found[slip]:5} of {total[slip]}" for slip in sorted(total))
     yield from (f"ALARM {o.model}: {o.kind.value}: {o.after}" for o in alarms)

@@ -170,7 +170,7 @@ def four_bar() -> Iterator[Row]:
 
 
 def switched(run: freebody.Run, *kinds: str) -> list[dict[str, Any]]:
-    """What switched during a run, of these kinds."""
+    """Mode changes during a run, of these kinds."""
     return [change for change in run.changes if change.kind in kinds]
 
 

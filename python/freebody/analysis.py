@@ -92,7 +92,7 @@ class Moving:
         t: float = 0.0,
         **changes: Any,
     ) -> Equations:
-        """The equations of motion in letters, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
+        """The symbolic equations of motion, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
         state, by default the start; ``changes`` as in ``solve``.
 
         ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
@@ -107,7 +107,7 @@ class Moving:
             return derive(subject.with_numbers(list(chosen)), form, want)
 
     def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
-        """Accelerations (``theta``) and reactions (``pivot.Fx``) in letters near the start: the fewest balance equations, solved,
+        """Accelerations (``theta``) and reactions (``pivot.Fx``) symbolically near the start: the fewest balance equations, solved,
         simplified, and held against numbers. ``at_rest``, ``set={"theta": "45 deg", "m2": "m1"}``, ``limits={"m2": "inf"}``; see
         ``freebody.equations.answers.solve_in_letters``."""
         from freebody.equations.answers import solve_in_letters
@@ -164,7 +164,7 @@ class Moving:
 
         ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
         ``impacts``, ``painleve``; ``initial`` replaces the section of that name. ``t_eval`` fixes the output times and never
-        changes the steps. Where an event hands over to another model, its run is ``next`` of this one.
+        changes the steps. Where an event continues with another model, its run is ``next`` of this one.
         """
         from freebody.run.model_sequence import Stage, follow
 
@@ -243,7 +243,7 @@ class Moving:
         return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective, points(column))
 
     def blow(self: Builder, number: int = 1, *, of: str | None = None, at: float | str | None = None) -> Impact:
-        """The blow of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
+        """The impact of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
         from a time on (s, or ``"200 ms"``). Raises ``NoImpact``."""
         from freebody.impact.impacts import find
         from freebody.model.start import evaluate
@@ -267,7 +267,7 @@ class Moving:
         effective: bool = True,
         column: float = 160.0,
     ) -> Diagram:
-        """Impulse diagrams of a blow, chosen as in ``blow`` by ``number`` and ``at``; all else as in ``diagram``, with m Δv and I Δω
+        """Impulse diagrams of an impact, chosen as in ``blow`` by ``number`` and ``at``; all else as in ``diagram``, with m Δv and I Δω
         in place of m a and I α."""
         from freebody.views.diagram import groups, points
         from freebody.views.diagram.impulses import impulse_diagram

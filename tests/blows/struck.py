@@ -1,4 +1,4 @@
-"""Models with a blow of every kind, in letters."""
+"""Models with an impact of every kind, symbolically."""
 
 from __future__ import annotations
 
@@ -166,7 +166,7 @@ TEXTS = {
 }
 CATALOGUE = {"19.3.22/model", "19.3.22/latch", "19.3.30/model", "19.3.30/hinged", "19.3.30/slippery", "GEN-STEP/model",
              "GEN-STEP/floor"}  # fmt: skip
-"""The models of the catalogue whose runs have a blow."""
+"""The models of the catalogue whose runs have an impact."""
 ALL = sorted(set(TEXTS) - {"disk"} | CATALOGUE)
 
 
@@ -180,5 +180,5 @@ def mechanism(name: str) -> fb.Mechanism:
 
 @cache
 def struck(name: str, most: int = 3) -> list[Impact]:
-    """Its first blows."""
+    """Its first impacts."""
     return list(impacts(mechanism(name).simulate()))[:most]

@@ -1,4 +1,4 @@
-"""Blows in letters: closed forms of textbooks, and the numbers of the run."""
+"""Impacts symbolically: closed forms of textbooks, and the numbers of the run."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import replace
 
 LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
-"""Too long to be solved in letters."""
+"""Too long to be solved symbolically."""
 REDUNDANT = {"plate"}
 """Friction on two feet at once is more than it takes."""
 
@@ -64,7 +64,7 @@ PLACES = {
     "links": {Sym("x"): from_sympy(sympy.Symbol("l") / 2)},
     "slides": {Sym("disk.x", 1): Sym("x", 1), Sym("disk.y", 1): Sym("y", 1)},
 }
-"""Where the models are at the blow, and shorter names."""
+"""Where the models are at the impact, and shorter names."""
 
 
 @pytest.mark.parametrize("name", CLOSED)
@@ -128,12 +128,12 @@ def test_what_is_too_long_is_refused(name):
 
 def test_friction_says_its_law():
     slides, rolls = (topic(mechanism(name), "impact").text() for name in ("slides", "rolls"))
-    assert "slides throughout the blow" in slides and "Coulomb's law" in slides
-    assert "does not slide any more after the blow" in rolls
+    assert "slides throughout the impact" in slides and "Coulomb's law" in slides
+    assert "does not slide any more after the impact" in rolls
 
 
 def test_slip_that_turns_is_refused_with_its_reason():
-    """A leaning rod whose tip stops sliding within the blow, where Newton's law would make energy (Kane 1984)."""
+    """A leaning rod whose tip stops sliding within the impact, where Newton's law would make energy (Kane 1984)."""
     from freebody import Mechanism
 
     text = """freebody: 1

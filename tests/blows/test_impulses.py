@@ -106,12 +106,12 @@ def test_blows_are_chosen_by_number_name_and_time():
     second, fourth = wheel.blow(2), wheel.blow(1, of="foot[4]")
     assert second.change.of == ("foot[3]",) and fourth.change.of == ("foot[4]",)
     assert wheel.blow(1, at=second.change.t + 1e-6).change.t == fourth.change.t
-    with pytest.raises(NoImpact, match="1 blows of foot"):
+    with pytest.raises(NoImpact, match="1 impacts of foot"):
         wheel.blow(2, of="foot[4]")
 
 
 def test_what_touches_and_approaches_at_the_start_strikes_then():
-    """So a blow is had at any place and with any velocities."""
+    """So an impact is had at any place and with any velocities."""
     from freebody import Mechanism
 
     text = TEXTS["ball_on_bar"].replace("y: 0.3 m", "y: 0 m")

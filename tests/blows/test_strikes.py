@@ -138,7 +138,7 @@ def test_where_letters_fill_pages_the_equations_stand_in_numbers():
     matrix, right = Rows.of(found).matrix(found)
     unknowns = [*found.rates_after.values(), *(found.sizes()[x] for x in Rows.of(found).impulses)]
     assert np.array(matrix) @ unknowns == pytest.approx(np.array(right), abs=1e-9)
-    assert "in numbers (SI) at this blow" in topic(model, "impact", state, point="trunk.S").text()
+    assert "in numbers (SI) at this impact" in topic(model, "impact", state, point="trunk.S").text()
 
 
 def test_what_stays_finite_is_told_and_has_no_part():

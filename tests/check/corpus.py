@@ -35,7 +35,7 @@ _PLACES = 12  # at which two equations are compared
 @dataclass(frozen=True)
 class Outcome:
     """What became of one statement. ``slip``: its kind, "" for a correct equation; ``kind`` what the check said of it;
-    ``found``: the equation before the slip is among the smallest mends, ``first``: it is the first of them."""
+    ``found``: the equation before the slip is among the smallest corrections, ``first``: it is the first of them."""
 
     model: str
     slip: str

@@ -67,7 +67,7 @@ WRITTEN = [
     ("bead on a turning rod", "d/dt((m1 l^2/3 + m2 R^2) θ') = T", T),
     ("bead on a turning rod", r"\frac{d}{dt}\left[\left(\frac{m_1 l^2}{3} + m_2 R^2\right)\dot\theta\right] = 2T", W),
     ("bead on a turning rod", "I := m1 l^2/3 + m2 R^2; H = I θ'; H' = T", T),
-    # Lagrange's equations, of a Lagrangian in letters
+    # Lagrange's equations, of a Lagrangian symbolically
     ("pendulum on a cart", f"{KINETIC} + m g l cos θ; d/dt(∂L/∂θ') - ∂L/∂θ = 0; d/dt(∂L/∂x') - ∂L/∂x = F", T),
     ("pendulum on a cart", f"{KINETIC} + m g l cos θ; p = ∂L/∂x'; p' = F", T),
     ("pendulum on a cart", f"{KINETIC} - m g l cos θ; d/dt(∂L/∂θ') - ∂L/∂θ = 0", W),
@@ -122,7 +122,7 @@ MODELS = [
     (PUSHED, "(N_floor₁ - N_floor₂) b = mu N h", T),  # moments about the centre: the right corner, ahead, carries more
     (PUSHED, "(N_floor₁ - N_floor₂) b = 2 mu N h", W),
     (PUSHED, "F >= mu N", T),  # else it would not slide
-    (DROPPED, "if the start is at rest: ball.y'^2 = 2 g (h - ball.y)", T),  # up to the blow
+    (DROPPED, "if the start is at rest: ball.y'^2 = 2 g (h - ball.y)", T),  # up to the impact
     (DRAG, "m x'' = -c v x'; m y'' = -m g - c v y'", T),
     (DRAG, "d/dt(1/2 m (x'^2 + y'^2) + m g y) = -c v^3", T),
 ]

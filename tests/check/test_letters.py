@@ -180,5 +180,5 @@ def test_declarations_in_lines():
         "phi": "theta - alpha",
         "r_G/O": "position of rod.G",
     }
-    with pytest.raises(ModelProblem, match="declares no letter"):
+    with pytest.raises(ModelProblem, match="declares no symbol"):
         declarations(["phi"])

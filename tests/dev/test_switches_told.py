@@ -53,7 +53,7 @@ def told(command, tmp_path):
 
 def test_of_many_changes_the_first_and_the_last_are_shown(told):
     done = told("run", BALL)
-    told_lines = done.output.split("what switched")[1].split("kinetic")[0].splitlines()
+    told_lines = done.output.split("mode changes")[1].split("kinetic")[0].splitlines()
     times = [line.split()[0] for line in told_lines if "floor" in line]
     assert done.exit_code == 0 and len(times) == 15
     assert times[0] == "0.451524" and "more" in done.output and "rest" in done.output

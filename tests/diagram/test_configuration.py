@@ -1,4 +1,4 @@
-"""The sketch of a derivation: every coordinate of every joint is drawn as what it measures."""
+"""The sketch of a derivation: every coordinate of every joint is drawn as meaning."""
 
 import re
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Answers in letters are the closed forms of textbooks, written as shortly, and true at random numbers."""
+"""Symbolic answers are the closed forms of textbooks, written as shortly, and true at random numbers."""
 
 from __future__ import annotations
 

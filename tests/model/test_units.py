@@ -86,7 +86,7 @@ KNOWN = {"l": "m", "m": "kg", "k": "N/m", "T": "N*m", "theta": "rad", "w": "rad/
 
 def measured(text: str) -> Dimension | None:
     expression = syntax.parse(text)
-    return syntax.DimensionLine(expression, lambda name: units.unit(KNOWN[name]).dimension if name in KNOWN else None).of(
+    return syntax.Measure(expression, lambda name: units.unit(KNOWN[name]).dimension if name in KNOWN else None).of(
         expression.tree
     )
 

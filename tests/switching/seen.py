@@ -27,13 +27,13 @@ def motion(text: str, until: float, settings: Mapping[str, object] | None = None
 
 
 def changes(run: fb.Run, *kinds: str) -> list[SimpleNamespace]:
-    """What switched, in order of time; only of these kinds, if any are given."""
+    """Mode changes, in order of time; only of these kinds, if any are given."""
     stated = [SimpleNamespace(**change) for change in run.motion.record["changes"]]
     return [change for change in stated if not kinds or change.kind in kinds]
 
 
 def kinds(run: fb.Run) -> list[tuple[str, tuple[str, ...]]]:
-    """What switched, without the times."""
+    """Mode changes, without the times."""
     return [(change.kind, tuple(change.of)) for change in changes(run)]
 
 

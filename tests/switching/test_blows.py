@@ -1,4 +1,4 @@
-"""Single blows: restitution with friction, and what holds of any of them."""
+"""Single impacts: restitution with friction, and what holds of any of them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ initial: {disk.x: 0, disk.y: 3*R, rates: {disk.x: v, disk.y: -2, disk.angle: -w}
 
 @pytest.mark.parametrize("v, w", [(5, 0), (0.5, 0), (1, -80), (1, 40), (-3, 20)])
 def test_a_spinning_disk_bounces(v, w):
-    """It slides all through the blow if 3 μ (1 + e) vₙ is less than the slip v − ωR; else it rolls off, with (2v + ωR)/3."""
+    """It slides all through the impact if 3 μ (1 + e) vₙ is less than the slip v − ωR; else it rolls off, with (2v + ωR)/3."""
     run = motion(SUPERBALL, 0.5, v=v, w=w)
     slip, push = v - 0.1 * w, 1.8 * 2
     drag = math.copysign(min(0.2 * push, abs(slip) / 3), slip)
@@ -72,7 +72,7 @@ initial: {points: {stick.start: [0, 0]}, stick.angle: a, rates: {stick.x: vx, st
 def test_what_holds_of_any_blow(law):
     """The impulse is a push within the cone of friction and explains the change of momentum and spin; no energy is made.
 
-    Newton's restitution with friction could make some, where the slip ends or turns during the blow (Kane 1984).
+    Newton's restitution with friction could make some, where the slip ends or turns during the impact (Kane 1984).
     """
     rng, struck = np.random.default_rng(7), 0
     for _ in range(60):
@@ -151,8 +151,8 @@ initial: {th: th0, at_rest: true}
 
 
 def test_a_pendulum_knocks_on_a_wall():
-    """A uniform rod swings like a pendulum of two thirds of its length, each blow leaves e of its speed: quarter periods
-    K(sin θ/2)/ω each way, where sin² θ/2 is multiplied by e² at every blow."""
+    """A uniform rod swings like a pendulum of two thirds of its length, each impact leaves e of its speed: quarter periods
+    K(sin θ/2)/ω each way, where sin² θ/2 is multiplied by e² at every impact."""
     from mpmath import ellipk
 
     run = motion(DOOR, 6, {"rtol": 1e-11})

@@ -189,7 +189,7 @@ def test_a_bead_drawn_through_its_eyelet_is_a_named_end():
     """Straight into the eyelet, which the load draws it to with M g/(M + m), the taut string loses its direction: the run ends there,
     with the energy that it had."""
     run = model(RAIL).simulate(until=3)
-    assert run.outcome.name == "string_drawn_in" and run.outcome.path == "strings.leash"
+    assert run.outcome.name == "string_zero_length" and run.outcome.path == "strings.leash"
     assert run.outcome.t == pytest.approx(math.sqrt(2 / (0.75 * G)), abs=1e-8)
     assert run.evaluate("energy()", run.outcome.t) == pytest.approx(run.evaluate("energy()", 0.0), rel=1e-10)
 

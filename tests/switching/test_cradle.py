@@ -57,7 +57,7 @@ def test_the_rules(touching, law, after):
 
 @BOTH
 def test_a_small_gap_decides(touching):
-    """With any gap the blows come one after the other, and no rule is needed."""
+    """With any gap the impacts come one after the other, and no rule is needed."""
     for gap in (0.1, 1e-3, 1e-6):
         run = motion(row(touching), 2, gap=gap)
         assert run.u[-1] == pytest.approx((0, 0, 1), abs=1e-12)
@@ -66,7 +66,7 @@ def test_a_small_gap_decides(touching):
 
 @BOTH
 def test_unequal_balls_strike_as_often_as_it_takes(touching):
-    """Central blows of e = 1, worked by hand for as long as a ball is faster than the next one."""
+    """Central impacts of e = 1, worked by hand for as long as a ball is faster than the next one."""
     masses, v, law = (3.0, 1.0, 2.0), [1.0, 0.0, 0.0], []
     while pairs := [i for i in (0, 1) if v[i] > v[i + 1] + 1e-12]:
         i = pairs[0]

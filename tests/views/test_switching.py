@@ -98,7 +98,7 @@ def test_changes_come_back_from_a_file(suffix, cut, run, tmp_path):
         back = Run.load(each.save(tmp_path / f"run{suffix}"))
         assert back.changes == each.changes and back.columns == each.columns
         assert np.array_equal(back.blocks["limit"], each.blocks["limit"])
-        assert len(of_run(back).cords) == len(of_run(each).cords) and "What switched" in report_html(back)
+        assert len(of_run(back).cords) == len(of_run(each).cords) and "Mode changes" in report_html(back)
         assert len(peak_reactions(back)) == len(peak_reactions(each))
 
 
@@ -132,7 +132,7 @@ def test_the_report_shows_what_switched(run):
     data = json.loads(page.split('id="data">')[1].split("</script>")[0])
     assert [event["kind"] for event in data["events"]] == ["impact", "impact"]
     assert "Contacts, strings and stops" in {plot["title"] for plot in data["plots"]}
-    assert "<h2>What switched</h2>" in page and "ball free" not in page.split("Peak reactions")[1].split("</section>")[0]
+    assert "<h2>Mode changes</h2>" in page and "ball free" not in page.split("Peak reactions")[1].split("</section>")[0]
 
 
 def test_surfaces_are_hatched_on_the_solid_side(run):

@@ -22,7 +22,7 @@ class Answer:
     """A figure, or a row of figures of one kind, that freebody computed, and the same from an independent source.
 
     ``against`` says where ``check`` comes from. ``tolerance`` is relative to the largest figure of the row, or to
-    ``scale`` where that is larger: give it where the true value may be 0. ``said``: the answer in letters, of which the figures
+    ``scale`` where that is larger: give it where the true value may be 0. ``said``: the answer symbolically, of which the figures
     are values.
     """
 

@@ -53,7 +53,7 @@ class Case:
     def in_letters(
         self, closed: Mapping[str, str], against: str, file: str = "model.yaml", of: str = "", **asked: Any
     ) -> Iterator[Answer]:
-        """Accelerations, reactions and motors in letters, beside closed forms; ``asked`` is what ``solve_in_letters`` takes. With
+        """Accelerations, reactions and motors symbolically, beside closed forms; ``asked`` is what ``solve_in_letters`` takes. With
         ``"theta, M → inf"`` a limit is asked for."""
         from freebody.catalogue.formulas import formula
         from freebody.symbolic.printers.text import text
@@ -72,7 +72,7 @@ class Case:
             yield formula(label, tree, closed[key], against, found.letters)
 
     def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
-        """The characteristic polynomial, in s, of small departures from rest, beside a closed form."""
+        """The characteristic polynomial, in s, of small perturbations from rest, beside a closed form."""
         from freebody.catalogue.formulas import formula
         from freebody.document.blocks import Equation
         from freebody.equations.topics import topic

@@ -1,4 +1,4 @@
-"""Answers in letters, beside closed forms."""
+"""Symbolic answers, beside closed forms."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SEED = 9
 
 
 def formula(label: str, found: Tree, closed: str, against: str, letters: Letters | None = None) -> Answer:
-    """An answer in letters beside a closed form in the words of the model language, ``rate(theta)`` for a rate: both at random
+    """a symbolic answer beside a closed form in the words of the model language, ``rate(theta)`` for a rate: both at random
     values of all letters, of which neither knows anything."""
     from freebody.equations.language import read_text
     from freebody.symbolic.decimals import shown

@@ -50,7 +50,7 @@ class Meaning(Protocol):
 @dataclass
 class Case:
     """A program of statements, what its letters mean, and true motions. ``hypothesis`` is the family of which it is said;
-    ``mending``: whether mends are wanted where it is wrong."""
+    ``mending``: whether corrections are wanted where it is wrong."""
 
     program: Program
     meaning: Meaning

@@ -125,7 +125,7 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
 
 
 def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
-    """An expression in letters, or else one of the model language (``energy()``)."""
+    """An expression symbolically, or else one of the model language (``energy()``)."""
     try:
         return checker.case(f"{expression} = 0", declared)
     except StatementError:

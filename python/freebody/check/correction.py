@@ -89,11 +89,11 @@ class _Found:
 
 
 Step = Callable[["_Search"], Iterator[_Found]]
-"""A way to look for mends."""
+"""A way to look for corrections."""
 
 
 def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
-    """The smallest mends of an equation, equally small ones together; nothing where no one or two edits mend it."""
+    """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits mend it."""
     families = [(case.hypothesis, "")]
     given, zeros = case.hypothesis, _unmentioned_zeros(case, equation)
     if zeros and given.zeros:
@@ -117,7 +117,7 @@ def _unmentioned_zeros(case: Case, equation: Equation) -> list[str]:
 
 
 def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Correction]:
-    """The smallest mends of an equation, in the widest family in which they are smallest."""
+    """The smallest corrections of an equation, in the widest family in which they are smallest."""
     searches = [(_Search(case, row, family), given) for family, given in families]
     if any(search.right for search, _ in searches):
         return
@@ -213,7 +213,7 @@ class _Search:
         return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
 
     def _oddness(self, found: _Found) -> tuple[bool, float]:
-        """Of mends that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
+        """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
         sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
         length = len(spell(without_ones(found.after))) + _WORTH * found.size

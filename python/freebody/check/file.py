@@ -43,7 +43,7 @@ class Statements(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     model: str = Field("model.yaml", description="the model, a file beside this one")
-    letters: dict[str, _SAID] = Field({}, description="own letters for all statements")
+    letters: dict[str, _SAID] = Field({}, description="symbols of your own for all statements")
     statements: list[Statement] = Field(description="the statements, in order; one that is only a text is named by its number")
 
     @field_validator("statements", mode="before")

@@ -61,7 +61,7 @@ class _Rules:
                 return f"({self.of(first)}" + "".join(f" {op} {self.of(part)}" for op, part in rest) + ")"
             case {"chain": [first, [(sign, _), *_] as rest]} if sign in "*/":
                 return self.product([("*", first), *rest])
-        raise ModelProblem(f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a letter for it, or write it out")
+        raise ModelProblem(f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a symbol for it, or write it out")
 
     def product(self, parts: list[tuple[str, syntax.Tree]]) -> str:
         """Of each factor in turn; of one that divides, −ẋ/x²."""

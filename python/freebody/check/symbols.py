@@ -197,7 +197,7 @@ class Letters:
         bare = letter.name.rstrip("'")
         near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(letter.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
-        raise ModelProblem(f"the letter `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
+        raise ModelProblem(f"the symbol `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
 
     # --- building ------------------------------------------------------------------------------
 
@@ -256,7 +256,7 @@ class Letters:
         try:
             self._put(name, Reader(self._measured, joints, bodies, particles).read(said))
         except ModelProblem as complaint:
-            raise ModelProblem(f"letter `{name}`: {complaint.what}", complaint.hint) from None
+            raise ModelProblem(f"symbol `{name}`: {complaint.what}", complaint.hint) from None
 
     def _put(self, name: str, meaning: Meaning) -> None:
         self.meanings[name] = meaning
@@ -302,6 +302,6 @@ def declarations(lines: Iterable[str]) -> dict[str, str]:
     for line in lines:
         found = re.fullmatch(r"\s*([^\s:=]+)\s*[:=]\s*(.+)", line)
         if not found:
-            raise ModelProblem(f"`{line}` declares no letter", "write it like `phi = theta - alpha`")
+            raise ModelProblem(f"`{line}` declares no symbol", "write it like `phi = theta - alpha`")
         out[found[1]] = found[2].strip()
     return out

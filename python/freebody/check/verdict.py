@@ -71,7 +71,7 @@ class Evidence:
 @dataclass(frozen=True)
 class Verdict(PlainText):
     """What is so about one statement. ``reason`` is a sentence; ``assumption`` names under what it holds; ``mends`` are the
-    smallest edits that make it true, equally small ones side by side; ``true`` is the nearest true equation, where nothing mends
+    smallest edits that make it true, equally small ones side by side; ``true`` is the nearest true equation, where nothing corrections
     it; ``untested`` are terms about which nothing was learnt."""
 
     kind: Kind
@@ -101,7 +101,7 @@ class Verdict(PlainText):
         if self.evidence and not self.ok:
             lines.append(str(self.evidence))
         if self.untested:
-            lines.append(f"nothing was learnt about {', '.join(f'`{term}`' for term in self.untested)}")
+            lines.append(f"nothing was established about {', '.join(f'`{term}`' for term in self.untested)}")
         return [*lines, *self.notes]
 
     def __str__(self) -> str:
@@ -162,7 +162,7 @@ def holds(case: Case) -> bool:
 
 
 def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
-    """The verdict where dimensions do not fit: each equation with its mends, or with the nearest true one."""
+    """The verdict where dimensions do not fit: each equation with its corrections, or with the nearest true one."""
     if not case.mending:
         return Verdict(Kind.DIMENSIONS, text, reason)
     try:
@@ -178,7 +178,7 @@ def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) ->
 
 
 def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, ...]:
-    """The mends of equations whose figures stand for measures in SI units; none where dimensions do not fit so, either."""
+    """The corrections of equations whose figures stand for measures in SI units; none where dimensions do not fit so, either."""
     other = replace(case, meaning=case.meaning.in_figures())
     if not all(other.meaning.fits(equation) for equation in equations):
         return ()
@@ -213,7 +213,7 @@ def _count(equation: Equation) -> int:
 
 
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
-    """A slip where one mends it; else an assumption that excuses what was left out; else wrong."""
+    """A slip where one corrections it; else an assumption that excuses what was left out; else wrong."""
     seen = evidence(case, equation, found)
     if not case.mending:
         return Verdict(Kind.WRONG, text, evidence=seen)
@@ -227,7 +227,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         fixes = tuple(replace(correction, given=words) for correction in corrections(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
-    return Verdict(Kind.WRONG, text, "wrong, and no single or double edit mends it", evidence=seen, true=nearest(case, equation))
+    return Verdict(Kind.WRONG, text, "wrong, and no single or double edit corrects it", evidence=seen, true=nearest(case, equation))
 
 
 def _looked_at_again(case: Case, equation: Equation) -> float:

@@ -67,7 +67,7 @@ def run(
     no_report: Annotated[bool, typer.Option("--no-report", help="Write no HTML report.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Simulate; print what happened and write a report. A model that it hands over to follows, with files of its own."""
+    """Simulate; print what happened and write a report. A model that it continues with follows, with files of its own."""
     from freebody.cli import show
 
     done = simulated(model, changes, until=until, method=method, rtol=rtol)
@@ -85,7 +85,7 @@ def solve(
     changes: Changes = None,
     route: Annotated[Route, typer.Option(help="How to solve; all compares the three.")] = Route.minimal,
     axes: Annotated[Axes, typer.Option(help="Reactions along fixed axes or along and across each joint.")] = Axes.fixed,
-    balance: Annotated[bool, typer.Option("--balance", help="What is left of each body's momentum balance.")] = False,
+    balance: Annotated[bool, typer.Option("--balance", help="The residual of each body's momentum balance.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Accelerations and all reactions at one instant, by default the start."""
@@ -132,18 +132,18 @@ def diagram(
     column: Annotated[float, typer.Option(metavar="MM", help="Width of the text in which it will stand.")] = 160.0,
     impact: Annotated[
         int | None,
-        typer.Option(metavar="NUMBER", help="Impulses during this blow of the run, from 1; --at TIME counts from then."),
+        typer.Option(metavar="NUMBER", help="Impulses during this impact of the run, from 1; --at TIME counts from then."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of a blow."""
+    """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of an impact."""
     from freebody.cli import show
 
     (time, state), mechanism = moment(at), opened(model, changes)
     if impact is None:
         drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, column=column, **state)
     elif state:
-        raise UserError("--blow is of the run, so --at takes a time", "change the start in the model")
+        raise UserError("--impact is of the run, so --at takes a time", "change the start in the model")
     else:
         drawn = mechanism.impulse_diagram(of, impact, at=time, to_scale=to_scale, effective=effective, column=column)
     if as_json:

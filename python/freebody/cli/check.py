@@ -25,14 +25,14 @@ def check(
     ] = None,
     where: Annotated[
         list[str] | None,
-        typer.Option("--where", metavar="LETTER=MEANING", help="An own letter, like 'phi=theta-alpha'; repeatable."),
+        typer.Option("--where", metavar="LETTER=MEANING", help="A symbol of your own, like 'phi=theta-alpha'; repeatable."),
     ] = None,
     changes: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
 ) -> None:
-    """Say whether equations and claims are true of every motion of a model, and mend the wrong ones."""
+    """Say whether equations and claims are true of every motion of a model, and correct the wrong ones."""
     from freebody.model.errors import ModelProblem
 
     try:

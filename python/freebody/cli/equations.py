@@ -39,7 +39,7 @@ def equations(
     form: Annotated[
         Form,
         typer.Option(
-            help="Free of reactions, three balances a body, all constraints; solved in letters; or a further derivation."
+            help="Free of reactions, three balances a body, all constraints; solved symbolically; or a further derivation."
         ),
     ] = Form.minimal,
     want: Annotated[
@@ -52,7 +52,7 @@ def equations(
     fixed: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", metavar="NAME=VALUE", help="A letter as a number, or an option of a derivation, point=rod.B; repeatable."
+            "--set", metavar="NAME=VALUE", help="A symbol as a number, or an option of a derivation, point=rod.B; repeatable."
         ),
     ] = None,
     limits: Annotated[
@@ -102,7 +102,7 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
 
 
 def solved(mechanism: Mechanism, wanted: list[str], at_rest: bool, fixed: dict[str, str], limits: dict[str, str]) -> Document:
-    """Accelerations, or what is wanted, solved in letters."""
+    """Accelerations, or what is wanted, solved symbolically."""
     try:
         return mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=fixed, limits=limits).document
     except KeyError as error:

@@ -84,10 +84,10 @@ def run(done: Run, files: Sequence[Path]) -> None:
         _ending(done),
         *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
-        table("what switched", ["t [s]", "kind", "what", "energy lost [J]", ""], switch_rows(done.changes)),
+        table("mode changes", ["t [s]", "kind", "what", "energy lost [J]", ""], switch_rows(done.changes)),
         table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
         table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
-        f"The balance stays within {closure(done):.1e} of the largest entry.\n",
+        f"Energy error below {closure(done):.1e} of the largest entry.\n",
         table("largest reactions", ["", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks)),
     )
     written(files)
@@ -175,7 +175,7 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
         after = opening.instant(first.state.t)
         accelerations, reactions, *limits, _ = after.tables()
         put(Text("\njust after the events at the start\n", "bold"))
-        put(table("what switched", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opened(opening)]))
+        put(table("mode changes", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opened(opening)]))
         put(accelerations, reactions_along(after.reactions) if joint_axes else reactions, *limits, after.explanation)
 
 
@@ -224,7 +224,7 @@ def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
 
 
 def opened(opening: Run) -> list[Change]:
-    """What switched at the start."""
+    """Mode changes at the start."""
     return [change for change in opening.changes if change.t == opening.start.t]
 
 
@@ -254,7 +254,7 @@ def _part(reaction: Reaction, name: str) -> float | None:
 
 
 def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
-    """What is modelled: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
+    """Model assumptions: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
     if as_json:
         print(dumped(about))
         return
@@ -267,7 +267,7 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
         table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
         table(
             "coordinates",
-            ["coordinate", "unit", "what it measures"],
+            ["coordinate", "unit", "meaning"],
             [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]],
         ),
         table("joints", ["joint", "type", "between", "", ""], joints),

@@ -1,4 +1,4 @@
-"""A motion: what happened on its way, what switched, how it ended; and what can be read of it at any time."""
+"""A motion: what happened on its way, mode changes, how it ended; and what can be read of it at any time."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Snapshot:
 
 @dataclass(frozen=True)
 class Impulses:
-    """The impulses of a blow: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
+    """The impulses of an impact: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
     second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
     ``restitution`` is that of what was struck; ``spared`` was reached too, but would have had to pull."""
 
@@ -74,7 +74,7 @@ class Impulses:
 class Change:
     """Something that switched: time in s; ``kind`` is impact, taut, slack, contact, lift-off, slip, stick, reversal, rest,
     released, engaged or reset; the names concerned; the energy lost in J. Where rates jumped, the state before and after;
-    where there was a blow, its impulses."""
+    where there was an impact, its impulses."""
 
     t: float
     kind: str
@@ -113,7 +113,7 @@ class Motion:
 
     @cached_property
     def changes(self) -> list[Change]:
-        """What switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
+        """Mode changes, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
         return [self._change(**change) for change in self.record["changes"]]
 
     @property

@@ -1,4 +1,4 @@
-"""Equations in letters: expressions, how a person writes them, SymPy, generated code, answers, documents.
+"""Symbolic equations: expressions, how a person writes them, SymPy, generated code, answers, documents.
 
 SymPy is imported where it is first needed."""
 

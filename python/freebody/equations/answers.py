@@ -1,4 +1,4 @@
-"""Answers in letters: accelerations and reactions of one instant, from the fewest balances, solved and simplified."""
+"""Symbolic answers: accelerations and reactions of one instant, from the fewest balances, solved and simplified."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 MOST_EQUATIONS = 4
-"""More equations together are not solved in letters."""
+"""More equations together are not solved symbolically."""
 MOST_OPERATIONS = {1: 1000, 2: 200, 3: 150, 4: 150}
 """Operations in all coefficients, by the number of equations, above which the answer would fill pages."""
 MOST_MEASURED = 8
@@ -94,7 +94,7 @@ def solve_in_letters(
     initial: Mapping[str, Any] | None = None,
     patience: float = PATIENCE,
 ) -> Answers:
-    """Accelerations and reactions in letters, near the start of the model.
+    """Accelerations and reactions symbolically, near the start of the model.
 
     ``wanted``: coordinates (their accelerations), components of reactions (``pivot.Fx``), motions; all accelerations by default.
     ``at_rest``: all rates are 0, as just after release. ``set``: coordinates and parameters as quantities, ``"45 deg"``, or
@@ -121,7 +121,7 @@ def _require_limits(subject: SymbolicState, chosen: Substitutions, limits: Mappi
     known = subject.letters.of_kind("parameter", "constant", "coordinate", "time")
     for name, to in limits.items():
         if name not in known:
-            raise ValueError(f"{name!r} has no limit, as it is no letter; there are {', '.join(known)}")
+            raise ValueError(f"{name!r} has no limit, as it is no symbol; there are {', '.join(known)}")
         if name in chosen.trees:
             raise ValueError(f"{name} is set, so it has no limit; leave one of the two out")
         try:
@@ -129,7 +129,7 @@ def _require_limits(subject: SymbolicState, chosen: Substitutions, limits: Mappi
         except ValueError:
             raise ValueError(f"{name} cannot go to {to!r}; give 0, a positive number in SI, or inf") from None
         if below:
-            raise ValueError(f"{name} cannot go to {to}: letters are taken to be positive; give 0, a positive number, or inf")
+            raise ValueError(f"{name} cannot go to {to}: symbols are taken to be positive; give 0, a positive number, or inf")
 
 
 def _ways(subject: SymbolicState, chosen: Substitutions, limits: Collection[str]) -> Iterator[tuple[Substitutions, bool]]:
@@ -226,9 +226,9 @@ def _solved(subject: SymbolicState, system: SufficientSet, chosen: Substitutions
 def _require_short(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], measured: bool) -> None:
     n, size = len(right), sum(operations(entry) for row in (*matrix, right) for entry in row)
     if n > (MOST_MEASURED if measured else MOST_EQUATIONS):
-        raise TooLarge(f"it takes {n} equations together, too many for an answer in letters; ask for numbers")
+        raise TooLarge(f"it takes {n} equations together, too many for a symbolic answer; ask for numbers")
     if size > (MOST_OPERATIONS_MEASURED if measured else MOST_OPERATIONS[n]):
-        raise TooLarge(f"{n} equations with {size} operations are too long for an answer in letters; ask for numbers")
+        raise TooLarge(f"{n} equations with {size} operations are too long for a symbolic answer; ask for numbers")
 
 
 def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
@@ -339,11 +339,11 @@ def _target(to: Any) -> float | Fraction:
 
 def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
     said = ["all rates are 0"] * subject.at_rest + chosen.said()
-    made: list[Block] = [Heading(f"{subject.source.name}: answers in letters", 1)]
+    made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
     if chosen.measured:
-        made.append(Paragraph("In letters alone this would fill pages: what has a number here has that of the model, in SI."))
+        made.append(Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI."))
     if chosen.at_start:
-        made.append(Paragraph("In letters for every place this would fill pages: it stands as at the start."))
+        made.append(Paragraph("The symbolic form for every configuration would fill pages: this one holds at the start."))
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])
 
 

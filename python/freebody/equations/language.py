@@ -14,7 +14,7 @@ _DOTS = {"rate": 1, "accel": 2}
 
 
 class NoForm(ValueError):
-    """An expression that has no form in letters, as a least of two."""
+    """An expression that has no symbolic form, as a least of two."""
 
 
 def read_text(text: str) -> Tree:
@@ -45,14 +45,14 @@ def _tree(of: Mapping[str, Any]) -> Tree:
             for operator, part in rest:
                 total = _joined(operator, total, _tree(part))
             return total
-    raise NoForm("the expression has no form in letters")
+    raise NoForm("the expression has no symbolic form")
 
 
 def _joined(operator: str, left: Tree, right: Tree) -> Tree:
     if operator == "^" and isinstance(right, Num):
         return power(left, right.value)
     if operator not in _OPERATORS:
-        raise NoForm("the expression has no form in letters")
+        raise NoForm("the expression has no symbolic form")
     return _OPERATORS[operator](left, right)
 
 

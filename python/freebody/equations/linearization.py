@@ -1,4 +1,4 @@
-"""Small departures from rest: the linear equations of the coordinates, and of those that loops and motions leave free."""
+"""small perturbations from rest: the linear equations of the coordinates, and of those that loops and motions leave free."""
 
 from __future__ import annotations
 
@@ -200,4 +200,4 @@ def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: SymbolicState
         made = [[shortest(entry, subject.letters, PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
         if all(operations(entry) <= READABLE for row in made for entry in row):
             return made
-    raise TooLarge("the linear equations of what is left free are too long in letters")
+    raise TooLarge("the linear equations of what is left free are too long symbolically")

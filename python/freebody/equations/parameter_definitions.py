@@ -11,7 +11,7 @@ from freebody.symbolic.tree import replace as replaced
 
 
 def definitions(source: CompiledModel, free: Collection[str]) -> dict[str, Tree]:
-    """Every parameter that is defined by others, by those that are not or are ``free``; one without a form in letters, as a least
+    """Every parameter that is defined by others, by those that are not or are ``free``; one without a symbolic form, as a least
     of two, stays a letter."""
     found: dict[str, Tree] = {}
     for parameter in source.spec["parameters"]:

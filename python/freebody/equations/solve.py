@@ -1,4 +1,4 @@
-"""Answers in letters: small linear systems solved, limits, coefficients."""
+"""Symbolic answers: small linear systems solved, limits, coefficients."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
 
 MOST_UNKNOWNS = 6
-"""Above it an answer in letters is too long to be read."""
+"""Above it a symbolic answer is too long to be read."""
 MOST_OPERATIONS = 1500
-"""Operations in all coefficients above which no answer in letters is sought."""
+"""Operations in all coefficients above which no answer symbolically is sought."""
 
 
 _UNDETERMINED = "the equations do not determine the unknowns, whatever the letters are"
 
 
 class TooLarge(ValueError):
-    """An answer in letters would be too long to read; the sentence says what to do instead."""
+    """a symbolic answer would be too long to read; the sentence says what to do instead."""
 
 
 class Singular(ValueError):
@@ -32,7 +32,7 @@ class Singular(ValueError):
 def solve(
     matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], letters: Letters | None = None, *, patience: float = PATIENCE
 ) -> list[Tree]:
-    """The solution x of A x = b in letters, each entry in the shortest form found.
+    """The solution x of A x = b symbolically, each entry in the shortest form found.
 
     ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
     values of the letters is ``Singular``. The solution is held against the system at random values."""
@@ -44,14 +44,14 @@ def solve(
     numeric = is_measured(a) or is_measured(b)
     if len(right) > MOST_UNKNOWNS and not numeric:
         raise TooLarge(
-            f"{len(right)} unknowns are too many for an answer in letters (at most {MOST_UNKNOWNS}); "
+            f"{len(right)} unknowns are too many for a symbolic answer (at most {MOST_UNKNOWNS}); "
             "ask for numbers, or for a smaller set of equations"
         )
     found = _solved_measured(a, b) if numeric else [shortest(entry, letters, patience) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
             raise ArithmeticError(
-                "the answer in letters does not satisfy the equations at random values; take the numbers instead"
+                "the answer symbolically does not satisfy the equations at random values; take the numbers instead"
             )
     return found
 
@@ -97,7 +97,7 @@ def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | 
     if found.has(sympy.AccumBounds):
         raise ValueError(f"there is no limit for {letter} to {to}: it goes to and fro without end; put a number for {letter}")
     if isinstance(found, sympy.Limit) or found.has(sympy.nan):
-        raise ValueError(f"no limit in letters was found for {letter} to {to}; put numbers for some letters")
+        raise ValueError(f"no symbolic limit was found for {letter} to {to}; set some symbols to numbers")
     return from_sympy(found) if found.is_infinite else shortest(found, letters)
 
 
@@ -121,7 +121,7 @@ def _solved(a: Any, b: Any) -> list[Any]:
     from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
-        raise TooLarge("the equations are too long for an answer in letters; put numbers for some letters")
+        raise TooLarge("the equations are too long for a symbolic answer; set some symbols to numbers")
     shared, (a, b) = _plain(a, b)
     joined = DomainMatrix.from_Matrix(a.row_join(b)).to_field()
     try:

@@ -1,4 +1,4 @@
-"""Small matrices in letters: characteristic polynomial, eigenvalues, and when what they describe is stable."""
+"""Symbolic matrices: characteristic polynomial, eigenvalues, and when what they describe is stable."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from freebody.symbolic.to_sympy import to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
 
 MOST_OPERATIONS = 80
-"""Operations in a characteristic polynomial above which its roots are not sought in letters."""
+"""Operations in a characteristic polynomial above which its roots are not sought symbolically."""
 _HALF = Fraction(1, 2)
 MOST_ROWS = 4
-"""Roots of polynomials of higher order have no formula in letters."""
+"""Roots of polynomials of higher order have no symbolic formula."""
 
 
 @dataclass(frozen=True)
@@ -71,17 +71,17 @@ def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[
 def eigenvalues(
     matrix: Sequence[Sequence[Tree]], letters: Letters | None = None, *, positive: Collection[str] = ()
 ) -> list[Eigenvalue]:
-    """The eigenvalues in letters, all letters being real and those named ``positive`` positive.
+    """The symbolic eigenvalues, all letters being real and those named ``positive`` positive.
 
     At most 4 rows, and of cubic and quartic polynomials only those that factor or have only even powers; else ``TooLarge``."""
     import sympy
 
     polynomial = _polynomial(matrix, positive)
     if sum(factor.count_ops() for factor in polynomial.all_coeffs()) > MOST_OPERATIONS:
-        raise TooLarge("the characteristic polynomial is too long for its roots in letters; put numbers for some letters")
+        raise TooLarge("the characteristic polynomial is too long for its roots symbolically; set some symbols to numbers")
     found = sympy.roots(polynomial, cubics=False, quartics=False)
     if sum(found.values()) != polynomial.degree():
-        raise TooLarge("these eigenvalues have no short form in letters; put numbers, or ask for the stability conditions")
+        raise TooLarge("these eigenvalues have no short symbolic form; put numbers, or ask for the stability conditions")
     made = [_eigenvalue(root, count, letters) for root, count in found.items()]
     return sorted(made, key=lambda value: (str(value.imaginary), str(value.real)))
 
@@ -96,7 +96,7 @@ def stability(
     Conditions that hold because the letters named ``positive`` are so are left out. Gantmacher, *Theory of Matrices* II, XV §6."""
     order = len(coefficients) - 1
     if not 1 <= order <= MOST_ROWS:
-        raise TooLarge(f"stability conditions in letters are for polynomials of order 1 to {MOST_ROWS}, not {order}")
+        raise TooLarge(f"symbolic stability conditions are for polynomials of order 1 to {MOST_ROWS}, not {order}")
     a = [to_sympy(factor, positive=positive, real=True) for factor in coefficients]
     even = order % 2 == 0 and all(is_zero(factor) for factor in coefficients[1::2])
     left = _oscillates(a)[: 2 if symmetric else 3] if even else _hurwitz(a)
@@ -153,7 +153,7 @@ def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> 
     import sympy
 
     if len(matrix) > MOST_ROWS:
-        raise TooLarge(f"eigenvalues in letters are for at most {MOST_ROWS} rows, not {len(matrix)}; put numbers")
+        raise TooLarge(f"symbolic eigenvalues are for at most {MOST_ROWS} rows, not {len(matrix)}; put numbers")
     entries = sympy.Matrix([[to_sympy(entry, positive=positive, real=True) for entry in row] for row in matrix])
     polynomial = entries.charpoly(sympy.Dummy("s"))
     return sympy.Poly([sympy.factor(factor) for factor in polynomial.all_coeffs()], polynomial.gen)

@@ -1,4 +1,4 @@
-"""Which equations are enough for one answer in letters: the smallest set of balances, with what loops and motions ask."""
+"""Which equations are enough for one answer symbolically: the smallest set of balances, with what loops and motions ask."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Search:
         for stated in self._tries(wanted):
             try:
                 return self._closed(stated, wanted, known, titles)
-            except TooLarge as error:  # what drops out at these numbers does not in letters
+            except TooLarge as error:  # what drops out at these numbers does not symbolically
                 refusal = error
         raise refusal
 

@@ -74,11 +74,11 @@ class AppliedImpulse(Impulsive):
         return Change(self.state.t, "struck", (), -self._energy(jumps), impulses=stated, before=before, after=after)
 
     def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        """What the core tells of it in letters."""
+        """What the core tells of it symbolically."""
         return self.source.letters(self.state, questions)
 
     def rows_before(self) -> list[Any]:
-        """What holds the model at rest, in letters."""
+        """What holds the model at rest, symbolically."""
         return self.whole.letters(self.before, [{"ask": "rows"}]).answers[0]
 
     def _closed(self) -> list[str]:
@@ -101,7 +101,7 @@ def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, imp
     for a point that there is not."""
     if np.abs(state.u).max(initial=0.0) > _STILL and mechanism.source().about["limits"]:
         raise NoImpact(
-            "the model moves at its start, and it has contacts, strings or stops, which then decide by that motion what a blow does; "
+            "the model moves at its start, and it has contacts, strings or stops, which then decide by that motion what an impact does; "
             "what is struck here stands still: give the start no rates, or let a run strike it"
         )
     state = replace(state, u=np.zeros_like(state.u))

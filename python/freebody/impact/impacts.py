@@ -1,4 +1,4 @@
-"""Blows of a run: what acts during one, its impulses, and what jumps."""
+"""Impacts of a run: what acts during one, its impulses, and what jumps."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ Question: TypeAlias = Mapping[str, Any]
 _ROUND_OFF = 1e-13
 """Of the largest impulse, below which one is what is left of 0."""
 _JUST_BEFORE = 1e-6
-"""Of the time since the change before: far enough from a blow to be in the motion before it."""
+"""Of the time since the change before: far enough from an impact to be in the motion before it."""
 
 
 class NoImpact(ValueError):
-    """A blow that a run does not have; the sentence says why."""
+    """An impact that a run does not have; the sentence says why."""
 
 
 class Impulsive(ABC):
-    """A moment in which rates jump, because loads grow beyond all bounds: a blow of a run, or one that a model is given."""
+    """A moment in which rates jump, because loads grow beyond all bounds: an impact of a run, or one that a model is given."""
 
     change: Change
     """What happened, with the state before and after."""
@@ -37,15 +37,15 @@ class Impulsive(ABC):
     source: CompiledModel
     """The mechanism, to be drawn in that state."""
     free: FreeBodies
-    """All loads during the blow: those of what was struck for a unit of each."""
+    """All loads during the impact: those of what was struck for a unit of each."""
 
     @abstractmethod
     def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        """What the core tells of it in letters, with the rates before it."""
+        """What the core tells of it symbolically, with the rates before it."""
 
     @abstractmethod
     def rows_before(self) -> list[Any]:
-        """What held just before, in letters, as the core tells its rows."""
+        """What held just before, symbolically, as the core tells its rows."""
 
     @property
     def given(self) -> Mapping[str, str]:
@@ -79,11 +79,11 @@ class Impulsive(ABC):
         idle = [name for name in self._idle() if name not in spared and sides[name] & chosen]
         has_friction = [joint["name"] for joint in joints if joint.get("friction") and sides[joint["name"]] & chosen]
         stated += [f"{name}, which lets go: its impulse would have to be negative" for name in here]
-        stated += [f"{name}: nothing drives it closed in the blow, so it has no impulse" for name in idle]
+        stated += [f"{name}: nothing drives it closed in the impact, so it has no impulse" for name in idle]
         return stated + [f"friction of {name}: left out, joints pass impulses on without it" for name in has_friction]
 
     def _idle(self) -> list[str]:
-        """Contacts, strings and stops that were closed before and have no part in the blow."""
+        """Contacts, strings and stops that were closed before and have no part in the impact."""
         loaded = {load.name for load in self.acting}
         closed = dict.fromkeys(row["name"] for row in self.rows_before())
         return [each["name"] for each in self.source.about["limits"] if each["name"] in closed.keys() - loaded]
@@ -136,7 +136,7 @@ class Impulsive(ABC):
 
 @dataclass(frozen=True)
 class Impact(Impulsive):
-    """A blow of a ``run``: the change that tells of it, and its ``place`` among all changes."""
+    """An impact of a ``run``: the change that tells of it, and its ``place`` among all changes."""
 
     run: Run
     change: Change
@@ -152,21 +152,21 @@ class Impact(Impulsive):
 
     @cached_property
     def source(self) -> CompiledModel:
-        """The mechanism, to be drawn in the state of the blow."""
+        """The mechanism, to be drawn in the state of the impact."""
         source = self.run.source
         return _During(source.mechanism, source.spec, source.model, source.report, source.notes, self.run)
 
     @cached_property
     def free(self) -> FreeBodies:
-        """All loads during the blow: those of what was struck for a unit of each."""
+        """All loads during the impact: those of what was struck for a unit of each."""
         return self.run.motion.free_bodies_of_impact(self.place)
 
     def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        """What the core tells of it in letters, with the rates before it."""
+        """What the core tells of it symbolically, with the rates before it."""
         return self.run.motion.letters_of_impact(self.place, questions)
 
     def rows_before(self) -> list[Any]:
-        """What held just before, in letters; nothing where that is not known, as at the start."""
+        """What held just before, symbolically; nothing where that is not known, as at the start."""
         t = self.change.t
         since = max((each.t for each in self.run.changes if each.t < t), default=float(self.run.t[0]))
         if not since < t:
@@ -187,19 +187,19 @@ class _During(CompiledModel):
 
 
 def impacts(run: Run) -> Iterator[Impact]:
-    """All blows of a run, in order of time."""
+    """All impacts of a run, in order of time."""
     yield from (Impact(run, change, place) for place, change in enumerate(run.changes) if change.impulses)
 
 
 def find(run: Run, number: int = 1, *, of: str | None = None, after: float | None = None) -> Impact:
-    """The blow of a ``number``, from 1: of all, of those of one contact, string or stop, or of those not before a time in s.
+    """The impact of a ``number``, from 1: of all, of those of one contact, string or stop, or of those not before a time in s.
     Raises ``NoImpact``."""
     if run.recorded:
-        raise NoImpact("a run from a file does not know what acted during its blows; run it again")
+        raise NoImpact("a run from a file does not know what acted during its impacts; run it again")
     asked = [impact for impact in impacts(run) if of in (None, *impact.change.of) and (after is None or impact.change.t >= after)]
     if not 1 <= number <= len(asked):
         which = (f" of {of}" if of else "") + (f" from {after:g} s on" if after is not None else "")
-        raise NoImpact(f"the run has {len(asked)} blows{which}, none of number {number}; let it run longer, or start it otherwise")
+        raise NoImpact(f"the run has {len(asked)} impacts{which}, none of number {number}; let it run longer, or start it otherwise")
     return asked[number - 1]
 
 

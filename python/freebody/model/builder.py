@@ -77,7 +77,7 @@ class Overrules(MutableMapping[str, Any]):
 
 class Builder:
     """A mechanism under construction: ``model`` is what has been said so far, ``others`` the mechanisms made in Python
-    that it hands over to, by the names of files that stand for them.
+    that it continues with, by the names of files that stand for them.
 
     Wrong words raise ``ModelFileError`` at once; names and units are checked by ``lowered()`` and ``compile()``.
     ``Mechanism`` adds a method for each shape, joint and force.
@@ -132,7 +132,7 @@ class Builder:
         return made
 
     def save(self, path: str | FilePath) -> None:
-        """Writes the model, and beside it those made in Python that it hands over to; the comments of the file that it was
+        """Writes the model, and beside it those made in Python that it continues with; the comments of the file that it was
         loaded from stay."""
         self._save(FilePath(path), set())
 
@@ -231,7 +231,7 @@ class Builder:
         return [self._with_files(value) for value in action] if isinstance(action, (list, tuple)) else action
 
     def handed(self, file: str) -> Any:
-        """The mechanism of a model that this one hands over to; its file as the model names it. Raises ``ModelFileError``."""
+        """The mechanism of a model that this one continues with; its file as the model names it. Raises ``ModelFileError``."""
         if file in self.others:
             return self.others[file]
         folder = Folder.of(self._file)

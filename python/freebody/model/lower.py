@@ -70,7 +70,7 @@ def _steps(text: str) -> Path:
 
 
 def lower(model: Model, places: Places, file: str | FilePath | None = None, others: Iterable[str] = ()) -> Lowered:
-    """The model in the core's terms; parts, and models that it hands over to, are looked for beside ``file``.
+    """The model in the core's terms; parts, and models that it continues with, are looked for beside ``file``.
 
     ``others`` need not be there as files. Raises ``ModelFileError`` with all that is wrong.
     """

@@ -57,7 +57,7 @@ class Comparison:
         for i, (mine, other) in enumerate(zip_longest(*stated, fillvalue="nothing")):
             if mine != other:
                 t = min(run.changes[i].t for run in (self.a, self.b) if i < len(run.changes))
-                return f"from t = {t:.6g} s on they switch differently: {mine} in the first, {other} in the second"
+                return f"from t = {t:.6g} s on their mode changes differ: {mine} in the first, {other} in the second"
         return ""
 
     def plot(self, *names: str, ax: Axes | None = None) -> Axes:

@@ -44,7 +44,7 @@ class Stage:
 def follow(stage: Stage, first: Run) -> Run:
     """The run, with those of the models to which it hands over as ``next`` of one another.
 
-    Raises ``ModelFileError``, and ``MotionError`` when models hand over to one another at one instant.
+    Raises ``ModelFileError``, and ``MotionError`` when models continue with one another at one instant.
     """
     run = first
     while (later := stage.after(run)) is not None:
@@ -53,7 +53,7 @@ def follow(stage: Stage, first: Run) -> Run:
         stage, run.next = later, later.run(state, notes)
         run = run.next
         if at_once and run.end.t == run.start.t:
-            what = f"the models hand over to one another at t = {run.end.t:g} s without any motion between"
+            what = f"the models continue with one another at t = {run.end.t:g} s without any motion between"
             raise MotionError("hands_over_at_once", "", what, "let each begin on the far side of its event")
     return first
 

@@ -300,7 +300,7 @@ class Run:
         lines = [f"{self.name}: {self.outcome.sentence}"]
         lines += [f"  {event.name} at t = {event.t:.6g} s" for event in self.events]
         if kinds := Counter(change.kind for change in self.changes):
-            lines.append("  what switched: " + ", ".join(f"{count} × {kind}" for kind, count in kinds.items()))
+            lines.append("  mode changes: " + ", ".join(f"{count} × {kind}" for kind, count in kinds.items()))
         lines += [f"  {label}: {value}" for label, value in self.report.items()]
         return "\n".join(lines)
 

@@ -200,7 +200,7 @@ class Instant:
 
     @property
     def residuals(self) -> dict[str, tuple[float, float, float]]:
-        """What is left of each body's momentum balance: N, N, N·m."""
+        """The residual of each body's momentum balance: N, N, N·m."""
         names = (b["name"] for b in self._about["bodies"])
         return {name: tuple(row) for name, row in zip(names, self._solved.body_residuals.tolist(), strict=True)}
 

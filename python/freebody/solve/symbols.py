@@ -195,13 +195,13 @@ class Naming:
 
 @dataclass(frozen=True)
 class ImpulseNaming(Naming):
-    """The letters of a blow: an impulse is J with the letter of its force below, ``J_N_floor``."""
+    """The letters of an impact: an impulse is J with the letter of its force below, ``J_N_floor``."""
 
     blow: Impulsive
 
     @classmethod
     def of(cls, impact: Impulsive) -> ImpulseNaming:
-        """Those of a blow."""
+        """Those of an impact."""
         return cls(impact.source, impact.state, impact.impulses, impact)
 
     @cached_property
@@ -213,5 +213,5 @@ class ImpulseNaming(Naming):
         return made | {symbol: Name.parse(letter) for symbol, letter in given.items()}
 
     def _ask(self, questions: list[dict[str, str]]) -> SymbolicAnswers:
-        """What the core answers during the blow."""
+        """What the core answers during the impact."""
         return self.blow.letters(questions)

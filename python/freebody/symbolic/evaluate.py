@@ -69,7 +69,7 @@ def sampled(tree: Node, values: Mapping[str, Array]) -> Array:
 
     def letter(each: Sym) -> Array:
         if each.key not in values:
-            raise StatementError(f"`{each.key}` has no meaning here", each.span, "declare it in terms of the model's letters")
+            raise StatementError(f"`{each.key}` has no meaning here", each.span, "declare it in terms of the model's symbols")
         return np.asarray(values[each.key], dtype=float)
 
     with np.errstate(all="ignore"):

@@ -79,7 +79,7 @@ POWER = 1e-8
 @every_model
 def test_the_rate_of_energy_is_the_power_of_what_acts(model):
     """Of the kinetic energy that of all loads on all bodies; of the potential, turned round, that of weights and conservative forces.
-    What is said follows: their sum is constant, or what rubs takes from it."""
+    What is said follows: their sum is constant, or what has friction takes from it."""
     conservative = {force["name"]: force["conservative"] for force in subject(model).source.about["forces"]}
     kinetic, potential, why = conserved.energy(subject(model))
     for at in elsewhere(model):

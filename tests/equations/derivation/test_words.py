@@ -45,7 +45,7 @@ initial: {s: 0, rates: {s: 0.1}}
 """
 BEARING = """
 freebody: 1
-name: pendulum in a bearing that rubs
+name: pendulum in a bearing with friction
 parameters: {m: 2 kg, l: 1 m, mu: 0.1, r: 2 cm}
 bodies:
   rod: {shape: rod, length: l, mass: m}

@@ -1,4 +1,4 @@
-"""Blows in letters against those of the run, and against closed forms."""
+"""Impacts symbolically against those of the run, and against closed forms."""
 
 import pytest
 from models import system
@@ -91,7 +91,7 @@ def test_carts_bounce() -> None:
 
 
 def test_a_run_without_blow_is_named() -> None:
-    with pytest.raises(NotHere, match="0 blows"):
+    with pytest.raises(NotHere, match="0 impacts"):
         topic(system("19.3.1"), "impact")
 
 

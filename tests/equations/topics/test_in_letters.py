@@ -1,4 +1,4 @@
-"""Answers in letters against closed forms of textbooks, and against numbers at other states."""
+"""Symbolic answers against closed forms of textbooks, and against numbers at other states."""
 
 import numpy as np
 import pytest
@@ -162,7 +162,7 @@ def test_reactions_of_a_loop_by_its_accelerations() -> None:
 
 
 def test_where_nothing_else_is_short_masses_are_numbers_too() -> None:
-    """Seven links: what is left in letters is g, once the motors hold the posture of the start."""
+    """Seven links: what is left symbolically is g, once the motors hold the posture of the start."""
     answers = system("GEN-STEP").solve_in_letters(["ankle"], at_rest=True)
     assert symbols(answers["ankle"]) == {Sym("g")} and "would fill pages" in str(answers) and answers.checked > 1
 

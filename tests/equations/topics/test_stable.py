@@ -1,4 +1,4 @@
-"""What becomes of small departures, where eigenvalues are 0 or equal: against closed forms and against simulated motions."""
+"""What becomes of small perturbations, where eigenvalues are 0 or equal: against closed forms and against simulated motions."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
     stated = said(CART)
     assert "s² (s² + (M + m) g/(M l)) = 0" in stated and "± √((M + m) g/(M l)) i" in stated
     assert "Nothing brings back x: with any small constant speed it drifts on" in stated
-    assert "Apart from that small departures of x, θ stay small and oscillate" in stated
+    assert "Apart from that small perturbations of x, θ stay small and oscillate" in stated
     run = fb.Mechanism.loads(CART).simulate(50.0, initial={"rates": {"x": 1e-3, "theta": 0}}, t_eval=[50.0])
     assert run["x"][-1] > 0.02 and abs(run["theta"][-1]) < 1e-3
 
@@ -54,8 +54,8 @@ def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
 def test_a_cart_that_rubs_stays_where_it_comes_to_rest() -> None:
     """With −c ẋ the root 0 is single: nothing drifts, and the rest dies out, as the cart takes part in all of it."""
     stated = said(CART + DRAG)
-    assert "Nothing brings back x: a small departure stays as it is." in stated and "drift" not in stated
-    assert "Apart from that small departures of x, θ die out for all values" in stated
+    assert "Nothing brings back x: a small perturbation stays as it is." in stated and "drift" not in stated
+    assert "Apart from that small perturbations of x, θ die out for all values" in stated
 
 
 def test_matrices_do_not_take_letters_of_the_model() -> None:
@@ -66,11 +66,11 @@ def test_matrices_do_not_take_letters_of_the_model() -> None:
     assert r"\mathbf{M} = \begin{bmatrix}" in topic(mechanism, "linear").latex()
 
 
-# Two equal pendulums: what else acts, and what then becomes of small departures.
+# Two equal pendulums: what else acts, and what then becomes of small perturbations.
 EQUAL = {
-    "equal frequencies, each with a direction of its own": ("", "Small departures stay small and oscillate for all values"),
+    "equal frequencies, each with a direction of its own": ("", "small perturbations stay small and oscillate for all values"),
     "one is pulled by the other's angle and so at its own frequency": (PULL, "Equal eigenvalues share one direction"),
-    "one of them is damped": (BEARING, "Small departures stay small: some die out, others oscillate for all values"),
+    "one of them is damped": (BEARING, "small perturbations stay small: some die out, others oscillate for all values"),
 }
 
 
@@ -89,7 +89,7 @@ def test_equal_pendulums(name: str) -> None:
 def test_upside_down_it_falls() -> None:
     """Upright the polynomial is s² (s² − (M + m) g/(M l))."""
     stated = " ".join(topic(fb.Mechanism.loads(CART), "linear", theta="180 deg").text().split())
-    assert "grow, whatever the values of the letters: it is unstable" in stated
+    assert "grow, whatever the values of the symbols: it is unstable" in stated
 
 
 def test_two_equal_rods_hang_from_each_other() -> None:

@@ -1,4 +1,4 @@
-"""Statics in letters: what cannot move needs no acceleration, and the balances of textbooks give the reactions."""
+"""Statics symbolically: what cannot move needs no acceleration, and the balances of textbooks give the reactions."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def test_what_moves_does_not_stand_still() -> None:
 
 SLIDER = """
 freebody: 1
-name: block in a guide that rubs
+name: block in a guide with friction
 parameters: {m: 2 kg, alpha: 30 deg, mu: 0.2, g: 9.81 m/s^2}
 gravity: g
 ground: {lines: {slope: {through: O, angle: -alpha}}}

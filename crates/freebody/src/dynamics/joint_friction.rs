@@ -69,7 +69,7 @@ impl Workspace<'_> {
         let names: Vec<String> =
             (0..self.m.joint_friction.len()).map(|r| format!("`{}`", Source::JointFriction(r).name(self.m))).collect();
         Err(Trouble::new(
-            "friction_jams",
+            "self_locking",
             format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
         ))
     }

@@ -116,11 +116,11 @@ impl Workspace<'_> {
                 let (what, first) = self.describe_motion(&direction);
                 let sentence =
                     format!("the actuators cannot bring about the prescribed motion: {what} out of their reach");
-                Trouble::new("no_authority", sentence).about(first)
+                Trouble::new("insufficient_actuation", sentence).about(first)
             }
             SaddleError::RankMismatch { motion, force } => match &self.dependent()[..] {
                 [] => Trouble::new(
-                    "no_authority",
+                    "insufficient_actuation",
                     format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
                 ),
                 spare => self.indeterminate_contact(spare),

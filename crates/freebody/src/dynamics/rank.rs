@@ -99,7 +99,7 @@ impl Freedom {
     pub fn explain(&self) -> String {
         let (count, here) = (self.count, self.here);
         let mut text = match (self.redundant, here as i64 - count) {
-            (0, 0) => format!("{} of freedom, as the count of coordinates less constraints says", degrees(here)),
+            (0, 0) => format!("{} of freedom, as Grübler's count", degrees(here)),
             (r, more) => {
                 let singular = r - self.always_redundant.min(r);
                 let mut why = vec![];
@@ -110,11 +110,11 @@ impl Freedom {
                 if singular > 0 {
                     let say = if singular == 1 { "says" } else { "say" };
                     why.push(format!(
-                        "{singular} of the {} constraints {say} nothing new in this configuration, which is singular",
+                        "{singular} of the {} constraints are dependent in this configuration, which is singular",
                         self.rows
                     ));
                 }
-                format!("{} of freedom, {more} more than the count of {count}: {}", degrees(here), why.join("; "))
+                format!("{} of freedom (Grübler's count: {count}): {}", degrees(here), why.join("; "))
             }
         };
         if self.driven > 0 {
@@ -318,7 +318,7 @@ impl Workspace<'_> {
         match names.is_empty() {
             // Within one contact, whose sums it does not touch.
             true => String::new(),
-            false => format!("{} can load each other by any amount without moving anything", names.join(", ")),
+            false => format!("{} are statically indeterminate (self-stress)", names.join(", ")),
         }
     }
 }

@@ -48,7 +48,7 @@ impl HybridSystem<'_> {
             group.name
         );
         let why = "a little to one side it would swing round at once, straight through it would jerk";
-        Trouble::new("string_drawn_in", format!("{what}: {why}; let it pass beside, or put a stop before"))
+        Trouble::new("string_zero_length", format!("{what}: {why}; let it pass beside, or put a stop before"))
             .about(group.path())
     }
 }

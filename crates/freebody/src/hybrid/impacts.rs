@@ -200,7 +200,7 @@ impl HybridSystem<'_> {
             lost,
             states: Some([earlier, y.to_vec()]),
             impulses: None,
-            note: Some(format!("the bounces from t = {t:.12} s on, without end, are over")),
+            note: Some(format!("the bounces from t = {t:.12} s on, infinitely many, have come to an end")),
         });
         Ok(true)
     }

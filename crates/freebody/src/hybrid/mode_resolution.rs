@@ -150,7 +150,7 @@ impl HybridSystem<'_> {
             return self.record_mode_changes(t, &before);
         }
         Err(Trouble::new(
-            "endless_impacts",
+            "impact_iteration_limit",
             format!("{ROUNDS} impacts in one instant did not bring it to an end; choose another rule for impacts"),
         ))
     }

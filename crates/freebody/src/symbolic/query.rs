@@ -146,7 +146,7 @@ pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Que
         let variables = SymbolicState::new(workspace, setting, &values);
         let answers: Result<Vec<Value>, Trouble> = questions.iter().map(|q| variables.answer(q)).collect();
         if algebra::is_exhausted() {
-            let sentence = "in letters the equations of this mechanism grow beyond what can be written; ask for fewer, or set letters to numbers";
+            let sentence = "the symbolic equations of this mechanism are too long to be written; ask for fewer, or set symbols to numbers";
             return Err(Trouble::new("too_large", sentence));
         }
         Ok(

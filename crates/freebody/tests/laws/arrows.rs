@@ -10,16 +10,16 @@ const LAYERS: &[&[&str]] = &[
     &["algebra", "benchmark", "expr", "motion", "plane"],
     &["gauges", "joints", "shapes"],
     &["mechanism"],
-    &["mode", "numbers"],
+    &["mode", "bound_values"],
     &["kinematics"],
-    &["paths"],
+    &["cables"],
     &["contact"],
     &["builder"],
     &["forces"],
     &["compile"],
-    &["balance"],
-    &["assembly", "describe", "free_bodies", "simulation"],
-    &["initial", "letters"],
+    &["dynamics"],
+    &["assembly", "metadata", "free_bodies", "hybrid"],
+    &["initial", "symbolic"],
 ];
 
 #[test]

@@ -190,7 +190,7 @@ class Line:
 
     def misplaced(self, token: Token) -> StatementError:
         if token.kind == "end":
-            return StatementError("something is missing at the end", self.end(), "a number, a letter or a bracket is expected")
+            return StatementError("something is missing at the end", self.end(), "a number, a symbol or a bracket is expected")
         if token.kind in (*SIGNED, ")", "]", "}", ",", ";", "^"):
             return StatementError(f"something is missing before `{token.text}`", token.span)
         return StatementError(f"`{token.text}` has no place in an equation", token.span)

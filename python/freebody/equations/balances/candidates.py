@@ -56,7 +56,7 @@ class Candidates:
 
 def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: bool = False) -> Candidates:
     """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits); of those with the same unknowns the plainest,
-    as many as are independent. ``in_letters``: only those that the core can tell in letters."""
+    as many as are independent. ``in_letters``: only those that the core can tell symbolically."""
     sets, exact = groups(problem)
     named = named_motions(problem, points)
     accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
@@ -72,7 +72,7 @@ def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: 
 
 
 def has_letters(problem: Problem, twist: VirtualMotion) -> bool:
-    """Whether the core can tell a point or direction in letters: not one of inertia."""
+    """Whether the core can tell a point or direction symbolically: not one of inertia."""
     return twist.question is not None if twist.pair is None else None not in [problem.unknowns[i].load for i in twist.pair]
 
 

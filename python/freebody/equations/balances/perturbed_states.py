@@ -84,7 +84,7 @@ def others(source: CompiledModel, state: State) -> list[State]:
 
 
 def _senses(free: FreeBodies) -> list[bool]:
-    """In which sense everything slides that rubs, and on which flank teeth bear."""
+    """In which sense everything slides with friction, and on which flank teeth bear."""
     sliding = [load.follows[1] > 0 for load in free.loads if load.follows]
     return sliding + [load.value > 0 for load in free.loads if load.card.flank]
 

@@ -29,7 +29,7 @@ NamedPoints = Mapping[str, tuple[str, float, float]]
 @dataclass(frozen=True)
 class VirtualMotion:
     """A rigid motion by what makes it: a named point or direction, or two unknowns, by their places, that do no work in it.
-    ``rank`` is 0 for the plainest; ``question`` is how the core is asked for the balance in letters (``about`` or ``along``)."""
+    ``rank`` is 0 for the plainest; ``question`` is how the core is asked for the balance symbolically (``about`` or ``along``)."""
 
     name: str = ""
     pair: tuple[int, int] | None = None

@@ -82,7 +82,7 @@ def blocks(subject: SymbolicState, stated: Stated) -> list[Block]:
     balance = stated.balance
     made: list[Block] = [Heading(stated.title, 3)]
     if reasons := absent(subject, stated):
-        made.append(Paragraph(f"What drops out: {'; '.join(reasons)}."))
+        made.append(Paragraph(f"Not in this equation: {'; '.join(reasons)}."))
     what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
     unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
     acting: list[Words] = [
@@ -94,12 +94,12 @@ def blocks(subject: SymbolicState, stated: Stated) -> list[Block]:
         [f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)
     ]
     if acting:
-        made += [Paragraph(f"The {what} of what acts:"), Bullets(acting)]
+        made += [Paragraph(f"Applied {what}:"), Bullets(acting)]
     else:
-        made.append(Paragraph("Nothing else acts on it in this equation."))
+        made.append(Paragraph("No other load enters this equation."))
     if inertia:
         rate = "angular momentum" if balance.turns else "momentum"
-        made += [Paragraph(f"The rate of {rate}:"), Bullets(inertia)]
+        made += [Paragraph(f"Rate of change of {rate}:"), Bullets(inertia)]
     turned = ", with all signs changed," if stated.is_turned else ""
     made.append(Equation(*stated.sides, f"So {sign}{turned} is", stated.label))
     return made

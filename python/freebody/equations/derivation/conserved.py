@@ -10,7 +10,7 @@ from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
 from freebody.symbolic.tree import Sym, Tree, add, read, symbols
 
-_CONSERVED = "Their sum is conserved: all forces have potentials, and what joints and contacts exert does no work."
+_CONSERVED = "Their sum is conserved: all forces have potentials, and the reactions of joints and contacts do no work."
 
 
 def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
@@ -37,9 +37,9 @@ def _losses(subject: SymbolicState, without: list[str], letters: set[Sym]) -> st
     motions = [load.name for load in subject.free.loads if load.kind == "motion"]
     laws = {letter.name for letter, _ in subject.laws}
     has_friction = list(dict.fromkeys(load.name for load in subject.free.loads if load.follows or load.symbol in laws))
-    why = [f"{joined(names)} {'does' if len(names) == 1 else 'do'} work that no potential has" for names in [without] if names]
+    why = [f"{joined(names)} {'does' if len(names) == 1 else 'do'} work that has no potential" for names in [without] if names]
     why += [f"the motion of {joined(list(dict.fromkeys(motions)))} is prescribed, which takes work"] if motions else []
-    why += [f"{joined(has_friction)} {'rubs' if len(has_friction) == 1 else 'rub'}"] if has_friction else []
+    why += [f"{joined(has_friction)} {'has' if len(has_friction) == 1 else 'have'} friction"] if has_friction else []
     why += ["the potential depends on time"] if Sym("t") in letters else []
     return "; ".join(why)
 
@@ -58,7 +58,7 @@ def _energy_words(subject: SymbolicState) -> list[Block]:
     said = (
         f"is not conserved: {why}."
         if why
-        else "is conserved: all forces have potentials, and what joints and contacts exert does no work."
+        else "is conserved: all forces have potentials, and the reactions of joints and contacts do no work."
     )
     return [Paragraph(f"The sum of kinetic and potential energy {said}")]
 

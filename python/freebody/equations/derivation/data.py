@@ -1,4 +1,4 @@
-"""What the core tells of a state in letters: balances, rows, motions of bodies; read from JSON."""
+"""What the core tells of a state symbolically: balances, rows, motions of bodies; read from JSON."""
 
 from __future__ import annotations
 

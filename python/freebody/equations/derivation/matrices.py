@@ -49,7 +49,7 @@ def _uneven(content: Form, laws: int) -> str:
         return f"{these} in {unknowns} unknowns: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
     if equations < unknowns:
         return (
-            f"{these} in {unknowns} unknowns: what is held in more ways than needed, or rubs, "
+            f"{these} in {unknowns} unknowns: redundant constraints, or friction, "
             "takes a law of its own besides the balances."
         )
     return f"{these} in {unknowns} unknowns: some follow from the others."

@@ -54,7 +54,7 @@ def minimal(subject: SymbolicState) -> Form:
 
 
 def from_search(subject: SymbolicState, equations: list[BalanceEquation]) -> list[Stated] | None:
-    """Equations that a search found, in letters; None if one of them has no question."""
+    """Equations that a search found, symbolically; None if one of them has no question."""
     asked = [_alike(subject, equation) for equation in equations]
     if [] in asked:
         return None
@@ -120,9 +120,9 @@ def _introduction(subject: SymbolicState, form: Form, chosen: _Chosen) -> str:
     others = [name for name in form.reactions if name not in (*prescribed, *leading, *by_law)]
     count = "One balance equation" if number == 1 else f"{number} balance equations"
     if not number:
-        return "Nothing is free to move: no equation of motion is left. What holds it is found by brute force."
+        return "Nothing is free to move: no equation of motion is left. The reactions are found by the form brute."
     each = "" if number == 1 else ", one for each degree of freedom,"
-    said = [f"{count}{each} in which no reaction stands."]
+    said = [f"{count}{each} free of reactions."]
     if others and search:
         said = [f"No set of balance equations is free of reactions: {search.fewest_words}."]
         said.append(
@@ -132,9 +132,9 @@ def _introduction(subject: SymbolicState, form: Form, chosen: _Chosen) -> str:
         )
     elif leading:
         each = "" if number == 1 else f", one for each degree of freedom and one for {joined(leading)},"
-        said = [f"{count}{each} in which no other reaction stands."]
+        said = [f"{count}{each} free of other reactions."]
     elif prescribed or by_law:
-        said = [f"{count}{each} in which no reaction of a joint stands."]
+        said = [f"{count}{each} free of joint reactions."]
     if prescribed:
         verb = "is" if len(prescribed) == 1 else "are"
         said.append(f"The accelerations of prescribed motions are known; {joined(prescribed)} {verb} unknown in their place.")

@@ -1,4 +1,4 @@
-"""Momenta that stay constant, in letters, each with the reason for every load that could change it."""
+"""Momenta that stay constant, symbolically, each with the reason for every load that could change it."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def momenta(subject: SymbolicState) -> list[Momentum]:
 
 
 def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> bool:
-    """Whether a balance has no loads in letters; or has none in numbers, and loops and contacts are closed, which letters do not see.
+    """Whether a balance has no loads symbolically; or has none in numbers, and loops and contacts are closed, which letters do not see.
     The numbers are enough only if they were taken at several places."""
     moving = {c["name"] for c in subject.coordinates}
     stands = found.twist.question == {"about": "centre"} or not any(x.name in moving for x in symbols(*balance.place.xy))

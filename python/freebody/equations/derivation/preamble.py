@@ -26,12 +26,12 @@ def configuration(subject: SymbolicState) -> list[Block]:
     """The coordinates, and what each measures."""
     coordinates = subject.coordinates
     if not coordinates:
-        return [Heading("Configuration"), Paragraph("Nothing can move: there are no coordinates.")]
+        return [Heading("Configuration"), Paragraph("The mechanism cannot move: there are no coordinates.")]
     rows = [([Sym(c["name"])], _doc(c), c["dimension"] or "1") for c in coordinates]
     return [
         Heading("Configuration"),
-        Paragraph(f"{_freedom(subject)} {_count(len(coordinates))} where it is:"),
-        Table(("coordinate", "what it measures", "unit"), rows),
+        Paragraph(f"{_freedom(subject)} {_count(len(coordinates))}:"),
+        Table(("coordinate", "meaning", "unit"), rows),
         sketch(subject),
         *map(Paragraph, _reservations(subject)),
     ]
@@ -41,7 +41,7 @@ def _reservations(subject: SymbolicState) -> list[str]:
     """What holds for a while only, and does not show in the equations."""
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
     cases = [force["name"] for force in subject.source.about["forces"] if force["cases"] and force["name"] in acting]
-    said = [f"The law of {joined(cases)} has cases: it stands here as it is at this state."] if cases else []
+    said = [f"The law of {joined(cases)} has cases: the equations hold for the case at this state."] if cases else []
     if opening := [event["name"] for event in subject.source.spec.get("events", []) if event.get("opening")]:
         said.append(f"At the start of a motion {joined(opening)} happens; the equations are those before.")
     return said
@@ -77,7 +77,7 @@ def kinematics(subject: SymbolicState) -> list[Block]:
     named = directions(subject)
     made: list[Block] = [Heading("Kinematics"), Paragraph(_axes(subject.motions, *named.axes))]
     if named.pairs:
-        made += [Paragraph("Unit directions that turn:"), Bullets([pair.sentence(named.axes) for pair in named.pairs])]
+        made += [Paragraph("Rotating unit vectors:"), Bullets([pair.sentence(named.axes) for pair in named.pairs])]
         made += [Equation(left, right) for left, right in named.rates() if not subject.at_rest]
     for body in subject.motions:
         made += _body(body, named, subject.symbols)
@@ -136,11 +136,11 @@ def _doc(coordinate: dict) -> str:
     if not way:
         return doc
     letter, second, first, joint = way.groups()
-    return f"way of {second} along {joint}, on {first}" if letter == "s" else f"{letter} of {second}, seen from {first}"
+    return f"displacement of {second} along {joint}, on {first}" if letter == "s" else f"{letter} of {second}, seen from {first}"
 
 
 def _count(number: int) -> str:
-    return "One coordinate tells" if number == 1 else f"{number} coordinates tell"
+    return "Its configuration is described by one coordinate" if number == 1 else f"Its configuration is described by {number} coordinates"
 
 
 def _axes(motions: Sequence[Motion], x: str, y: str, z: str) -> str:

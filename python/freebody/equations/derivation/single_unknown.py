@@ -1,4 +1,4 @@
-"""The fewest balance equations that give one wanted quantity, in letters, with the numbers of the state."""
+"""The fewest balance equations that give one wanted quantity, symbolically, with the numbers of the state."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _introduction(found: SmallestSet) -> Words:
         return ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
     count = COUNT[number].capitalize()
     return [
-        f"{count} balance equations hold ", *names, " and no other unknown; fewer do not give ", _letter(found.wanted), "."
+        f"{count} balance equations contain ", *names, " and no other unknown; no smaller set determines ", _letter(found.wanted), "."
     ]  # fmt: skip
 
 
@@ -88,11 +88,11 @@ def _numeric(found: SmallestSet) -> list[Block]:
             Bullets(moves),
         ]
     lines = [line.strip() for line in str(found).splitlines() if line.strip()]
-    return [Heading("Balance equations"), Paragraph("The points of this set have no letters; in numbers it is:"), Bullets(lines)]
+    return [Heading("Balance equations"), Paragraph("The points of this set have no symbols; in numbers it is:"), Bullets(lines)]
 
 
 def _numbers(found: SmallestSet) -> list[Block]:
     rows = [([_letter(name)], figure(value)) for name, value in found.values.items()]
-    said = f"They differ from the solution of all equations by {found.check:.0e} of their size."
+    said = f"They agree with the solution of the complete system to a relative {found.check:.0e}."
     exact = "" if found.exact else " Not every set of bodies was tried: there are too many."
     return [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(said + exact)]

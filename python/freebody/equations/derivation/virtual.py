@@ -68,7 +68,7 @@ def section(subject: SymbolicState, wanted: int) -> list[Block]:
     except MotionError as error:
         if error.kind != "too_large":
             raise
-        return [head, Paragraph(f"{said}. In letters the equations are too long to be written.")]
+        return [head, Paragraph(f"{said}. The symbolic equations are too long to be written.")]
     driving = {load.symbol for load in subject.free.loads if load.kind == "motion"}
     working = list(dict.fromkeys(name for each in found for name in each.reactions if name not in driving))
     if working:

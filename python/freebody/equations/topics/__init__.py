@@ -35,14 +35,14 @@ class Topic:
 
 TOPICS: Mapping[str, Topic] = {
     "lagrange": Topic(lagrange, "Lagrange's equations, and how each is made of balance equations"),
-    "linear": Topic(linear, "small departures from an equilibrium: matrices, eigenvalues, stability; options: coordinates"),
+    "linear": Topic(linear, "small perturbations from an equilibrium: matrices, eigenvalues, stability; options: coordinates"),
     "frame": Topic(frame, "a point through a moving body: transport, relative, Coriolis; options: point, body"),
     "particle": Topic(particle, "a particle along i, j and in polar coordinates; options: body, about"),
     "moment": Topic(moment, "moments about a fixed or moving point, each with its right-hand side; options: about, bodies"),
     "elimination": Topic(elimination, "fewer equations by conserved momenta"),
     "impact": Topic(
         impact,
-        "a blow in the run, or of a point at rest: impulses, what is absent and why, momentum, restitution; options: number, of, at, or point, direction, impulse",
+        "an impact in the run, or of a point at rest: impulses, what is absent and why, momentum, restitution; options: number, of, at, or point, direction, impulse",
     ),
     "out_of_plane": Topic(out_of_plane, "what the plane exerts; options: gravity"),
 }

@@ -1,4 +1,4 @@
-"""Letters for what is long in the equations of a blow."""
+"""Letters for what is long in the equations of an impact."""
 
 from __future__ import annotations
 

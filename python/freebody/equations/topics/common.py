@@ -31,7 +31,7 @@ class NotHere(ValueError):
 
 
 def subject_of(mechanism: Builder, state: State, at_rest: bool = False) -> SymbolicState:
-    """A mechanism at a state, to be asked in letters."""
+    """A mechanism at a state, to be asked symbolically."""
     return SymbolicState(mechanism.source(), state, at_rest)
 
 

@@ -122,7 +122,7 @@ def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow],
         made += [
             Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), spread(tree)) for axis, tree in zip("xy", pair, strict=True)
         ]
-    made.append(Paragraph("Both ways give the same, for all values of the letters; it was checked at random ones."))
+    made.append(Paragraph("Both ways give the same, for all values of the symbols; it was checked at random ones."))
     return made
 
 

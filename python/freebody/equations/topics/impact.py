@@ -1,4 +1,4 @@
-"""A blow: impulses on each body, which are absent and why, impulse–momentum equations, restitution, rates after."""
+"""An impact: impulses on each body, which are absent and why, impulse–momentum equations, restitution, rates after."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def impact(
     impulse: Any = None,
     frame: str | None = None,
 ) -> Document:
-    """The blow of a ``number`` (from 1) in the run of a model: a contact, a string that becomes taut, a stop, what catches; ``of``
+    """The impact of a ``number`` (from 1) in the run of a model: a contact, a string that becomes taut, a stop, what catches; ``of``
     counts only those of one of these by name, ``at`` only those from a time on; the run tells where it is.
 
     With a ``point`` the model stands still as at its start, and is struck there: along a ``direction`` (an angle from the x axis of
@@ -55,7 +55,7 @@ def impact(
         if strike:
             raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
         found = blow(mechanism, int(number), of, at)
-        title = f"blow at {joined(list(found.change.of))}" if found.change.of else "blow of what catches"
+        title = f"impact at {joined(list(found.change.of))}" if found.change.of else "impact of the parts that engage"
     else:
         found = hammered(mechanism, state or mechanism.start()[0], point, **strike)
         title = f"struck at {point}"
@@ -64,9 +64,9 @@ def impact(
 
 
 def _what(found: Impact) -> list[Block]:
-    said = "In the short time of the blow nothing moves, but rates jump. Impulses are the integrals of forces over it."
+    said = "During the short impact the configuration stays the same, and the rates jump. Impulses are the integrals of forces over it."
     if found.subject.blow.given:
-        said += " Before it all stands still."
+        said += " Before it everything is at rest."
         said += "" if found.subject.source.about["limits"] else " Were there rates, they would stay, and the jumps add to them."
     made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
@@ -100,11 +100,11 @@ def _equations(found: Impact) -> list[Block]:
     if free:
         made.append(
             Paragraph(
-                "No impulse has a part in these, in the configuration of the blow, so the momenta are the same before and after:"
+                "No impulse has a part in these, in the configuration of the impact, so the momenta are the same before and after:"
             )
         )
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
-    before = ", for all stood still before" if found.subject.blow.given else " − momentum before"
+    before = ", everything was at rest before" if found.subject.blow.given else " − momentum before"
     made.append(Paragraph(f"With the impulses in them, one for each coordinate, impulse = momentum after{before}:"))
     of_coordinates = found.of_coordinates()
     made += [_with_impulses(found, each) for each in of_coordinates]
@@ -172,29 +172,29 @@ def _friction(found: Impact) -> list[Block]:
     made: list[Block] = []
     sizes = found.sizes()
     for load in found.slides:
-        note = "Coulomb's law, integrated over the blow: friction has all the impulse that it can, against the sliding."
+        note = "Coulomb's law, integrated over the impact: friction has all the impulse that it can, against the sliding."
         law = found.law(load)
-        made.append(Equation(found.letter(load), law, f"{load.name} slides throughout the blow", note=note))
+        made.append(Equation(found.letter(load), law, f"{load.name} slides throughout the impact", note=note))
     stuck = all(found.holds(each) for each in found.conditions())
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
             n, f = found.letter(normal), found.letter(load)
-            words = f"{load.name} does not slide any more after the blow, for friction can give what that takes"
+            words = f"{load.name} does not slide any more after the impact, for friction can give what that takes"
             share = [": ", f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]
             made.append(Paragraph([words, *(["."] if np.isnan(sizes[f] + sizes[n]) else share)]))
     return made
 
 
 def _answers(found: Impact) -> list[Block]:
-    made: list[Block] = [Heading("After the blow")]
+    made: list[Block] = [Heading("After the impact")]
     try:
         solved = jumps(found)
     except (TooLarge, Singular) as error:
-        return [*made, Paragraph(f"In letters no more is said: {error}."), *_matrix(found)]
+        return [*made, Paragraph(f"No more is given symbolically: {error}."), *_matrix(found)]
     except ArithmeticError as error:
-        return [*made, Paragraph(f"In letters no more is said: {error}.")]
+        return [*made, Paragraph(f"No more is given symbolically: {error}.")]
     made += _given(found)
-    made += _stated(solved.known, "What held before the blow gives of the rates then")
+    made += _stated(solved.known, "What held before the impact gives of the rates then")
     made += _stated(solved.names, "With")
     own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
     made += _stated(own, "So" if made[1:] else "")
@@ -212,7 +212,7 @@ def _given(found: Impact) -> list[Block]:
     said: list[str | Side] = [piece for x in there for piece in (x, " = ")] + ["0"] * bool(there)
     for x, tree in found.zeros.items():
         said += [", " if said else "", x, " = ", tree] if not is_zero(tree) else []
-    return [Paragraph(["At this blow ", *said, "."])] if said else []
+    return [Paragraph(["At this impact ", *said, "."])] if said else []
 
 
 def _matrix(found: Impact) -> list[Block]:
@@ -220,7 +220,7 @@ def _matrix(found: Impact) -> list[Block]:
     rows = Rows.of(found)
     matrix, right = rows.matrix(found)
     unknowns = [Sym(after(name), 1) for name in moving_names(found.subject)] + rows.impulses
-    name = "The balances of the coordinates, then what holds, in numbers (SI) at this blow"
+    name = "The balances of the coordinates, then what holds, in numbers (SI) at this impact"
     return [MatrixEquation([list(map(_figure, row)) for row in matrix], unknowns, list(map(_figure, right)), name)]
 
 
@@ -247,7 +247,7 @@ def _numbers(found: Impact) -> list[Block]:
     made: list[Block] = [Heading("In numbers" if given else "In the run"), Paragraph(where), Bullets(rows)]
     if impulses:
         made += [Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses)]
-    return [*made, Paragraph(f"The blow {took} J." + f" {change.note}" * bool(change.note))]
+    return [*made, Paragraph(f"The impact {took} J." + f" {change.note}" * bool(change.note))]
 
 
 def _clean(rate: float, small: float) -> float:

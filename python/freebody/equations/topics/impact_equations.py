@@ -1,4 +1,4 @@
-"""A blow in letters: what touches, rates before and after, impulses in place of forces."""
+"""An impact symbolically: what touches, rates before and after, impulses in place of forces."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _HALF = Fraction(1, 2)
 
 @dataclass(frozen=True)
 class Condition:
-    """A rate that is 0 after a blow, or minus ``back`` of what it was."""
+    """A rate that is 0 after an impact, or minus ``back`` of what it was."""
 
     name: str
     rate: Tree
@@ -48,7 +48,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Struck(SymbolicState):
-    """A mechanism during a blow, while all that was struck holds; rates are those before."""
+    """A mechanism during an impact, while all that was struck holds; rates are those before."""
 
     happened: Impulsive | None = None
 
@@ -65,7 +65,7 @@ class Struck(SymbolicState):
 
     @cached_property
     def rows_before(self) -> list[Row]:
-        """What held just before the blow."""
+        """What held just before the impact."""
         return list(map(Row.read, self.blow.rows_before()))
 
     def _ask(self, questions: Sequence[Mapping[str, Any]]) -> SymbolicAnswers:
@@ -74,7 +74,7 @@ class Struck(SymbolicState):
 
 @dataclass(frozen=True)
 class Impact:
-    """A blow of a run and the mechanism in letters during it."""
+    """An impact of a run and the mechanism symbolically during it."""
 
     subject: Struck
 
@@ -114,7 +114,7 @@ class Impact:
 
     @property
     def slides(self) -> list[Load]:
-        """Friction of what slides throughout the blow."""
+        """Friction of what slides throughout the impact."""
         return [load for load in self.subject.blow.acting if load.follows]
 
     def law(self, load: Load) -> Tree:
@@ -135,7 +135,7 @@ class Impact:
         return dict(pair for pair in found if pair is not None)
 
     def told(self, tree: Tree) -> Tree:
-        """An expression with the ``roots`` as what they are at the blow."""
+        """An expression with the ``roots`` as what they are at the impact."""
 
         def put(part: Tree) -> Tree | None:
             if isinstance(part, Pow) and part.exponent.denominator == 2 and part.base in self.roots:
@@ -145,7 +145,7 @@ class Impact:
         return rebuilt(tree, put) if self.roots else tree
 
     def after(self, tree: Tree) -> Tree:
-        """An expression with the rates after the blow."""
+        """An expression with the rates after the impact."""
         return put(tree, {Sym(name, 1): Sym(after(name), 1) for name in moving_names(self.subject)})
 
     def jump(self, balance: Balance) -> Tree:
@@ -161,7 +161,7 @@ class Impact:
         return put(add(*parts), self.impulses)
 
     def conditions(self) -> list[Condition]:
-        """What holds after the blow: rates that are 0, or so much of what they were."""
+        """What holds after the impact: rates that are 0, or so much of what they were."""
         rows = [(row, row.rate) for row in self.subject.rows if row.rate is not None]
         return [Condition(row.name, self.told(rate), self._back(row, rate)) for row, rate in rows]
 
@@ -182,7 +182,7 @@ class Impact:
         return [(e.title, b.with_trees(self.told)) for e, b in zip(found, balances, strict=True)] if free else []
 
     def _is_free(self, balance: Balance) -> bool:
-        """Whether no impulse has a part in a balance where the blow is; in letters it may take what touches to see it."""
+        """Whether no impulse has a part in a balance where the impact is; symbolically it may take what touches to see it."""
         subject = self.subject
         units = dict.fromkeys(self.impulses, 1.0)
         parts = [c.tree for c in balance.contributions if not c.internal and subject.blow.grows(subject.free.loads[c.load])]
@@ -190,7 +190,7 @@ class Impact:
 
     @cached_property
     def zeros(self) -> dict[Sym, Tree]:
-        """Coordinates, and rates before the blow, that are 0 there; and coordinates that are then as long as what holds."""
+        """Coordinates, and rates before the impact, that are 0 there; and coordinates that are then as long as what holds."""
         state, names = self.subject.state, moving_names(self.subject)
         found = [Sym(name) for name, x in zip(names, state.q, strict=True) if abs(x) < _NOTHING]
         found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
@@ -223,12 +223,12 @@ class Impact:
 
     @cached_property
     def letters(self) -> Letters:
-        """The letters of the model, of impulses and of rates after the blow."""
+        """The letters of the model, of impulses and of rates after the impact."""
         known = self.subject.letters
         own = [name for name, e in self.coefficients.items() if e.name not in known]
         made = [
             *(
-                Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the blow")
+                Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the impact")
                 for name in moving_names(self.subject)
             ),
             *(self._letter(load) for load in self.subject.blow.acting),
@@ -244,7 +244,7 @@ class Impact:
 
     @cached_property
     def values(self) -> dict[Sym, float]:
-        """The numbers of the letters before the blow."""
+        """The numbers of the letters before the impact."""
         return self.subject.values | {e: self.restitution[name] for name, e in self.coefficients.items()}
 
     @property
@@ -253,38 +253,38 @@ class Impact:
         return {Sym(after(name), 1): u for name, u in self.change.after.u.items()} if self.change.after else {}
 
     def rates_held_before(self) -> list[Tree]:
-        """Rates that were 0 just before the blow, because of what held then."""
+        """Rates that were 0 just before the impact, because of what held then."""
         held = [row.rate for row in self.subject.rows_before if row.rate is not None]
         return [rate for rate in held if self._vanishes(rate)]
 
     def held_before(self, condition: Condition) -> bool:
-        """Whether a condition held before the blow."""
+        """Whether a condition held before the impact."""
         return self._vanishes(condition.rate)
 
     def holds(self, condition: Condition) -> bool:
-        """Whether a condition holds after the blow, to the rounding of the rates."""
+        """Whether a condition holds after the impact, to the rounding of the rates."""
         one, other = (
             float(evaluate(side, self.values | self.rates_after, self.subject.tables)) for side in self.sides(condition)
         )
         return abs(one - other) <= self._rounding
 
     def sides(self, condition: Condition) -> tuple[Tree, Tree]:
-        """Of its equation: the rate after the blow, and what it is; not one less than nothing."""
+        """Of its equation: the rate after the impact, and what it is; not one less than nothing."""
         parts = condition.rate.terms if isinstance(condition.rate, Add) else (condition.rate,)
         turned = all(isinstance(part, Mul) and isinstance(part.factors[0], Num) and part.factors[0].value < 0 for part in parts)
         rate = negative(condition.rate) if turned else condition.rate
         return self.after(rate), negative(mul(condition.back, rate))
 
     def agrees(self, solution: Mapping[Sym, Tree]) -> bool:
-        """Whether rates after the blow are those that happened."""
+        """Whether rates after the impact are those that happened."""
         pairs = [(float(evaluate(solution[x], self.values, self.subject.tables)), u) for x, u in self.rates_after.items()]
         return all(abs(one - other) <= self._rounding for one, other in pairs)
 
     def otherwise(self) -> str:
-        """Why a blow is not what its equations say."""
+        """Why an impact is not what its equations say."""
         if any(load.kind == "friction" for load in self.forces):
             return (
-                "what slides reverses or stops sliding during the blow, so that friction has neither all the impulse that it can, "
+                "what slides reverses or stops sliding during the impact, so that friction has neither all the impulse that it can, "
                 "nor what it takes to stick; that is decided stage by stage, see the run"
             )
         return f"the run takes another law of impact. {self.change.note}".strip()
@@ -325,7 +325,7 @@ def _root(value: Tree) -> tuple[Tree, Tree] | None:
 
 
 def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | float | None = None) -> Impact:
-    """The blow of a ``number``, counted from 1, in the run of a mechanism: of all, of those of one contact, string or stop, or of
+    """The impact of a ``number``, counted from 1, in the run of a mechanism: of all, of those of one contact, string or stop, or of
     those from a time ``at`` on (s, or ``"200 ms"``). Raises ``NotHere``."""
     try:
         found = mechanism.blow(number, of=of, at=at)
@@ -352,7 +352,7 @@ def impulse(load: Load) -> str:
 
 
 def after(name: str) -> str:
-    """The letter of a coordinate whose rate is that after the blow."""
+    """The letter of a coordinate whose rate is that after the impact."""
     return (
         f"{name}_after"
         if not name[-1:].isdigit()

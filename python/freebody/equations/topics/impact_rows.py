@@ -1,4 +1,4 @@
-"""The equations of a blow, linear in what is unknown: rates after it, and impulses."""
+"""The equations of an impact, linear in what is unknown: rates after it, and impulses."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, mul, operations
 
 MOST_OPERATIONS = 300
-"""In a system, or in an answer before it is shortened, above which none is sought in letters."""
+"""In a system, or in an answer before it is shortened, above which none is sought symbolically."""
 
 Row = tuple[list[Tree], Tree]
 
 
 @dataclass(frozen=True)
 class Rows:
-    """What a blow asks, linear in what is unknown: the ``mass`` matrix and, of impulses, what they give to the balance of each
+    """What an impact asks, linear in what is unknown: the ``mass`` matrix and, of impulses, what they give to the balance of each
     coordinate (with what is given besides); then of each ``condition`` the factors of the rates, and the rest."""
 
     mass: list[list[Tree]]
@@ -32,7 +32,7 @@ class Rows:
 
     @classmethod
     def of(cls, found: Impact) -> Rows:
-        """Those of a blow, without impulses that no coordinate feels, and without conditions that hold by themselves."""
+        """Those of an impact, without impulses that no coordinate feels, and without conditions that hold by themselves."""
         before = [Sym(name, 1) for name in moving_names(found.subject)]
         now, impulses = [Sym(after(x.name), 1) for x in before], list(found.impulses.values())
         balances = [each.balance for each in found.of_coordinates()]
@@ -47,7 +47,7 @@ class Rows:
         )
 
     def require_small(self) -> None:
-        """Raises ``TooLarge`` where no answer in letters is sought."""
+        """Raises ``TooLarge`` where no answer symbolically is sought."""
         if len(self.impulses) != len(self.conditions):
             raise TooLarge(f"{len(self.conditions)} equations for {len(self.impulses)} unknowns: more is held than it takes")
         rows = [*self.mass, *(row for row, _ in self.gives), *(row for _, (row, _) in self.conditions)]
@@ -78,4 +78,4 @@ def _row(tree: Tree, unknowns: Sequence[Sym]) -> Row:
 def require_brief(trees: Sequence[Tree]) -> None:
     """Raises ``TooLarge``."""
     if (size := sum(map(operations, trees))) > MOST_OPERATIONS:
-        raise TooLarge(f"what acts together has {size} operations, which is too long for an answer in letters")
+        raise TooLarge(f"what acts together has {size} operations, which is too long for a symbolic answer")

@@ -1,4 +1,4 @@
-"""What a blow leaves, solved in letters: impulses first, then by them the rates."""
+"""What an impact leaves, solved symbolically: impulses first, then by them the rates."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _DEPENDS = 1e-9
 _READABLE = 90
 """Signs that an answer may have for the sake of holding no impulse."""
 _BRIEF = 40
-"""Signs of a rate after a blow above which it may be told by another."""
+"""Signs of a rate after an impact above which it may be told by another."""
 _HELPS = 12
 """Operations of a rate by others, above which it is no help."""
 _MOST_TOGETHER = 6
@@ -57,8 +57,8 @@ _Sides = tuple[Tree, Tree]
 
 @dataclass(frozen=True)
 class Jumps:
-    """``known``: rates before a blow that follow from others by what held then; ``names``: what is long, by letters; then the
-    ``impulses`` of what acts, the ``rates`` after the blow, and the impulses of ``joints`` that the balances of the coordinates
+    """``known``: rates before an impact that follow from others by what held then; ``names``: what is long, by letters; then the
+    ``impulses`` of what acts, the ``rates`` after the impact, and the impulses of ``joints`` that the balances of the coordinates
     do not have. Each may hold the letters of others, see ``told``."""
 
     known: Solution
@@ -85,7 +85,7 @@ class Jumps:
 
 
 def jumps(found: Impact) -> Jumps:
-    """What a blow leaves. Raises ``TooLarge``, ``Singular``; ``ArithmeticError`` where it is not what the run tells."""
+    """What an impact leaves. Raises ``TooLarge``, ``Singular``; ``ArithmeticError`` where it is not what the run tells."""
     if not all(found.holds(each) for each in found.conditions()):
         raise ArithmeticError(found.otherwise())
     rows = Rows.of(found)
@@ -97,7 +97,7 @@ def jumps(found: Impact) -> Jumps:
 
 
 class _System:
-    """The equations of a blow, what is long in them named, and their solution."""
+    """The equations of an impact, what is long in them named, and their solution."""
 
     def __init__(self, found: Impact, rows: Rows) -> None:
         self.found = found
@@ -112,7 +112,7 @@ class _System:
         self.acting = rows.impulses
 
     def solved(self) -> Jumps:
-        """Without impulses where that is short: of what is free after the blow. Else impulses first, then the rates by them; last
+        """Without impulses where that is short: of what is free after the impact. Else impulses first, then the rates by them; last
         the impulses of joints."""
         rates, impulses, full = self._freely() or self._by_impulses()
         joints, untold = {}, ""
@@ -124,7 +124,7 @@ class _System:
         return Jumps(self.known, used, impulses, rates, joints, untold)
 
     def _freely(self) -> tuple[Solution, Solution, Solution] | None:
-        """Where what holds after the blow leaves rates free, and the others follow from these by short expressions: impulses give
+        """Where what holds after the impact leaves rates free, and the others follow from these by short expressions: impulses give
         nothing to the balances of motions that it allows. Rates, impulses, and all of these by rates before."""
         free = [x for x in self.after if x not in self.follow]
         if len(self.follow) != len(self.rows) or not free:
@@ -172,7 +172,7 @@ class _System:
         return rates, {x: self._stated(tree, tree) for x, tree in impulses.items()}, {**impulses, **full}
 
     def _put(self, tree: Tree) -> Tree:
-        """An expression with what is 0 at the blow, and with letters for its angles."""
+        """An expression with what is 0 at the impact, and with letters for its angles."""
         zeros = self.found.zeros
         small = from_sympy(to_sympy(replace(tree, zeros))) if symbols(tree) & zeros.keys() else tree
         return self.names.angles(small)
@@ -184,7 +184,7 @@ class _System:
         return [self._entry(entry) for entry in row[0]], self._put(row[1])
 
     def _follows(self, rate: Sym, tree: Tree) -> bool:
-        """Whether a rate after the blow is better told by others."""
+        """Whether a rate after the impact is better told by others."""
         return rate in self.follow and self._signs(tree) > max(_BRIEF, self._signs(self.follow[rate]))
 
     def _signs(self, tree: Tree) -> int:
@@ -197,7 +197,7 @@ class _System:
         return {x: self._stated(tree, tree) for x, tree in self._one_by_one(chosen, wanted).items()}
 
     def _follow(self, held: Sequence[Tree]) -> Solution:
-        """Rates after the blow by others, from what holds then."""
+        """Rates after the impact by others, from what holds then."""
         now = dict(zip(self.before, self.after, strict=True))
         return self._bound([replace(rate, now) for rate in held], self.after)
 
@@ -255,7 +255,7 @@ class _System:
         return {x: self._stated(tree, replace(replace(tree, self.known), solution)) for x, tree in staged.items()}
 
     def _enough(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> list[_Sides]:
-        """The first equations that together give what is wanted, at the numbers of the blow."""
+        """The first equations that together give what is wanted, at the numbers of the impact."""
         values = self._numbers()
 
         def factor(x: Sym, tree: Tree) -> float:
@@ -304,7 +304,7 @@ class _System:
         return with_positive_divisors(without_circles(self.names.plain_angles(tree)), self._numbers())
 
     def _numbers(self) -> dict[Sym, float]:
-        """The numbers of all letters at the blow."""
+        """The numbers of all letters at the impact."""
         found = self.found
         values = found.values | found.rates_after | found.sizes()
         for name, tree in self.names.made.items():
@@ -343,4 +343,4 @@ def _divided(tree: Tree, by: Tree) -> Tree:
 def _require_few(unknowns: int) -> None:
     """Raises ``TooLarge``."""
     if unknowns > _MOST_TOGETHER:
-        raise TooLarge(f"{unknowns} unknowns that hang together are too many for an answer in letters")
+        raise TooLarge(f"{unknowns} unknowns that hang together are too many for a symbolic answer")

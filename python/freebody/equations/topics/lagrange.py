@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 Coefficients: TypeAlias = Mapping[Sym, Tree]
 _MOST_SIGNS = 400
-"""Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for in letters."""
+"""Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for symbolically."""
 _SAMPLES, _NOTHING = 3, 1e-8
 _ROUND_OFF = 1e-6
 """Part of the largest term of an equation, whose terms are multiplied out and cancel, that is round-off."""
@@ -62,7 +62,7 @@ def equations(subject: SymbolicState) -> tuple[Tree, Tree, list[Lagrange]]:
 
 
 def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequence[Stated]) -> list[list[Tree]] | None:
-    """Factors S such that equation i is Σ S[i][j] balance j, confirmed at random values; None where none are found in letters."""
+    """Factors S such that equation i is Σ S[i][j] balance j, confirmed at random values; None where none are found symbolically."""
     accelerations = [Sym(name, 2) for name in moving_names(subject)]
     inertia = [[balance.balance.linear.coefficients.get(x, ZERO) for x in accelerations] for balance in balances]
     made: list[list[Tree]] = []
@@ -84,7 +84,7 @@ def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequen
 
 
 def _plain(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[Sym]) -> list[Tree] | None:
-    """The factors where they are whole numbers, or all but one are 0: numbers tell, and nothing need be solved in letters."""
+    """The factors where they are whole numbers, or all but one are 0: numbers tell, and nothing need be solved symbolically."""
     try:
         own = linear_in(each.residual, accelerations).coefficients
     except ValueError:
@@ -148,7 +148,7 @@ def _equality(subject: SymbolicState, found: Sequence[Lagrange]) -> list[Block]:
         return [*made, Paragraph(_at_state(subject, found))]
     for each, row in zip(found, factors, strict=True):
         made.append(Paragraph(_sentence(each, row, balances)))
-    return [*made, Paragraph("This holds for all values of the letters; it was checked at random ones.")]
+    return [*made, Paragraph("This holds for all values of the symbols; it was checked at random ones.")]
 
 
 def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated]) -> Words:
@@ -177,7 +177,7 @@ def _at_state(subject: SymbolicState, found: Sequence[Lagrange]) -> str:
                 "none of them is printed: this is a fault of freebody, please report the model"
             )
     return (
-        "How they are made of balance equations is too long to be told in letters. The accelerations and loads of the balances "
+        "How they are made of balance equations is too long to be given symbolically. The accelerations and loads of the balances "
         f"satisfy them at this state to {largest:.1e} N or N·m."
     )
 

@@ -1,4 +1,4 @@
-"""Small departures from equilibrium: matrices, eigenvalues, when it is stable, frequencies."""
+"""small perturbations from equilibrium: matrices, eigenvalues, when it is stable, frequencies."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def _require_regular(subject: SymbolicState) -> None:
 
 
 def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[Block], Linearised]:
-    """The linear equations, and those of what is left free, in letters; where these are too long lengths and angles in numbers."""
+    """The linear equations, and those of what is left free, symbolically; where these are too long lengths and angles in numbers."""
     place = place_of(subject)
     put = {name: tree for name, tree in place.items() if is_natural(tree)} | chosen.settled()
     whole = linearised(subject, put)
@@ -125,7 +125,7 @@ def _letters_of(subject: SymbolicState) -> dict[str, Letter]:
     stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
     return {
         c["name"]: Letter(
-            f"{stem}{i}" if len(coordinates) > 1 else stem, "coordinate", c["dimension"] or "", f"departure of {c['name']}"
+            f"{stem}{i}" if len(coordinates) > 1 else stem, "coordinate", c["dimension"] or "", f"perturbation of {c['name']}"
         )
         for i, c in enumerate(coordinates, 1)
     }
@@ -134,7 +134,7 @@ def _letters_of(subject: SymbolicState) -> dict[str, Letter]:
 def _equations(subject: SymbolicState, found: Linearised) -> list[Block]:
     letters = _letters_of(subject)
     pairs = [(name, letter.name) for name, letter in letters.items() if name != letter.name]
-    said: list[str | Side] = ["For small departures"]
+    said: list[str | Side] = ["For small perturbations"]
     for i, (name, letter) in enumerate(pairs):
         said += ["," * bool(i) + " ", Sym(letter), " of ", Sym(name)]
     said.append(f"{'' if pairs else ' of the coordinates'} from there")
@@ -162,7 +162,7 @@ def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> li
     names = list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws))
     made: list[Block] = [Heading("What is left free")]
     if numbers:
-        made.append(Paragraph(["In letters this fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
+        made.append(Paragraph(["The symbolic form fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
         made.append(Paragraph(f"To first order {joined(names)} make these follow:"))
     made += [

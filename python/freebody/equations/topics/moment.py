@@ -101,7 +101,7 @@ def _verdict(point: str, extra: Tree) -> str:
     if is_zero(extra):
         return f"Σ M = dH/dt + v × L. Here {point} moves along with the momentum, so that v × L = 0 and Σ M = dH/dt holds."
     return (
-        "Σ M = dH/dt + v × L, for all values of the letters (checked at random ones). To write Σ M = dH/dt about the moving point "
+        "Σ M = dH/dt + v × L, for all values of the symbols (checked at random ones). To write Σ M = dH/dt about the moving point "
         f"would be wrong by v × L; about the fixed point where {point} is at the instant H has the same value, but its rate is "
         "dH/dt + v × L."
     )

@@ -1,4 +1,4 @@
-"""What becomes of small departures: eigenvalues, what drifts, dies out or oscillates, and when."""
+"""What becomes of small perturbations: eigenvalues, what drifts, dies out or oscillates, and when."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Factors = list[tuple[list[Tree], int]]
 
 
 def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter]) -> list[Block]:
-    """Characteristic equation, eigenvalues and stability of linear equations, in letters as far as they are short."""
+    """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short."""
     made: list[Block] = []
     positive = [letter.name for letter, value in subject.values.items() if not letter.dots and value > 0]
     try:
@@ -34,7 +34,7 @@ def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, L
         made += _eigenvalues(matrix, subject, positive)
         made += _stability(parts, subject, found, letters, positive)
     except (TooLarge, Singular) as error:
-        made.append(Paragraph(f"In letters no more is said: {error}."))
+        made.append(Paragraph(f"No more is given symbolically: {error}."))
     return made + _numbers(subject, found)
 
 
@@ -99,7 +99,7 @@ def _stability(
     if not stated:
         return made
     if near.grows and not any(each.never for each in stated):
-        return [*made, Paragraph("Equal eigenvalues share one direction, in which departures grow with time: it is unstable.")]
+        return [*made, Paragraph("Equal eigenvalues share one direction, in which perturbations grow with time: it is unstable.")]
     conditions = list(dict.fromkeys(c for each in stated for c in each.conditions))
     never = any(each.never for each in stated)
     moving = listed(Sym(letters[name].name) for name in near.moving)
@@ -116,18 +116,18 @@ def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
         made.append(Paragraph(["Nothing brings back ", *names, f": with any small constant speed {drifts} stay near."]))
     if rest := [name for name in near.free if name not in near.drifting]:
         names = listed(Sym(letters[name].name) for name in rest)
-        made.append(Paragraph(["Nothing brings back ", *names, ": a small departure stays as it is."]))
+        made.append(Paragraph(["Nothing brings back ", *names, ": a small perturbation stays as it is."]))
     return made
 
 
 def _verdict(stated: Sequence[Stability], free: bool, conditions: bool, never: bool, moving: Sequence[str | Side]) -> Words:
     kinds = {each.kind for each in stated}
-    what: list[str | Side] = ["Apart from that small departures of ", *moving] if free else ["Small departures"]
+    what: list[str | Side] = ["Apart from that small perturbations of ", *moving] if free else ["small perturbations"]
     if never:
-        return [*what, " grow, whatever the values of the letters: it is unstable."]
+        return [*what, " grow, whatever the values of the symbols: it is unstable."]
     does = {"decays": "die out", "oscillates": "stay small and oscillate"}.get(*kinds) if len(kinds) == 1 else None
     does = does or "stay small: some die out, others oscillate"
-    return [*what, f" {does}{' if' if conditions else ' for all values of the letters (those of the model being positive).'}"]
+    return [*what, f" {does}{' if' if conditions else ' for all values of the symbols (those of the model being positive).'}"]
 
 
 def _numbers(subject: SymbolicState, found: Linearised) -> list[Block]:

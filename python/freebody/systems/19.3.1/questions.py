@@ -150,5 +150,5 @@ def string(case):
         pull = run.evaluate("leash.tension", times)
         yield Answer(f"tension at {times[0]} … {times[-1]:g} s, {name}", pull, "N", K * closed.distance(times), near, 1e-5)
         if straight:
-            assert run.outcome.name == "string_drawn_in", run.outcome.sentence
+            assert run.outcome.name == "string_zero_length", run.outcome.sentence
             yield Answer("drawn into the hole at", run.outcome.t, "s", np.arctan2(2 / 3 * W, 1) / W, near, 1e-5)

@@ -25,7 +25,7 @@ LONG, PAST = 2.0, 0.5
 
 
 def happened(run):
-    """What switched: kind and time of each change after the start."""
+    """Mode changes: kind and time of each change after the start."""
     return [(change.kind, change.of, change.t) for change in run.changes if change.t > 0]
 
 
@@ -33,7 +33,7 @@ def on(degrees):
     return G * sin(degrees * pi / 180)
 
 
-@ask("Over a pulley, in letters")
+@ask("Over a pulley, symbolically")
 def in_letters(case):
     closed = {
         "x1": "g*(m1*sin(alpha1) - m2*sin(alpha2))/(m1 + m2)",

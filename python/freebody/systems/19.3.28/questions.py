@@ -54,7 +54,7 @@ def release(case):
         )
 
 
-@ask("The answer in letters: other m, ℓ, g")
+@ask("The symbolic answer: other m, ℓ, g")
 def letters(case):
     m, length, g = 2.7, 0.4, 3.71
     now = case.instant(parameters={"m": m, "l": length, "g": g})

@@ -66,7 +66,7 @@ def instant(case, state, gravity=DOWN):
     )
 
 
-@ask("in letters: the torques that hold the arm straight out")
+@ask("symbolically:  the torques that hold the arm straight out")
 def in_letters(case):
     closed = {"elbow motor": "m2*g*l2", "shoulder motor": "g*(m1*l1 + m2*(l3 + l2))"}
     yield from case.in_letters(closed, "statics: moments about elbow and shoulder", "held.yaml")

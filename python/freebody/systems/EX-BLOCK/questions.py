@@ -37,7 +37,7 @@ def forces(y, shares):
     return (total - difference) / 2, (total + difference) / 2, shares[0] * normal, shares[1] * normal
 
 
-@ask("in letters")
+@ask("symbolically")
 def in_letters(case):
     below = "(m1 + m2*sin(tip)^2)"
     closed = {"x": f"m2*g*sin(tip)*cos(tip)/{below}", "y": f"(m1 + m2)*g*sin(tip)/{below}"}

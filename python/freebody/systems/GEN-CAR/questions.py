@@ -138,7 +138,7 @@ def parts(case):
         )
 
 
-@ask("in letters: each part's rate by that of the crank, and the one equation of motion")
+@ask("symbolically:  each part's rate by that of the crank, and the one equation of motion")
 def in_letters(case):
     """The rod's centre is at x + r sin θ − l/2 sin ψ, r cos θ + l/2 cos ψ; k are rates for θ̇ = 1, c accelerations for θ̈ = 0."""
     found = case.mechanism().solve_in_letters(["thc"])

@@ -54,7 +54,7 @@ def released(n):
         return [float(a) for a in turn], [float(f) for f in forces], float(sum(turn))
 
 
-@ask("at release, in letters: three links")
+@ask("at release, symbolically: three links")
 def in_letters(case):
     """M φ̈ = b in parts of mℓ² and mgℓ, exactly; hinge i carries what the links from i on weigh, less m times their fall."""
     places = range(3)

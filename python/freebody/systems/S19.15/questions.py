@@ -70,7 +70,7 @@ def instants(case):
         yield Answer(f"R, {name}", now["wheels.Fy"], "N", R, LINEAR, 1e-12)
 
 
-@ask("The solution in letters")
+@ask("The symbolic solution")
 def letters(case):
     for name in ("the first set", "no friction", "a base that hardly moves"):
         now = case.instant(parameters=SETS[name])

@@ -21,7 +21,7 @@ def rates(torque):
     return lambda t, y: [y[2], y[3], (torque - 2 * M2 * y[1] * y[3] * y[2]) / (I1 + M2 * y[1] ** 2), y[1] * y[2] ** 2]
 
 
-@ask("in letters: the two equations")
+@ask("symbolically:  the two equations")
 def in_letters(case):
     closed = {"theta": "(T - 2*m2*R*rate(R)*rate(theta))/(m1*l^2/3 + m2*R^2)", "R": "R*rate(theta)^2"}
     yield from case.in_letters(closed, "closed form: moments about A, no force along the rod")

@@ -40,7 +40,7 @@ def forces(theta, spin, M, m, l, slope):
     return normal, m * (G * np.cos(theta - slope) - along * np.sin(theta) + l * spin**2)
 
 
-@ask("in letters: θ̈ alone, and the heavy cart on level ground")
+@ask("symbolically:  θ̈ alone, and the heavy cart on level ground")
 def in_letters(case):
     below = "(M + m*sin(theta)^2)"
     closed = {

@@ -38,7 +38,7 @@ def rates(eps=1.0, gravity=0.0):
     return right
 
 
-@ask("in letters: the two equations")
+@ask("symbolically:  the two equations")
 def in_letters(case):
     below = "(m*eps^2*(M + m*cos(theta)^2))"
     along = "(m*eps*rate(theta)^2*cos(theta) - k*x)"

@@ -34,7 +34,7 @@ nav {{ columns: 24em; margin-bottom: 2em }} nav a {{ display: block; color: #0b5
 
 def write_gallery(models: Iterable[tuple[str, Path]], path: Path) -> Path:
     """One page with the diagrams of models, each with a heading and a link to it: every body, and the group of all where there are
-    several; and the impulses of the first blow of each kind in its run. A model whose start has no answer is named with the reason."""
+    several; and the impulses of the first impact of each kind in its run. A model whose start has no answer is named with the reason."""
     from freebody.model import Mechanism
 
     links, sections = [], []
@@ -61,7 +61,7 @@ def _pictures(mechanism: Mechanism, prefix: str) -> str:
 
 
 def _impacts(mechanism: Mechanism, prefix: str) -> Iterator[str]:
-    """The impulse diagrams of the run, one blow of each kind: its bodies, and all together where there are several."""
+    """The impulse diagrams of the run, one impact of each kind: its bodies, and all together where there are several."""
     for k, (number, impact) in enumerate(_kinds(mechanism)):
         what = " and ".join(impact.change.of) or "what is engaged"
         yield f"<h3>Blow {number} of the run, of {escape(what)}, at t = {impact.change.t:.4g} s: impulses</h3>"
@@ -71,7 +71,7 @@ def _impacts(mechanism: Mechanism, prefix: str) -> Iterator[str]:
 
 
 def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Impact]]:
-    """The first blow of every kind, and its number; parts that repeat are of one kind. Of a model that does not run there is none."""
+    """The first impact of every kind, and its number; parts that repeat are of one kind. Of a model that does not run there is none."""
     from freebody.core import MotionError
     from freebody.model.errors import ModelFileError
 

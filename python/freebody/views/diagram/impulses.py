@@ -1,4 +1,4 @@
-"""Impulse diagrams: what acts on each body during a blow, and the jump of its momentum."""
+"""Impulse diagrams: what acts on each body during an impact, and the jump of its momentum."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class _Jumps(Labels):
 
 @dataclass(frozen=True)
 class Impulses(Picture):
-    """The impulse diagrams of every body during a blow, drawn when they are asked for."""
+    """The impulse diagrams of every body during an impact, drawn when they are asked for."""
 
     name: str
     blow: Impulsive
@@ -67,7 +67,7 @@ def impulse_diagram(
     effective: bool = True,
     column: float = COLUMN,
 ) -> Diagram:
-    """Impulse diagrams of groups of bodies (by default every body by itself) during a blow, with what is absent and why."""
+    """Impulse diagrams of groups of bodies (by default every body by itself) during an impact, with what is absent and why."""
     free, source = impact.impulses, impact.source
     touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
     builder = DiagramBuilder(source, impact.state, touched, touched, _Jumps(ImpulseNaming.of(impact)), scaled, effective, column)

@@ -98,7 +98,7 @@ def _energy(run: Run) -> list[dict[str, Any]]:
     curves = [*ledger.entries.items(), ("kinetic + potential", ledger.kinetic + ledger.potential)]
     return [
         _plot("Energy", "J", run, curves),
-        _plot("Energy that does not add up", "J", run, [("balance", ledger.balance)]),
+        _plot("Energy error", "J", run, [("balance", ledger.balance)]),
     ]
 
 

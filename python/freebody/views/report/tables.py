@@ -40,7 +40,7 @@ def sections(run: Run) -> str:
 
 def _notes(run: Run) -> str:
     lines = "".join(f"<li>{escape(_sentence(note))}</li>" for note in run.about["notes"])
-    return f'<section class="card"><h2>What is modelled</h2><ul>{lines}</ul></section>' if lines else ""
+    return f'<section class="card"><h2>Model assumptions</h2><ul>{lines}</ul></section>' if lines else ""
 
 
 def _sentence(text: str) -> str:
@@ -95,7 +95,7 @@ def _events(run: Run, most: int = 100) -> str:
 
 
 def _switched(run: Run, first: int = 60, last: int = 3) -> str:
-    """What switched; of very much the first and the last."""
+    """Mode changes; of very much the first and the last."""
     shown = run.changes if len(run.changes) <= first + last else [*run.changes[:first], *run.changes[-last:]]
     rows = [
         (
@@ -110,7 +110,7 @@ def _switched(run: Run, first: int = 60, last: int = 3) -> str:
     ]
     remark = f"the first {first} and the last {last} of {len(run.changes)}" if len(shown) < len(run.changes) else ""
     heads = ("t / s", "kind", "what", "energy lost / J", "impulse / N·s", "")
-    return _table("What switched", heads, rows, remark, "across")
+    return _table("Mode changes", heads, rows, remark, "across")
 
 
 def _peaks(run: Run) -> str:
@@ -148,7 +148,7 @@ def _ledger(run: Run) -> str:
         "Energy ledger",
         ("J", "start", "end", "least", "most"),
         rows,
-        f"The books close within {worst:.1e} J at all output times.".replace("e-", "e−"),
+        f"Energy error below {worst:.1e} J at all output times.".replace("e-", "e−"),
     )
 
 
