@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from freebody.core import CompiledModel, ExpressionError, FreeBodies, cards, parse
+from freebody.core import CompiledModel, FreeBodies, cards
+from freebody.model import syntax
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.tree import Fn, walk
 
 _SWITCHES = frozenset(["abs", "sign", "step", "min", "max", "clamp", "if"])
 _COMPARED = frozenset(["<", "<=", ">", ">=", "==", "!=", "and", "or", "not"])
@@ -52,7 +55,7 @@ def _check_laws(spec: Mapping[str, Any]) -> None:
     for section in _LAWS:
         for item in spec[section]:
             for text in _texts(item):
-                used = set(_words(text))
+                used = _words(text)
                 if found := sorted(used & tables):
                     what, hint = f"is given by the table {found[0]!r}", "a formula in its place can be generated"
                 elif found := sorted(used & (_SWITCHES | _COMPARED)):
@@ -74,17 +77,9 @@ def _texts(item: Any) -> Iterator[str]:
             yield from _texts(value)
 
 
-def _words(text: str) -> Iterator[str]:
-    """Names of functions, and operators, in an expression; nothing where the text is none (the name of a point)."""
+def _words(text: str) -> set[str]:
+    """Names of functions, and operators that compare, in an expression; nothing where the text is none (the name of a point)."""
     try:
-        waiting = [parse(text)]
-    except ExpressionError:
-        return
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, str):
-            yield node
-        elif isinstance(node, Mapping):
-            waiting += [value for key, value in node.items() if key not in ("name", "span")]
-        elif isinstance(node, list):
-            waiting += node
+        return {node.name for node in walk(syntax.parse(text).tree) if isinstance(node, Fn)}
+    except ModelProblem:
+        return set()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import operator
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -11,26 +12,31 @@ from typing import Any
 
 from freebody import core
 from freebody.core import ExpressionError
+from freebody.symbolic.evaluate import value as value_of
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Span, Sym, walk
 
 from . import units
 from .errors import ModelProblem
 from .names import suggestion
 from .units import ANGLE, ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
 
-Tree = dict[str, Any]
-"""A tree of the core: ``{"number": 2.0}``, ``{"name": …}``, ``{"call": [name, […]]}``, ``{"negate": …}``,
-``{"not": …}`` or ``{"chain": [first, [[operator, tree], …]]}``, each with its ``span``."""
-
 Lookup = Callable[[str], "Dimension | None"]
 
 
 @dataclass(frozen=True)
 class Expression:
-    """A parsed expression: its text in SI, its tree, and the dimension of each number in it (None: bare)."""
+    """A parsed expression: its text in SI, its tree, and the dimension of each number by its place in the text (None: bare).
+
+    Places count the bytes of the text. Comparisons and what joins them are functions called ``<``, ``and``, ``not`` …"""
 
     text: str
-    tree: Tree
-    numbers: tuple[Dimension | None, ...]
+    tree: Node
+    numbers: Mapping[Span, Dimension | None]
+
+    def show(self, tree: Node) -> str:
+        """A part as it is written."""
+        start, end = tree.span
+        return self.text.encode()[start:end].decode(errors="replace")
 
 
 @lru_cache(maxsize=4096)
@@ -38,7 +44,7 @@ def parse(text: str) -> Expression:
     """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``). Raises ``ModelProblem``."""
     rewritten = units.rewrite(text)
     try:
-        tree = core.parse(rewritten.text)
+        tree = _node(core.parse(rewritten.text))
     except UnicodeEncodeError:
         raise ModelProblem("the expression holds a character that is none", "type it anew") from None
     except ExpressionError as error:
@@ -46,21 +52,47 @@ def parse(text: str) -> Expression:
         raise ModelProblem(
             f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), error.hint
         ) from None
-    return Expression(rewritten.text, tree, tuple(rewritten.numbers))
+    places = (node.span for node in walk(tree) if isinstance(node, Num))
+    return Expression(rewritten.text, tree, dict(zip(places, rewritten.numbers, strict=True)))
 
 
-def names(tree: Tree) -> list[str]:
-    """All names that an expression reads, those of functions left out."""
-    match tree:
+def _node(data: Mapping[str, Any]) -> Node:
+    """The tree that the core tells."""
+    span = tuple(data["span"])
+    match data:
+        case {"number": number}:
+            return Num(float(number), span=span)
         case {"name": name}:
-            return [name]
-        case {"negate": inner} | {"not": inner}:
-            return names(inner)
-        case {"call": [_, arguments]}:
-            return [n for argument in arguments for n in names(argument)]
+            return Sym(name, span=span)
+        case {"negate": inner}:
+            return Negative(_node(inner), span=span)
+        case {"not": inner}:
+            return Fn("not", (_node(inner),), span=span)
+        case {"call": [name, arguments]}:
+            return Fn(name, tuple(map(_node, arguments)), span=span)
+        case {"chain": [first, [(("+" | "-"), _), *_] as rest]}:
+            terms = [Negative(_node(part), span=tuple(part["span"])) if sign == "-" else _node(part) for sign, part in rest]
+            return Add((_node(first), *terms), span=span)
         case {"chain": [first, rest]}:
-            return names(first) + [n for _, part in rest for n in names(part)]
-    return []
+            total = _node(first)
+            for sign, part in rest:
+                right = _node(part)
+                total = _joined(sign, total, right, (total.span[0], right.span[1]))
+            return total
+    raise AssertionError(data)
+
+
+def _joined(sign: str, left: Node, right: Node, span: Span) -> Node:
+    if sign == "*":
+        return Mul((left, right), span=span)
+    if sign in ("/", "^"):
+        return (Quotient if sign == "/" else Pow)(left, right, span=span)
+    return Fn(sign, (left, right), span=span)
+
+
+def names(tree: Node) -> list[str]:
+    """All names that an expression reads, those of functions left out."""
+    return [node.name for node in walk(tree) if isinstance(node, Sym)]
 
 
 # -- dimensions ----------------------------------------------------------------------------------
@@ -101,56 +133,55 @@ class Measure:
     """The dimension of an expression. Bare numbers, and names that ``lookup`` gives as None, fit anywhere."""
 
     def __init__(self, expression: Expression, lookup: Lookup, tables: Callable[[str], bool] = lambda _: False) -> None:
-        self.text = expression.text
-        self.numbers = iter(expression.numbers)
-        self.lookup = lookup
-        self.tables = tables
+        self.expression, self.lookup, self.tables = expression, lookup, tables
 
-    def of(self, tree: Tree) -> Dimension | None:
+    def of(self, tree: Node) -> Dimension | None:
         """The dimension of a tree; None when it fits anywhere. Raises ``ModelProblem``."""
         match tree:
-            case {"number": _}:
-                return next(self.numbers)
-            case {"name": "pi"}:
+            case Num():
+                return self.expression.numbers[tree.span]
+            case Sym("pi"):
                 return None
-            case {"name": name}:
+            case Sym(name):
                 return self.lookup(name)
-            case {"negate": inner} | {"not": inner}:
+            case Negative(inner) | Fn("not", (inner,)):
                 return self.of(inner)
-            case {"call": [name, arguments]}:
-                return self._call(name, arguments)
-            case {"chain": [first, rest]}:
-                return self._chain(first, rest)
+            case Add(terms):
+                return self._same(terms)
+            case Mul((left, right)):
+                return _product(self.of(left), self.of(right), 1, right)
+            case Quotient(left, right):
+                return _product(self.of(left), self.of(right), -1, right)
+            case Pow(base, exponent):
+                return self._power(self.of(base), exponent)
+            case Fn(name, (left, right)) if name in COMPARISONS:
+                return self._same((left, right)) and None
+            case Fn("and" | "or", parts):
+                return [self.of(part) for part in parts] and None
+            case Fn(name, arguments):
+                return self._call(name, list(arguments))
         raise AssertionError(tree)
 
-    def _chain(self, first: Tree, rest: list[tuple[str, Tree]]) -> Dimension | None:
-        total, shown = self.of(first), first
-        for operator, tree in rest:
-            if operator == "^":
-                return self._power(total, tree)
-            dimension = self.of(tree)
-            if operator in ("*", "/"):
-                total = _product(total, dimension, operator, tree)
-            elif operator in ("and", "or"):
-                total = None
-            else:
-                total = self._alike(total, dimension, shown, tree)
-        return None if rest and rest[0][0] in COMPARISONS else total
+    def _same(self, terms: Sequence[Node]) -> Dimension | None:
+        total = self.of(terms[0])
+        for term in terms[1:]:
+            total = self._alike(total, self.of(term), terms[0], term)
+        return total
 
-    def _power(self, base: Dimension | None, exponent: Tree) -> Dimension | None:
+    def _power(self, base: Dimension | None, exponent: Node) -> Dimension | None:
         self._must_be_number(self.of(exponent), exponent, "an exponent")
         try:
             power = Fraction(evaluate(exponent, _no_name)).limit_denominator(12)
         except (ModelProblem, ArithmeticError, ValueError):
             if base is not None and not base.is_number:
                 raise ModelProblem(
-                    f"the exponent in `{self.text}` must be a number, because its base is {base.words()}",
+                    f"the exponent in `{self.expression.text}` must be a number, because its base is {base.words()}",
                     "write the number itself",
                 ) from None
             return base
         return None if base is None else base.to_the(power)
 
-    def _call(self, name: str, arguments: list[Tree]) -> Dimension | None:
+    def _call(self, name: str, arguments: list[Node]) -> Dimension | None:
         if name in _READS:
             return units.unit(_READS[name]).dimension
         if self.tables(name):
@@ -169,7 +200,7 @@ class Measure:
             return ANGLE if name.startswith("a") else NUMBER_ONLY
         return self._mixed(name, found, arguments)
 
-    def _mixed(self, name: str, found: list[Dimension | None], arguments: list[Tree]) -> Dimension | None:
+    def _mixed(self, name: str, found: list[Dimension | None], arguments: list[Node]) -> Dimension | None:
         if name == "if":
             found, arguments = found[1:], arguments[1:]
         total = found[0] if found else None
@@ -179,42 +210,40 @@ class Measure:
             return ANGLE
         return NUMBER_ONLY if name in ("sign", "step") else total
 
-    def _must_be_number(self, dimension: Dimension | None, tree: Tree, what: str) -> None:
+    def _must_be_number(self, dimension: Dimension | None, tree: Node, what: str) -> None:
         if dimension is not None and not dimension.is_number:
             hint = "check the units of the parameters"
-            raise ModelProblem(f"{what} must be an angle or a plain number; `{self._show(tree)}` is {dimension.words()}", hint)
+            raise ModelProblem(
+                f"{what} must be an angle or a plain number; `{self.expression.show(tree)}` is {dimension.words()}", hint
+            )
 
-    def _alike(self, a: Dimension | None, b: Dimension | None, left: Tree, right: Tree) -> Dimension | None:
+    def _alike(self, a: Dimension | None, b: Dimension | None, left: Node, right: Node) -> Dimension | None:
         if a is None or b is None:
             return a if b is None else b
         if a.fits(b):
             return a
-        both = f"`{self._show(left)}` is {a.words()} and `{self._show(right)}` is {b.words()}"
-        raise ModelProblem(f"in `{self.text}`, {both}: they cannot be added or compared", "check the units of the parameters")
-
-    def _show(self, tree: Tree) -> str:
-        start, end = tree["span"]
-        return self.text.encode()[start:end].decode(errors="replace")
+        both = f"`{self.expression.show(left)}` is {a.words()} and `{self.expression.show(right)}` is {b.words()}"
+        raise ModelProblem(
+            f"in `{self.expression.text}`, {both}: they cannot be added or compared", "check the units of the parameters"
+        )
 
 
-def _product(a: Dimension | None, b: Dimension | None, operator: str, tree: Tree) -> Dimension | None:
+def _product(a: Dimension | None, b: Dimension | None, power: int, right: Node) -> Dimension | None:
     """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides, a root and π do not (``m2/3``, ``a*sqrt(2)``)."""
-    if b is None and (_is_root_or_pi(tree) or (operator == "/" and _whole_number(tree))):
+    if b is None and (_is_root_or_pi(right) or (power == -1 and _whole_number(right))):
         return a
-    if a is None or b is None:
-        return None
-    return a.times(b, 1 if operator == "*" else -1)
+    return None if a is None or b is None else a.times(b, power)
 
 
-def _whole_number(tree: Tree) -> bool:
-    return float(tree.get("number", 0.5)).is_integer()
+def _whole_number(tree: Node) -> bool:
+    return isinstance(tree, Num) and float(tree.value).is_integer()
 
 
-def _is_root_or_pi(tree: Tree) -> bool:
+def _is_root_or_pi(tree: Node) -> bool:
     match tree:
-        case {"name": "pi"}:
+        case Sym("pi"):
             return True
-        case {"call": ["sqrt", [argument]]}:
+        case Fn("sqrt", (argument,)):
             return _whole_number(argument)
     return False
 
@@ -225,63 +254,36 @@ def _no_name(name: str) -> float:
 
 # -- values --------------------------------------------------------------------------------------
 
-_OPERATORS: dict[str, Callable[[float, float], float]] = {
-    "+": lambda a, b: a + b,
-    "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
-    "/": lambda a, b: a / b,
-    "^": lambda a, b: math.pow(a, b),
-    "<": lambda a, b: a < b,
-    "<=": lambda a, b: a <= b,
-    ">": lambda a, b: a > b,
-    ">=": lambda a, b: a >= b,
-    "==": lambda a, b: a == b,
-    "!=": lambda a, b: a != b,
-    "and": lambda a, b: bool(a) and bool(b),
-    "or": lambda a, b: bool(a) or bool(b),
-}
-_CALLS: dict[str, Callable[..., float]] = {
+_FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot")},
     **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh")},
-    "ln": math.log,
-    "abs": abs,
-    "min": min,
-    "max": max,
+    "ln": math.log, "abs": abs, "min": min, "max": max,
     "sign": lambda x: float((x > 0) - (x < 0)),
     "step": lambda x: float(x >= 0),
     "clamp": lambda x, low, high: min(max(x, low), high),
-}
+    "^": math.pow, "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+    "and": lambda a, b: bool(a) and bool(b), "or": lambda a, b: bool(a) or bool(b), "not": operator.not_,
+}  # fmt: skip
+"""Numbers of a model, by the functions of ``math``, which refuse what has no value."""
 
 
-def evaluate(tree: Tree, value: Callable[[str], float]) -> float:
+def evaluate(tree: Node, value: Callable[[str], float]) -> float:
     """The number of a tree of parameters only. Raises ``ModelProblem``, and ``ArithmeticError`` or ``ValueError`` like ``math``."""
-    match tree:
-        case {"number": number}:
-            return float(number)
-        case {"name": "pi"}:
-            return math.pi
-        case {"name": name}:
-            return value(name)
-        case {"negate": inner}:
-            return -evaluate(inner, value)
-        case {"not": inner}:
-            return not evaluate(inner, value)
-        case {"call": ["if", [condition, then, otherwise]]}:
-            return evaluate(then if evaluate(condition, value) else otherwise, value)
-        case {"call": [name, arguments]} if name in _CALLS:
-            return _called(name, [evaluate(a, value) for a in arguments])
-        case {"call": [name, _]}:
-            raise ModelProblem(f"`{name}(…)` changes with the motion; a number of the model depends on parameters only")
-        case {"chain": [first, rest]}:
-            total = evaluate(first, value)
-            for operator, tree in rest:
-                total = _OPERATORS[operator](total, evaluate(tree, value))
-            return total
-    raise AssertionError(tree)
-
-
-def _called(name: str, arguments: list[float]) -> float:
+    for call in walk(tree):
+        if isinstance(call, Fn) and call.name != "if" and call.name not in _FUNCTIONS:
+            raise ModelProblem(f"`{call.name}(…)` changes with the motion; a number of the model depends on parameters only")
+    letter = lambda each: math.pi if each.name == "pi" else value(each.name)
     try:
-        return _CALLS[name](*arguments)
+        return value_of(tree, letter, float, _FUNCTIONS)
     except TypeError:
-        raise ModelProblem(f"`{name}` does not take {len(arguments)} arguments") from None
+        found = next(call for call in walk(tree) if isinstance(call, Fn) and not _takes(call))
+        raise ModelProblem(f"`{found.name}` does not take {len(found.args)} arguments") from None
+
+
+def _takes(call: Fn) -> bool:
+    """Whether a function takes so many arguments."""
+    try:
+        call.name == "if" or _FUNCTIONS[call.name](*[0.5] * len(call.args))
+    except TypeError:
+        return False
+    return True

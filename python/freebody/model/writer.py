@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
+
+from freebody.symbolic.tree import Fn, Node, Sym, walk
 
 from . import syntax, units
 from .arithmetic import Number
@@ -132,20 +135,12 @@ class Writer:
             hint = f"after a number, `{words[0]}` is read as a unit; for the parameter write a product, `*{words[0]}`"
         raise ModelProblem(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
 
-    def _check_arguments(self, tree: syntax.Tree) -> None:
-        match tree:
-            case {"call": [name, arguments]} if name in _ARGUMENTS and name not in self.meanings.tables:
-                self._check_call(name, arguments)
-            case {"call": [_, arguments]}:
-                for argument in arguments:
-                    self._check_arguments(argument)
-            case {"chain": [first, rest]}:
-                for part in [first, *(part for _, part in rest)]:
-                    self._check_arguments(part)
-            case {"negate": inner} | {"not": inner}:
-                self._check_arguments(inner)
+    def _check_arguments(self, tree: Node) -> None:
+        for call in walk(tree):
+            if isinstance(call, Fn) and call.name in _ARGUMENTS and call.name not in self.meanings.tables:
+                self._check_call(call.name, call.args)
 
-    def _check_call(self, name: str, arguments: list[syntax.Tree]) -> None:
+    def _check_call(self, name: str, arguments: Sequence[Node]) -> None:
         wanted = _ARGUMENTS[name]
         kinds = wanted.rstrip("?")
         if len(arguments) != len(kinds) and not (wanted.endswith("?") and not arguments):
@@ -154,9 +149,9 @@ class Writer:
                 f"`{name}` takes {len(kinds)} argument{'s'[: len(kinds) > 1]}, not {len(arguments)}", f"write `{name}({shown})`"
             )
         for kind, argument in zip(kinds, arguments, strict=False):
-            if "name" not in argument:
+            if not isinstance(argument, Sym):
                 raise ModelProblem(f"`{name}` reads a {_KINDS[kind]}, not a number", "write its name")
-            self._known(argument["name"], _KINDS[kind])
+            self._known(argument.name, _KINDS[kind])
 
     def _in_full(self, text: str) -> str:
         return replace_names(text, self._full_token)

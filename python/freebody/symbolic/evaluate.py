@@ -93,7 +93,9 @@ def value(
         case Mul(factors):
             return reduce(_times, [(factor, of(factor)) for factor in factors] or [(tree, number(1))])[1]
         case Pow(base, exponent):
-            return _power(tree, of(base), exponent if isinstance(exponent, Fraction) else of(exponent))
+            return _power(tree, of(base), exponent if isinstance(exponent, Fraction) else of(exponent), functions)
+        case Fn("if", (condition, then, otherwise)):
+            return of(then) if of(condition) else of(otherwise)
         case Fn(name, args):
             return _call(tree, functions.get(name), [of(arg) for arg in args])
         case Negative(inner):
@@ -183,11 +185,11 @@ def _upright(vector: Array) -> bool:
     return not vector[:, :2].any()
 
 
-def _power(node: Pow, base: Any, exponent: Any) -> Any:
+def _power(node: Pow, base: Any, exponent: Any, functions: Mapping[str, Callable[..., Any]]) -> Any:
     if _rank(base) != 1 or (not isinstance(exponent, Fraction) and _rank(exponent) != 1):
         raise StatementError(f"a power of {kind(base)}", node.base.span, "for the square of a vector write `a · a`")
     if not isinstance(exponent, Fraction):
-        return np.power(base, exponent)
+        return functions.get("^", np.power)(base, exponent)
     if exponent == -1:
         return 1.0 / base
     if exponent == Fraction(1, 2):
