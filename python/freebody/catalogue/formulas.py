@@ -24,8 +24,9 @@ def formula(label: str, found: Tree, closed: str, against: str, letters: Letters
     values of all letters, of which neither knows anything."""
     from freebody.equations.language import read_text
     from freebody.symbolic.decimals import shown
+    from freebody.symbolic.evaluate import evaluate
     from freebody.symbolic.printers.text import text
-    from freebody.symbolic.tree import evaluate, symbols
+    from freebody.symbolic.tree import symbols
 
     true, draw = read_text(closed), random.Random(_SEED)
     every = sorted(symbols(found, true), key=str)

@@ -11,7 +11,7 @@ _DOTS = {"rate": 1, "accel": 2}
 
 
 class NoForm(ValueError):
-    """An expression that has no form in letters, as a least of two."""
+    """An expression that has no symbolic form, as a least of two."""
 
 
 def read_text(text: str) -> Tree:
@@ -45,4 +45,4 @@ def _tree(of: Node) -> Tree:
             return Sym(letter, _DOTS[name])
         case Fn(name, arguments) if name in _SAME:
             return Fn(name, tuple(map(_tree, arguments)))
-    raise NoForm("the expression has no form in letters")
+    raise NoForm("the expression has no symbolic form")

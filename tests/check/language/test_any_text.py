@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from typeset import latex
 
 from freebody.check.language.parser import parse
-from freebody.check.language.spelling import latex, spell
+from freebody.check.language.spelling import spell
 from freebody.check.language.statements import Equation
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Num, Pow, Quotient, Sym, walk

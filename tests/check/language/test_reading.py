@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 from statements import STATEMENTS
 from statements import letters as known
+from typeset import latex
 
 from freebody.check.language.parser import parse, parse_expression
-from freebody.check.language.spelling import latex, spell
+from freebody.check.language.spelling import spell
 from freebody.check.language.statements import inlined, letters, terms
 from freebody.symbolic.tree import Add, Mul, Negative, Num, Sym, exchange, walk
 
