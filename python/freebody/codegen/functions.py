@@ -11,15 +11,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.printers.source import LANGUAGES, Language, Writer
+from freebody.symbolic.printers.c import C99
+from freebody.symbolic.printers.numpy import NumPy
+from freebody.symbolic.printers.source import Language, Writer
 from freebody.symbolic.symbols import ascii_name
 from freebody.symbolic.tree import PI, Entries, Sym, Tree, symbols
 
+LANGUAGES: Mapping[str, Language] = {"numpy": NumPy(), "c": C99()}
 _WORDS_OF_C = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
     "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while"
 )
-_USED = "np _array q u p t a r out sin cos tan exp log atan2 fabs sign sqrt pow"
+_USED = "np _array q u p t a r out sin cos tan exp log atan2 fabs sign sqrt pow NAN INFINITY HUGE_VAL"
 _RESERVED = frozenset([*_WORDS_OF_C.split(), *_USED.split(), *keyword.kwlist])
 _HELP = {
     "q": "coordinates", "u": "rates of the coordinates", "p": "parameters", "t": "time in s",

@@ -1,9 +1,8 @@
-"""How generated code is spelt in each language, and the sharing of subexpressions."""
+"""What the printers of source code have in common: numbers, brackets, and the sharing of subexpressions."""
 
 from __future__ import annotations
 
 import math
-import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -37,65 +36,6 @@ class Language(ABC):
     @abstractmethod
     def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
         """The whole source."""
-
-
-class NumPy(Language):
-    """Python with NumPy."""
-
-    functions: ClassVar[Mapping[str, str]] = {
-        "sin": "np.sin({})", "cos": "np.cos({})", "tan": "np.tan({})", "exp": "np.exp({})", "ln": "np.log({})",
-        "atan2": "np.arctan2({}, {})", "abs": "np.abs({})", "sign": "np.sign({})",
-        "sqrt": "np.sqrt({})", "power": "np.power({}, {})",
-    }  # fmt: skip
-
-    def function(
-        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
-    ) -> str:
-        lines = [f"def {name}({', '.join(arrays)}):", *(f"    {step} = {value}" for step, value in steps)]
-        if shape == ():
-            return "\n".join([*lines, f"    return {results[0]}"])
-        entries = [f"        {result}," for result in results]
-        return "\n".join([*lines, "    return _array([", *entries, f"    ], {shape!r})"])
-
-    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
-        safe = [line.replace("\\", "\\\\").replace('"', "'") for line in header]
-        top = ['"""Generated from the equations of a freebody model, in SI units and radians.', "", *safe, '"""']
-        top += ["", "import numpy as np", "", "", "def _array(entries, shape):"]
-        top += ["    entries = np.broadcast_arrays(*entries)"]
-        top += ["    return np.stack(entries).reshape(shape + entries[0].shape)"]
-        return "\n\n\n".join(["\n".join(top), *functions]) + "\n"
-
-
-class C99(Language):
-    """C, ISO/IEC 9899:1999."""
-
-    functions: ClassVar[Mapping[str, str]] = {
-        "sin": "sin({})", "cos": "cos({})", "tan": "tan({})", "exp": "exp({})", "ln": "log({})",
-        "atan2": "atan2({}, {})", "abs": "fabs({})", "sign": "sign({})", "sqrt": "sqrt({})", "power": "pow({}, {})",
-    }  # fmt: skip
-
-    def function(
-        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
-    ) -> str:
-        taken = ", ".join(f"double {x}" if x == "t" else f"const double *{x}" for x in arrays)
-        used = " ".join(value for _, value in steps) + " ".join(results)
-        idle = [x for x in arrays if f"{x}[" not in used and (x != "t" or not _mentions(used, "t"))]
-        body = [f"    (void)({x});" for x in idle] + [f"    const double {step} = {value};" for step, value in steps]
-        if shape == ():
-            return "\n".join([f"double {name}({taken})", "{", *body, f"    return {results[0]};", "}"])
-        body += [f"    out[{place}] = {result};" for place, result in enumerate(results)]
-        return "\n".join([f"/* out: {' × '.join(map(str, shape))} */", f"void {name}({taken}, double *out)", "{", *body, "}"])
-
-    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
-        safe = [line.replace("*/", "* /") for line in header]
-        top = ["/* Generated from the equations of a freebody model, in SI units and radians.", "", *safe, "*/"]
-        top += ["", "#include <math.h>"]
-        if any(_mentions(function, "sign") for function in functions):
-            top += ["", "static double sign(double x)", "{", "    return (double)((x > 0.0) - (x < 0.0));", "}"]
-        return "\n\n".join(["\n".join(top), *functions]) + "\n"
-
-
-LANGUAGES: Mapping[str, Language] = {"numpy": NumPy(), "c": C99()}
 
 
 class Writer:
@@ -201,7 +141,3 @@ def _literal(value: Fraction | float) -> tuple[str, int]:
     if isinstance(value, float) or value.denominator == 1:
         return repr(float(value)), _ATOM if value >= 0 else _SUM
     return f"({float(value.numerator)!r}/{float(value.denominator)!r})", _ATOM
-
-
-def _mentions(code: str, word: str) -> bool:
-    return re.search(rf"\b{word}\b", code) is not None
