@@ -11,6 +11,7 @@ import pytest
 from freebody.run.simulation import Run
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html, write_report
+from freebody.views.report.tables import raised
 
 from .models import compiled, run_double_pendulum
 
@@ -72,6 +73,10 @@ def test_the_page_says_it_all(four_bar):
     titles = [plot["title"] for plot in data["plots"]]
     assert {"Coordinates", "Rates", "Accelerations", "Energy", "Reported quantities"} <= set(titles)
     assert len(data["scene"]["t"]) >= 180
+
+
+def test_powers_of_ten_are_raised_and_nothing_else_is_markup():
+    assert raised("1.2 × 10^−5 N & <b>") == "1.2 × 10<sup>−5</sup> N &amp; &lt;b&gt;"
 
 
 def test_an_indeterminate_reaction_has_no_figure(indeterminate):

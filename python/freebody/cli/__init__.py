@@ -306,7 +306,7 @@ def pictured(systems: list[System], page: Path) -> None:
     from freebody.cli import show
     from freebody.views.diagram.gallery import write_gallery
 
-    models = [(f"{system.id}, {path.stem}: {system.title}", path) for system in systems for path in system.models]
+    models = ((f"{system.id}, {path.stem}: {system.title}", opened(path)) for system in systems for path in system.models)
     show.written([write_gallery(models, page)])
 
 

@@ -175,9 +175,7 @@ class Document:
 
     def html(self) -> str:
         """A whole page, formulas as MathML, figures inside; it needs nothing from elsewhere."""
-        from freebody.document.rendering.page import page
-
-        return page(self.title, self._fragment())
+        return self._page("page.html")
 
     @property
     def title(self) -> str:
@@ -186,10 +184,12 @@ class Document:
 
         return next((words_text(block.words, self.letters) for block in self.blocks if isinstance(block, Heading)), "Equations")
 
-    def _fragment(self) -> str:
+    def _page(self, around: str) -> str:
         from freebody.document.rendering.markup import Html
+        from freebody.document.templates import template
 
-        return Html(self.letters).render(self.blocks)
+        body = Html(self.letters).render(self.blocks)
+        return template("freebody.document.rendering", around).render(title=self.title, body=body)
 
     def sympy(self, *, time: bool = True) -> list[Any]:
         """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
@@ -223,9 +223,7 @@ class Document:
         return self.text()
 
     def _repr_html_(self) -> str:
-        from freebody.document.rendering.page import fragment
-
-        return fragment(self._fragment())
+        return self._page("fragment.html")
 
     def _repr_latex_(self) -> str:
         return self.latex()

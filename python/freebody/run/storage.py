@@ -160,7 +160,6 @@ def to_xarray(run: Run) -> xarray.Dataset:
 def save(run: Run, path: Path) -> Path:
     """Write a run as netCDF (``.nc``) or CSV (``.csv``)."""
     if path.suffix == ".nc":
-        need("scipy")
         to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
     elif path.suffix == ".csv":
         _write_csv(run, path)
@@ -257,7 +256,6 @@ def _where(kinds: Iterable[str], kind: str) -> list[int]:
 
 
 def _read_netcdf(path: Path) -> tuple[Array, list[str], dict[str, Array], dict[str, Any]]:
-    need("scipy")
     with need("xarray").open_dataset(path, engine="scipy") as data:
         if "freebody" not in data.attrs:
             raise ValueError(f"{path} is no saved run: it has no attribute 'freebody'")

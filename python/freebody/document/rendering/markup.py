@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import html
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
 from unicodedata import normalize
+
+import markupsafe
 
 from freebody.document.blocks import (
     Block,
@@ -26,6 +28,7 @@ from freebody.document.blocks import (
     pieces,
 )
 from freebody.document.rendering.matrices import Named, fitted, has_matrices
+from freebody.document.templates import template
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers import line_breaking
 from freebody.symbolic.printers.latex import ROW, LatexPrinter, aligned, latex, matrix_latex, sides_latex
@@ -77,10 +80,12 @@ class Markup(ABC):
     letters: Letters
     beside: str = ""
     named: Named = field(default_factory=Named)
+    text: ClassVar[type[str]] = str
+    """Of what is made: text, or text that knows that it is markup already."""
 
     def render(self, blocks: Sequence[Block]) -> str:
         """All blocks."""
-        return "\n\n".join(map(self.block, blocks)) + "\n"
+        return self.text("\n\n").join(map(self.block, blocks)) + "\n"
 
     def block(self, block: Block) -> str:
         """One block."""
@@ -103,7 +108,7 @@ class Markup(ABC):
 
     def words(self, words: Words) -> str:
         """A sentence with its mathematics."""
-        return "".join(
+        return self.text().join(
             self.plain(piece) if isinstance(piece, str) else self.inline(side_latex(piece, self.letters))
             for piece in pieces(words)
         )
@@ -117,7 +122,7 @@ class Markup(ABC):
         made, letters = fitted(block, self.letters, _ACROSS)
         writer = replace(self, letters=letters)
         parts = [writer.stated(e, writer.whole(e)) if has_matrices(e) else writer.block(e) for e in self.named.news(made)]
-        return "\n\n".join(parts)
+        return self.text("\n\n").join(parts)
 
     def whole(self, block: Equation) -> str:
         """LaTeX of an equation on one line."""
@@ -130,9 +135,9 @@ class Markup(ABC):
     def stated(self, block: Equation, body: str) -> str:
         """An equation between its name and its note."""
         name, note = self.words(block.name), self.words(block.note)
-        named = name if not name or name.endswith((":", ".")) else f"{name}:"
+        named = name if not name or name.endswith((":", ".")) else name + ":"
         parts = [self.paragraph(named) if named else "", self.display(body, block.label), self.paragraph(note) if note else ""]
-        return "\n\n".join(filter(None, parts))
+        return self.text("\n\n").join(filter(None, parts))
 
     @abstractmethod
     def plain(self, text: str) -> str:
@@ -233,7 +238,11 @@ class Latex(Markup):
         """A sentence of which a long formula stands below."""
         shown = [p if isinstance(p, str) else side_latex(p, self.letters) for p in pieces(words)]
         return "".join(
-            self.plain(made) if isinstance(piece, str) else self.inline(made) if line_breaking.width(made) <= _INLINE else _below(made)
+            self.plain(made)
+            if isinstance(piece, str)
+            else self.inline(made)
+            if line_breaking.width(made) <= _INLINE
+            else _below(made)
             for piece, made in zip(pieces(words), shown, strict=True)
         )
 
@@ -260,37 +269,40 @@ class Latex(Markup):
 
 
 class Html(Markup):
-    """A fragment of a page, formulas as MathML."""
+    """A fragment of a page, formulas as MathML; how blocks look is in ``templates/blocks.html``."""
+
+    text = markupsafe.Markup
+
+    @property
+    def _blocks(self) -> Any:
+        return template(__package__, "blocks.html").module
 
     def plain(self, text: str) -> str:
-        return html.escape(text)
+        return markupsafe.escape(text)
 
     def inline(self, math: str) -> str:
-        return mathml(math)
+        return self.text(mathml(math))
 
     def equation(self, block: Equation) -> str:
         return self.whole(block)
 
     def display(self, math: str, label: str) -> str:
-        tag = f'<div class="label">({html.escape(label)})</div>' if label else ""
-        return f'<div class="equation"><div class="formula">{broken(math)}</div>{tag}</div>'
+        return self._blocks.display(self.text(broken(math)), label)
 
     def heading(self, title: str, level: int) -> str:
-        return f"<h{level}>{title}</h{level}>"
+        return self._blocks.heading(title, level)
 
     def paragraph(self, words: str) -> str:
-        return f"<p>{words}</p>"
+        return self._blocks.paragraph(words)
 
     def bullets(self, items: Sequence[str]) -> str:
-        return "\n".join(["<ul>", *(f"<li>{item}</li>" for item in items), "</ul>"])
+        return self._blocks.bullets(items)
 
     def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
-        top = f"<caption>{caption}</caption>" if caption else ""
-        lines = ["".join(f"<th>{cell}</th>" for cell in heads), *("".join(f"<td>{cell}</td>" for cell in row) for row in rows)]
-        return "\n".join([f"<table>{top}", *(f"<tr>{line}</tr>" for line in lines), "</table>"])
+        return self._blocks.table(heads, rows, caption)
 
     def figure(self, figure: Figure, caption: str) -> str:
-        return f"<figure>{figure.picture.inline()}{f'<figcaption>{caption}</figcaption>' if caption else ''}</figure>"
+        return self._blocks.figure(self.text(figure.picture.inline()), caption)
 
 
 def _fitted(shown: str) -> str:

@@ -11,10 +11,12 @@ import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
 from freebody.equations.balances.perturbed_states import nearby
+from freebody.equations.derivation.meaning import plain
 from freebody.equations.linear import Linear
-from freebody.solve.symbols import Symbols
+from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.collect import divided
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
 
 Question = Mapping[str, Any]
@@ -245,10 +247,20 @@ class SymbolicState:
 
     @cached_property
     def letters(self) -> Letters:
-        """The letters and what they mean."""
-        from freebody.equations.derivation.meaning import meanings
-
-        return meanings(self)
+        """All letters in the order of the model: coordinates, parameters, what the model leaves without a name, unknowns, time."""
+        table, written = self.table, self.symbols.names
+        found = {c["name"]: Letter(c["name"], "coordinate", c["dimension"] or "", plain(c["doc"])) for c in self.coordinates}
+        given = [p["name"] for p in self.source.about["parameters"]]
+        unnamed = [name for name, entry in table.items() if entry["kind"] == "number"]
+        found |= {name: Letter(name, "parameter", table[name]["unit"]) for name in given if name in table}
+        found |= {name: Letter(name, "constant", table[name]["unit"], table[name]["doc"]) for name in unnamed}
+        found = {name: letter if written[name] == Name.parse(name) else replace(letter, written=written[name])
+                 for name, letter in found.items()}  # fmt: skip
+        for load in self.free.loads:
+            if load.unknown and not load.follows:
+                unit, doc = "N*m" if load.card.couple else "", f"{load_words(load)} ({load.symbol})"
+                found[load.symbol] = Letter(load.symbol, "unknown", unit, doc, self.symbols.loads[load.symbol])
+        return Letters(found | {"t": Letter("t", "time", "s", "time")}, self.symbols.renamed)
 
     @cached_property
     def values(self) -> dict[Sym, float]:

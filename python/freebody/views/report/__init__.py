@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import json
-from html import escape
 from importlib.resources import files
 from pathlib import Path
-from string import Template
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from markupsafe import Markup
+
+from freebody.document.templates import template
+from freebody.views.report import tables
 from freebody.views.report.series import frames, plots
-from freebody.views.report.tables import aside, headline, sections
 from freebody.views.scene import of_run
 
 if TYPE_CHECKING:
@@ -33,38 +33,28 @@ def report_html(run: Run) -> str:
     All text of the model is escaped, or reaches the page as data that is only ever shown as text.
     """
     style, script = _asset("style.css"), _asset("player.js") + _asset("plots.js")
-    scene = of_run(run, frames(run))
     events = [{"name": event.name, "t": event.t, "kind": "event"} for event in run.events]
     events += [{"name": f"impact: {', '.join(change.of)}", "t": change.t, "kind": "impact"} for change in run.impacts]
-    others = [change for change in run.changes if not change.impulses]
-    ticks = [{"name": f"{change.kind}: {', '.join(change.of)}", "t": change.t} for change in others]
-    return Template(_asset("page.html")).substitute(
+    ticks = [{"name": f"{each.kind}: {', '.join(each.of)}", "t": each.t} for each in run.changes if not each.impulses]
+    return template(__package__, "page.html").render(
         policy=f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; img-src data:",
-        title=escape(run.name),
-        headline=headline(run),
-        aside=aside(run),
-        sections=sections(run),
+        run=run,
+        data={"scene": of_run(run, frames(run)).to_json(), "plots": plots(run), "events": events, "ticks": ticks},
         style=style,
-        data=_data({"scene": scene.to_json(), "plots": plots(run), "events": events, "ticks": ticks}),
         script=script,
+        ending=tables.ending(run),
+        beside=tables.beside(run),
+        notes=[tables.sentence(note) for note in run.about["notes"]],
+        below=tables.below(run),
+        settings=tables.settings(run),
+        is_figure=tables.is_figure,
+        raised=tables.raised,
     )
 
 
-def _asset(name: str) -> str:
-    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+def _asset(name: str) -> Markup:
+    return Markup(files(__package__).joinpath("templates", name).read_text(encoding="utf-8"))
 
 
 def _digest(text: str) -> str:
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
-
-
-def _data(value: dict[str, Any]) -> str:
-    """JSON that can end no script element and open no comment."""
-    text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-    return (
-        text.replace("<", "\\u003c")
-        .replace(">", "\\u003e")
-        .replace("&", "\\u0026")
-        .replace("\u2028", "\\u2028")
-        .replace("\u2029", "\\u2029")
-    )

@@ -1,13 +1,14 @@
-"""The text and tables of the report, as escaped HTML."""
+"""What the report says: how the run ended, and its tables, cell by cell."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from html import escape
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from markupsafe import Markup, escape
 
 from freebody.run.storage import versions
 from freebody.solve.instant import Instant
@@ -17,34 +18,50 @@ from freebody.views.plots import pretty_unit
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
-
-def headline(run: Run) -> str:
-    """Name, outcome and its sentence."""
-    mood = "ok" if run.outcome.ok else "not-ok"
-    badge = f'<span class="badge {mood}">{escape(run.outcome.name)}</span>'
-    when = f"t = {_figure(run.outcome.t)} s"
-    stated = escape(_sentence(run.outcome.sentence))
-    words = f"{stated}, {when}" if run.outcome.ok else "<br>".join([when, *stated.split("; ")])
-    return f"<h1>{escape(run.name)}</h1><p>{badge} {words}</p>"
+_EVENTS, _FIRST, _LAST = 100, 60, 3
+"""Rows of long tables."""
 
 
-def aside(run: Run) -> str:
+@dataclass(frozen=True)
+class Table:
+    """A titled table with a remark below; ``shape`` is a class of its card."""
+
+    title: str
+    heads: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    remark: str = ""
+    shape: str = ""
+
+
+def ending(run: Run) -> list[str]:
+    """How and when the run ended, line by line."""
+    when, stated = f"t = {_figure(run.outcome.t)} s", sentence(run.outcome.sentence)
+    return [f"{stated}, {when}"] if run.outcome.ok else [when, *stated.split("; ")]
+
+
+def beside(run: Run) -> list[Table]:
     """What stands beside the moving mechanism: reported quantities and events."""
-    return "\n".join(filter(None, (_reported(run), _events(run))))
+    return [table for table in (_reported(run), _events(run)) if table.rows]
 
 
-def sections(run: Run) -> str:
-    """Peak reactions, the energy ledger, bodies, what is modelled, and how the run was made."""
-    return "\n".join((_switched(run), _peaks(run), _ledger(run), _bodies(run), _notes(run), _settings(run)))
+def below(run: Run) -> list[Table]:
+    """Mode changes, peak reactions, the energy ledger and bodies."""
+    return [table for table in (_mode_changes(run), _peaks(run), _ledger(run), _bodies(run)) if table.rows]
 
 
-def _notes(run: Run) -> str:
-    lines = "".join(f"<li>{escape(_sentence(note))}</li>" for note in run.about["notes"])
-    return f'<section class="card"><h2>Model assumptions</h2><ul>{lines}</ul></section>' if lines else ""
-
-
-def _sentence(text: str) -> str:
+def sentence(text: str) -> str:
+    """With a capital."""
     return text[:1].upper() + text[1:]
+
+
+def is_figure(cell: str) -> bool:
+    """Whether a cell holds a number, or stands for one."""
+    return bool(re.match(r"−?\d|–", cell))
+
+
+def raised(cell: str) -> Markup:
+    """A cell with the powers of ten raised."""
+    return Markup(re.sub(r"× 10\^(−?\d+)", r"× 10<sup>\1</sup>", str(escape(cell))))
 
 
 def _figure(value: float | None, digits: int = 6) -> str:
@@ -56,120 +73,69 @@ def _figure(value: float | None, digits: int = 6) -> str:
     return (f"{mantissa} × 10^{int(power)}" if power else text).replace("-", "−")
 
 
-def _cell(text: str) -> str:
-    """One cell: escaped, powers of ten raised, numbers kept on one line."""
-    inner = re.sub(r"× 10\^(−?\d+)", r"× 10<sup>\1</sup>", escape(text))
-    return f'<td class="number">{inner}</td>' if re.match(r"−?\d|–", text) else f"<td>{inner}</td>"
-
-
-def _table(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]], remark: str = "", shape: str = "") -> str:
-    """A titled table; empty text where there is no row. ``shape`` is a class of the card."""
-    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows)
-    if not body:
-        return ""
-    head = "".join(f'<th scope="col">{escape(text)}</th>' for text in heads)
-    below = f'<p class="remark">{escape(remark)}</p>' if remark else ""
-    return (
-        f'<section class="card {shape}"><h2>{escape(title)}</h2><div class="wide"><table>'
-        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>{below}</section>"
-    )
-
-
-def _reported(run: Run) -> str:
+def _reported(run: Run) -> Table:
     rows = []
     for label, r in run.report.items():
         value = r.note if r.value is None else f"{_figure(r.value, 8)} {pretty_unit(r.unit)}".strip()
         when = f"{_figure(r.t)} ({r.note})" if r.note and r.value is not None else _figure(r.t)
         rows.append((label, value, when))
-    return _table("Report", ("quantity", "value", "at t / s"), rows)
+    return Table("Report", ("quantity", "value", "at t / s"), rows)
 
 
-def _events(run: Run, most: int = 100) -> str:
-    rows = [(e.name, _figure(e.t, 9), e.kind, {1: "rising", -1: "falling"}.get(e.direction, "")) for e in run.events[:most]]
-    return _table(
-        "Events",
-        ("event", "t / s", "kind", "direction"),
-        rows,
-        f"the first {most} of {len(run.events)}" if len(run.events) > most else "",
-    )
+def _events(run: Run) -> Table:
+    ways = {1: "rising", -1: "falling"}
+    rows = [(e.name, _figure(e.t, 9), e.kind, ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
+    remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
+    return Table("Events", ("event", "t / s", "kind", "direction"), rows, remark)
 
 
-def _switched(run: Run, first: int = 60, last: int = 3) -> str:
+def _mode_changes(run: Run) -> Table:
     """Mode changes; of very much the first and the last."""
-    shown = run.changes if len(run.changes) <= first + last else [*run.changes[:first], *run.changes[-last:]]
-    rows = [
-        (
-            _figure(c.t, 9),
-            c.kind,
-            ", ".join(c.of),
-            _figure(c.lost) if c.before else "",
-            "; ".join(f"{name} {_figure(size)}" for name, size in (c.impulses.sizes if c.impulses else {}).items()),
-            c.note,
-        )
-        for c in shown
-    ]
-    remark = f"the first {first} and the last {last} of {len(run.changes)}" if len(shown) < len(run.changes) else ""
-    heads = ("t / s", "kind", "what", "energy lost / J", "impulse / N·s", "")
-    return _table("Mode changes", heads, rows, remark, "across")
+    many = len(run.changes) > _FIRST + _LAST
+    rows = []
+    for c in [*run.changes[:_FIRST], *run.changes[-_LAST:]] if many else run.changes:
+        impulses = "; ".join(f"{name} {_figure(size)}" for name, size in (c.impulses.sizes if c.impulses else {}).items())
+        rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", impulses, c.note))
+    remark = f"the first {_FIRST} and the last {_LAST} of {len(run.changes)}" if many else ""
+    return Table("Mode changes", ("t / s", "kind", "what", "energy lost / J", "impulse / N·s", ""), rows, remark, "across")
 
 
-def _peaks(run: Run) -> str:
+def _peaks(run: Run) -> Table:
     peaks = peak_reactions(run)
-    couples = any(peak.couple is not None for peak in peaks)
-    all_known = all(peak.determinate for peak in peaks)
-    heads = [
-        "",
-        "on",
-        "force / N",
-        "at t / s",
-        "Fx / N",
-        "Fy / N",
-        *(["couple / N·m", "at t / s"] if couples else []),
-        *([] if all_known else [""]),
-    ]
+    couples, known = any(peak.couple is not None for peak in peaks), all(peak.determinate for peak in peaks)
+    heads = ["", "on", "force / N", "at t / s", "Fx / N", "Fy / N", *["couple / N·m", "at t / s"] * couples, *[""] * (not known)]
     rows = []
     for p in peaks:
-        figures = [_figure(x) for x in (p.size, p.t, p.Fx, p.Fy, *((p.couple, p.t_couple) if couples else ()))]
-        rows.append([p.joint, p.body, *figures, *([] if all_known else ["" if p.determinate else "indeterminate"])])
-    return _table(
-        "Peak reactions",
-        heads,
-        rows,
-        "Forces as they act on the body named, in the fixed axes, when the force is largest.",
-        "across",
-    )
+        figures = map(_figure, (p.size, p.t, p.Fx, p.Fy, *((p.couple, p.t_couple) if couples else ())))
+        rows.append([p.joint, p.body, *figures, *["" if p.determinate else "indeterminate"] * (not known)])
+    remark = "Forces as they act on the body named, in the fixed axes, when the force is largest."
+    return Table("Peak reactions", heads, rows, remark, "across")
 
 
-def _ledger(run: Run) -> str:
+def _ledger(run: Run) -> Table:
     ledger = run.energy
-    rows = [(name, _figure(y[0]), _figure(y[-1]), _figure(y.min()), _figure(y.max())) for name, y in ledger.entries.items()]
-    worst = float(np.abs(ledger.balance).max())
-    return _table(
-        "Energy ledger",
-        ("J", "start", "end", "least", "most"),
-        rows,
-        f"Energy error below {worst:.1e} J at all output times.".replace("e-", "e−"),
-    )
+    rows = [(name, *map(_figure, (y[0], y[-1], y.min(), y.max()))) for name, y in ledger.entries.items()]
+    worst = f"{np.abs(ledger.balance).max():.1e}".replace("e-", "e−")
+    remark = f"Energy error below {worst} J at all output times."
+    return Table("Energy ledger", ("J", "start", "end", "least", "most"), rows, remark)
 
 
-def _settings(run: Run) -> str:
-    s, stats = run.settings, run.stats
+def _bodies(run: Run) -> Table:
+    rows = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in run.about["bodies"]]
+    return Table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), rows)
+
+
+def settings(run: Run) -> Table:
+    """How the run was made."""
+    s = run.settings
+    taken = {key: value for key, value in run.stats.items() if key not in ("method", "rtol") and value is not None}
     rows = [
         ("degrees of freedom", str(Instant(run.source, run.start).freedom)),
         ("from, to", f"{_figure(run.edges[0])} s to {_figure(run.edges[-1])} s"),
         ("method", s.method),
         ("relative tolerance", _figure(s.rtol)),
         ("route", s.route),
-        *(
-            (key, _figure(value) if isinstance(value, (int, float)) else str(value))
-            for key, value in stats.items()
-            if key not in ("method", "rtol")
-        ),
+        *((key, _figure(value) if isinstance(value, (int, float)) else str(value)) for key, value in taken.items()),
         *((f"version of {name}", version) for name, version in versions().items() if name != "platform"),
     ]
-    return _table("How it was computed", ("", ""), rows)
-
-
-def _bodies(run: Run) -> str:
-    rows = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in run.about["bodies"]]
-    return _table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), rows)
+    return Table("How it was computed", ("", ""), rows)
