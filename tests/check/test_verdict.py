@@ -1,4 +1,4 @@
-"""What is right is called right, what is wrong is mended, and what is true only sometimes is told with its condition."""
+"""What is right is called right, what is wrong is corrected, and what is true only sometimes is told with its condition."""
 
 from __future__ import annotations
 

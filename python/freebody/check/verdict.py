@@ -95,7 +95,7 @@ class Verdict(PlainText):
     def details(self) -> list[str]:
         """What is behind it, a line each."""
         lines = [self.reason] if self.reason else []
-        lines += [f"mend: {correction}" for correction in self.mends]
+        lines += [f"correction: {correction}" for correction in self.mends]
         if self.true:
             lines.append(self.true)
         if self.evidence and not self.ok:
