@@ -21,6 +21,6 @@ pub fn expression(text: &str, e: ExprError) -> PyErr {
 }
 
 pub fn motion(t: Trouble) -> PyErr {
-    let (what, hint) = t.sentence.split_once("; ").unwrap_or((&t.sentence, ""));
-    MotionError::new_err((t.name, t.path.unwrap_or_default(), what.to_string(), hint.to_string()))
+    let (what, hint) = t.what_and_hint();
+    MotionError::new_err((t.name(), t.path().unwrap_or_default().to_string(), what, hint))
 }

@@ -216,7 +216,7 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
 
 /// A setting and questions in letters.
 pub fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Query>)> {
-    let wrong = |e: serde_json::Error| errors::motion(Trouble::new("wrong_question", e.to_string()));
+    let wrong = |e: serde_json::Error| errors::motion(Trouble::WrongQuestion(e.to_string()));
     Ok((data(setting)?.map_err(wrong)?, data(questions)?.map_err(wrong)?))
 }
 

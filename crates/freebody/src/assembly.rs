@@ -154,14 +154,7 @@ fn search(
         }
     }
     first?;
-    let names: Vec<&str> = request.branch.iter().map(|(text, ..)| text.as_str()).collect();
-    Err(Trouble::new(
-        "branch_not_found",
-        format!(
-            "no assembly was found in which the signs of {} are as asked; try the other sign or a nearer guess",
-            names.join(", ")
-        ),
-    ))
+    Err(Trouble::BranchNotFound(request.branch.iter().map(|(text, ..)| text.clone()).collect()))
 }
 
 /// Start `k` of a sequence that covers angles and lengths evenly (a lattice of square roots of primes).
@@ -240,11 +233,9 @@ fn velocities(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &
         .map(|(name, law, rate)| ((format!("rate of {name}"), None), jet(&going, law).d1 - rate));
     let worst = drive.chain(held).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match worst {
-        Some(((name, path), left)) if left.abs() > 1e-8 * speed * workspace.length.max(1.0) => Err(Trouble::new(
-            "inconsistent_velocities",
-            format!("the motions, loops and given rates contradict each other: at best {name} is off by {left:.3} (m/s or rad/s); remove one of them, or make them agree"),
-        )
-        .about(path)),
+        Some(((name, path), left)) if left.abs() > 1e-8 * speed * workspace.length.max(1.0) => {
+            Err(Trouble::InconsistentRates(name, left, path))
+        }
         _ => Ok(u),
     }
 }
@@ -265,11 +256,7 @@ fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest,
         }
     }
     gaps.retain(|(_, _, gap)| *gap > 1e-9 * workspace.length);
-    let described: Vec<String> = gaps.iter().map(|(name, _, gap)| format!("{gap:.4} at `{name}`")).collect();
+    let open = gaps.iter().map(|(name, _, gap)| (name.clone(), *gap)).collect();
     let widest = gaps.into_iter().filter(|g| g.1.is_some()).max_by(|a, b| a.2.total_cmp(&b.2));
-    Trouble::new(
-        "cannot_assemble",
-        format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", described.join(", ")),
-    )
-    .about(widest.and_then(|(_, path, _)| path))
+    Trouble::CannotAssemble(open, widest.and_then(|(_, path, _)| path))
 }

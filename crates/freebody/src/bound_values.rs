@@ -233,18 +233,17 @@ impl Mechanism {
     }
 }
 
-fn check_array(what: &str, values: &[f64], wanted: usize, name: impl Fn(usize) -> String) -> Result<(), Trouble> {
+fn check_array(
+    what: &'static str,
+    values: &[f64],
+    wanted: usize,
+    name: impl Fn(usize) -> String,
+) -> Result<(), Trouble> {
     if values.len() != wanted {
-        let sizes = format!(
-            "{wanted} {what}s are needed, and {} were given; take them from `bind` and `assemble`",
-            values.len()
-        );
-        return Err(Trouble::new("wrong_size", sizes));
+        return Err(Trouble::WrongSize { what, wanted, given: values.len() });
     }
     match values.iter().position(|x| !x.is_finite()) {
-        Some(i) => {
-            Err(Trouble::new("not_finite", format!("{} = {} is no finite number; give it a value", name(i), values[i])))
-        }
+        Some(i) => Err(Trouble::NoFiniteNumber(name(i), values[i])),
         None => Ok(()),
     }
 }

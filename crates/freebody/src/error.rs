@@ -2,31 +2,268 @@
 
 use std::fmt;
 
-/// A named failure of a system, with a sentence for the reader.
+/// Why a state has no answer. An item of the model is told by its path, e.g. `joints.pivot`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trouble {
-    /// Short fixed name, e.g. `SingularMass`.
-    pub name: &'static str,
-    /// One sentence: what happened and what to do.
-    pub sentence: String,
-    /// The item of the model it is about, e.g. `joints.pivot`, where there is one.
-    pub path: Option<String>,
+pub enum Trouble {
+    /// Something (in words) can move without inertia: words, item.
+    ZeroInertia(String, Option<String>),
+    /// A system of equations is singular.
+    NoUniqueMotion,
+    /// Actuators cannot bring about a motion of bodies: words, item.
+    OutOfReach(String, Option<String>),
+    /// Prescribed motions and loops ask for more independent conditions than there are ways to act.
+    TooFewActuators {
+        /// Conditions.
+        asked: usize,
+        /// Ways.
+        ways: usize,
+    },
+    /// Constraints, by name, contradict each other: names, item.
+    Contradiction(Vec<String>, Option<String>),
+    /// The sparse equations leave a residual at an item: its size, name, item.
+    Residual(f64, String, String),
+    /// The sparse equations with actuators along another direction, of more unknowns than the dense ones hold.
+    TooManyForDense,
+    /// The accelerations are not finite.
+    NoFiniteAcceleration,
+    /// A number that is given is not finite: name, value.
+    NoFiniteNumber(String, f64),
+    /// An array that is given has the wrong size.
+    WrongSize {
+        /// What it holds.
+        what: &'static str,
+        /// How many are needed.
+        wanted: usize,
+        /// How many were given.
+        given: usize,
+    },
+    /// A loop opened during a motion: its name, gap (m), item.
+    LoopOpened(String, f64, String),
+    /// An assembly leaves gaps: name and gap of each, the item of the widest.
+    CannotAssemble(Vec<(String, f64)>, Option<String>),
+    /// No assembly has the signs asked for of expressions.
+    BranchNotFound(Vec<String>),
+    /// Rates asked for contradict each other: the name of the worst, by how much, item.
+    InconsistentRates(String, f64, Option<String>),
+    /// A contact, stop or string is violated: in words, and what to try; item.
+    Penetration(String, &'static str, String),
+    /// No force of joint friction fits the loads that it causes: names.
+    SelfLocking(Vec<String>),
+    /// Contacts whose friction leaves no motion, or several: names and figures in words, item.
+    Paradox(Paradox, String, String),
+    /// Contacts that slide and press against each other, by an amount that is left open: names, item.
+    UndecidedPress(String, String),
+    /// Contacts cannot be brought to rest without creating energy: names, J.
+    CreatesEnergy(String, f64),
+    /// No impulses at contacts do what is asked: names, what, why.
+    NoImpulses(String, &'static str, String),
+    /// The impulses found create energy: t, J.
+    ImpulsesCreateEnergy(f64, f64),
+    /// Impacts at once whose outcome rigid bodies leave open: names, what follows by each rule.
+    SimultaneousImpact(String, Vec<String>),
+    /// Impacts at one instant come to no end: how many.
+    EndlessImpacts(usize),
+    /// A taut string became a point: name, item.
+    StringZeroLength(String, String),
+    /// A motion that switches was asked for backward in time.
+    Backward,
+    /// A time outside the run: t, first, last.
+    OutOfRange(f64, f64, f64),
+    /// A change of a run, by its place, that is no impact.
+    NoBlow(usize),
+    /// An integrator of an unknown name: name, those that there are.
+    UnknownMethod(String, Vec<&'static str>),
+    /// A question about a name that nothing bears: what is wrong and what to try.
+    UnknownName(String),
+    /// A question that cannot be read, or asks for too much or too little: what is wrong.
+    WrongQuestion(String),
+    /// Symbolic equations grow beyond what can be written.
+    TooLarge,
+    /// The stages of an implicit step did not converge: t, iterations.
+    FixedPointStalled(f64, usize),
+}
+
+/// What Coulomb's law and rigid bodies leave of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Paradox {
+    /// No motion satisfies both.
+    Inconsistent,
+    /// Several do.
+    Indeterminate,
+    /// None was found.
+    Unsolved,
 }
 
 impl Trouble {
-    /// A failure called `name`, explained by `sentence`.
-    pub fn new(name: &'static str, sentence: impl Into<String>) -> Self {
-        Self { name, sentence: sentence.into(), path: None }
+    /// Whether friction lets no motion go on, or none that was found.
+    pub fn is_jam(&self) -> bool {
+        matches!(self, Self::Paradox(Paradox::Inconsistent | Paradox::Unsolved, ..) | Self::CreatesEnergy(..))
     }
-    /// The same failure, said to be about an item of the model.
-    pub fn about(self, path: impl Into<Option<String>>) -> Self {
-        Self { path: path.into(), ..self }
+    /// Its fixed name, e.g. `singular_mass`.
+    pub fn name(&self) -> &'static str {
+        self.told().0
+    }
+    /// One sentence: what happened, and after a semicolon what to do.
+    pub fn sentence(&self) -> String {
+        self.told().1
+    }
+    /// What happened, and what to do.
+    pub fn what_and_hint(&self) -> (String, String) {
+        let sentence = self.sentence();
+        let (what, hint) = sentence.split_once("; ").unwrap_or((&sentence, ""));
+        (what.to_string(), hint.to_string())
+    }
+    /// The item of the model that it is about, where there is one.
+    pub fn path(&self) -> Option<&str> {
+        self.told().2
+    }
+
+    fn told(&self) -> (&'static str, String, Option<&str>) {
+        let quoted = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+        match self {
+            Self::ZeroInertia(what, at) => (
+                "singular_mass",
+                format!("{what} with no inertia to resist it; give it (or what hangs on it) mass and inertia, or lock that motion"),
+                at.as_deref(),
+            ),
+            Self::NoUniqueMotion => (
+                "singular_mass",
+                "the balance equations have no unique motion; the route `minimal` says where".into(),
+                None,
+            ),
+            Self::OutOfReach(what, at) => (
+                "insufficient_actuation",
+                format!("the actuators cannot bring about the prescribed motion: {what} out of their reach"),
+                at.as_deref(),
+            ),
+            Self::TooFewActuators { asked, ways } => (
+                "insufficient_actuation",
+                format!("the prescribed motions and loops ask for {asked} independent conditions, but the actuators and joints can act in {ways} ways; let each motion have an actuator of its own"),
+                None,
+            ),
+            Self::Contradiction(names, at) => (
+                "inconsistent_constraints",
+                format!("{} ask for motions that exclude each other; remove one, or make them agree", quoted(names)),
+                at.as_deref(),
+            ),
+            Self::Residual(size, name, at) => (
+                "inconsistent_constraints",
+                format!("the equations leave a residual of {size:.1e} at `{name}`: its constraints exclude each other, or a motion there has no inertia"),
+                Some(at),
+            ),
+            Self::TooManyForDense => (
+                "unsupported",
+                "the route `constraints` cannot hold actuators with a direction of their own in a mechanism of this size; use `minimal`".into(),
+                None,
+            ),
+            Self::NoFiniteAcceleration => (
+                "not_finite",
+                "the accelerations are not finite; look for a division by 0, or a force along a line of no length".into(),
+                None,
+            ),
+            Self::NoFiniteNumber(name, value) => {
+                ("not_finite", format!("{name} = {value} is no finite number; give it a value"), None)
+            }
+            Self::WrongSize { what, wanted, given } => (
+                "wrong_size",
+                format!("{wanted} {what}s are needed, and {given} were given; take them from `bind` and `assemble`"),
+                None,
+            ),
+            Self::LoopOpened(name, gap, at) => (
+                "branch_lost",
+                format!("the loop at `{name}` opened by {gap:.3e} m and could not be closed again"),
+                Some(at),
+            ),
+            Self::CannotAssemble(gaps, at) => {
+                let told: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
+                (
+                    "cannot_assemble",
+                    format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", told.join(", ")),
+                    at.as_deref(),
+                )
+            }
+            Self::BranchNotFound(signs) => (
+                "branch_not_found",
+                format!("no assembly was found in which the signs of {} are as asked; try the other sign or a nearer guess", signs.join(", ")),
+                None,
+            ),
+            Self::InconsistentRates(name, off, at) => (
+                "inconsistent_velocities",
+                format!("the motions, loops and given rates contradict each other: at best {name} is off by {off:.3} (m/s or rad/s); remove one of them, or make them agree"),
+                at.as_deref(),
+            ),
+            Self::Penetration(what, hint, at) => ("penetration", format!("{what}; {hint}"), Some(at)),
+            Self::SelfLocking(names) => (
+                "self_locking",
+                format!("at {} no friction force fits the load that it causes; lower the friction", quoted(names)),
+                None,
+            ),
+            Self::Paradox(paradox, told, at) => {
+                let name = match paradox {
+                    Paradox::Inconsistent => "painleve_inconsistent",
+                    Paradox::Indeterminate => "painleve_indeterminate",
+                    Paradox::Unsolved => "contact_unsolved",
+                };
+                (name, format!("{told}; lower the friction, or let a spring stand for the contact"), Some(at))
+            }
+            Self::UndecidedPress(names, at) => (
+                "painleve_indeterminate",
+                format!("{names} slide while they press against each other: the balance equations leave open how hard, and the motion depends on it; lower the friction, or let a spring stand for one of them"),
+                Some(at),
+            ),
+            Self::CreatesEnergy(names, energy) => (
+                "contact_unsolved",
+                format!("to bring {names} to rest on each other would create the energy {energy:.6e} J"),
+                None,
+            ),
+            Self::NoImpulses(names, what, why) => ("no_impact", format!("no impulses at {names} {what}: {why}"), None),
+            Self::ImpulsesCreateEnergy(t, energy) => {
+                ("no_impact", format!("the impulses found at t = {t:.12} s would create the energy {energy:.6e} J"), None)
+            }
+            Self::SimultaneousImpact(names, told) => (
+                "simultaneous_impact",
+                format!("{names} strike at once, and rigid bodies do not decide what follows: {}; choose a rule, `impacts: newton`, `poisson` or `sequential`", told.join("; ")),
+                None,
+            ),
+            Self::EndlessImpacts(rounds) => (
+                "impact_iteration_limit",
+                format!("{rounds} impacts in one instant did not bring it to an end; choose another rule for impacts"),
+                None,
+            ),
+            Self::StringZeroLength(name, at) => (
+                "string_zero_length",
+                format!("the taut string `{name}` is drawn in until two of its points meet and it has no direction: a little to one side it would swing round at once, straight through it would jerk; let it pass beside, or put a stop before"),
+                Some(at),
+            ),
+            Self::Backward => {
+                ("backward", "impacts and releases cannot be undone: choose an end after the start".into(), None)
+            }
+            Self::OutOfRange(t, first, last) => {
+                ("out_of_range", format!("t = {t} s is outside the run, {first} s to {last} s"), None)
+            }
+            Self::NoBlow(change) => ("no_blow", format!("change {change} of the run is no blow"), None),
+            Self::UnknownMethod(name, known) => {
+                ("unknown_method", format!("no integrator is called `{name}`; there is {}", known.join(", ")), None)
+            }
+            Self::UnknownName(what) => ("unknown_name", what.clone(), None),
+            Self::WrongQuestion(what) => ("wrong_question", what.clone(), None),
+            Self::TooLarge => (
+                "too_large",
+                "the symbolic equations of this mechanism are too long to be written; ask for fewer, or set symbols to numbers".into(),
+                None,
+            ),
+            Self::FixedPointStalled(t, iterations) => (
+                "FixedPointStalled",
+                format!("the stages of the step at t = {t} did not converge in {iterations} fixed-point iterations; use a smaller step"),
+                None,
+            ),
+        }
     }
 }
 
 impl fmt::Display for Trouble {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        write!(out, "{}: {}", self.name, self.sentence)
+        write!(out, "{}: {}", self.name(), self.sentence())
     }
 }
 

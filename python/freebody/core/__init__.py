@@ -8,7 +8,7 @@ from __future__ import annotations
 from freebody._core import parse
 
 from .compiled import CompiledModel, Settings, Spec
-from .errors import ExpressionError, Indeterminate, ModelError, MotionError
+from .errors import ExpressionError, Indeterminate, ModelError, MotionError, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .limits import Limit
 from .motion import Change, Event, Impulses, Motion, Outcome, Snapshot, Trajectory, there
@@ -32,6 +32,7 @@ __all__ = [
     "Motion",
     "MotionError",
     "Outcome",
+    "OutcomeKind",
     "Pair",
     "Part",
     "Rank",

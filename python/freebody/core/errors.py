@@ -2,6 +2,64 @@
 
 from __future__ import annotations
 
+from enum import Enum
+
+
+class OutcomeKind(str, Enum):
+    """How a run ended, or why a state has no answer; each is the text that it is in files."""
+
+    COMPLETED = "Completed"
+    STOPPED_BY_EVENT = "StoppedByEvent"
+    STEP_UNDERFLOW = "StepUnderflow"
+    TOO_MANY_STEPS = "TooManySteps"
+    OVERFLOW = "Overflow"
+    TOLERANCE_TOO_TIGHT = "ToleranceTooTight"
+    STIFF_SUSPECTED = "StiffSuspected"
+    INTERRUPTED = "Interrupted"
+    UNSUPPORTED_METHOD = "Unsupported"
+    CHATTER = "Chatter"
+    FIXED_POINT_STALLED = "FixedPointStalled"
+    SINGULAR_MASS = "singular_mass"
+    INSUFFICIENT_ACTUATION = "insufficient_actuation"
+    INCONSISTENT_CONSTRAINTS = "inconsistent_constraints"
+    INCONSISTENT_VELOCITIES = "inconsistent_velocities"
+    CANNOT_ASSEMBLE = "cannot_assemble"
+    BRANCH_NOT_FOUND = "branch_not_found"
+    BRANCH_LOST = "branch_lost"
+    PENETRATION = "penetration"
+    SELF_LOCKING = "self_locking"
+    PAINLEVE_INCONSISTENT = "painleve_inconsistent"
+    PAINLEVE_INDETERMINATE = "painleve_indeterminate"
+    CONTACT_UNSOLVED = "contact_unsolved"
+    NO_IMPACT = "no_impact"
+    SIMULTANEOUS_IMPACT = "simultaneous_impact"
+    IMPACT_ITERATION_LIMIT = "impact_iteration_limit"
+    STRING_ZERO_LENGTH = "string_zero_length"
+    HANDS_OVER_AT_ONCE = "hands_over_at_once"
+    BACKWARD = "backward"
+    OUT_OF_RANGE = "out_of_range"
+    NO_BLOW = "no_blow"
+    NOT_FINITE = "not_finite"
+    WRONG_SIZE = "wrong_size"
+    WRONG_QUESTION = "wrong_question"
+    UNKNOWN_NAME = "unknown_name"
+    UNKNOWN_METHOD = "unknown_method"
+    UNSUPPORTED_ROUTE = "unsupported"
+    TOO_LARGE = "too_large"
+
+    __str__ = str.__str__
+
+    @classmethod
+    def _missing_(cls, value: object) -> OutcomeKind | None:
+        """Of files that were saved under an earlier name."""
+        earlier = {
+            "string_drawn_in": cls.STRING_ZERO_LENGTH,
+            "no_authority": cls.INSUFFICIENT_ACTUATION,
+            "friction_jams": cls.SELF_LOCKING,
+            "endless_impacts": cls.IMPACT_ITERATION_LIMIT,
+        }
+        return earlier.get(str(value))
+
 
 class ModelError(ValueError):
     """A model that cannot be compiled: ``path`` is like ``joints.pivot.of[1]``."""
@@ -20,12 +78,11 @@ class ExpressionError(ValueError):
 
 
 class MotionError(RuntimeError):
-    """A state that has no answer: ``kind`` is ``singular_mass``, ``cannot_assemble`` and the like; ``path`` the item of the
-    model that it is about (``joints.pivot``), or empty."""
+    """A state that has no answer: of what ``kind``; ``path``: the item of the model that it is about (``joints.pivot``), or empty."""
 
     def __init__(self, kind: str, path: str, what: str, hint: str) -> None:
         super().__init__(kind, path, what, hint)
-        self.kind, self.path, self.what, self.hint = kind, path, what, hint
+        self.kind, self.path, self.what, self.hint = OutcomeKind(kind), path, what, hint
 
 
 class Indeterminate(LookupError):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from freebody import _core
 
+from .errors import OutcomeKind
 from .free_bodies import FreeBodies
 from .solution import Solution, SymbolicAnswers
 from .state import Array, State
@@ -33,11 +34,11 @@ class Event:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended: one of a closed list of names, whether that is what was asked for, when, and why.
+    """How a run ended, whether that is what was asked for, when, and why.
 
     ``path`` is the item of the model that the sentence is about, like ``bodies.crank``, or empty."""
 
-    name: str
+    name: OutcomeKind
     ok: bool
     t: float
     sentence: str
@@ -104,7 +105,7 @@ class Motion:
     @cached_property
     def outcome(self) -> Outcome:
         """How it ended."""
-        return Outcome(**self.record["outcome"])
+        return Outcome(**self.record["outcome"] | {"name": OutcomeKind(self.record["outcome"]["name"])})
 
     @cached_property
     def events(self) -> list[Event]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import CompiledModel, MotionError, Settings, State
+from freebody.core import CompiledModel, MotionError, OutcomeKind, Settings, State
 from freebody.run.records import quote
 from freebody.run.sampling import Times
 from freebody.run.simulation import Progress, Run, simulate
@@ -33,7 +33,7 @@ class Stage:
         """The model to which a run of this one handed over; None when it ended in another way."""
         handing = self.mechanism.lowered().hand_over
         file = next((handing[event.name] for event in reversed(run.events) if event.name in handing), None)
-        if file is None or run.outcome.name != "StoppedByEvent" or run.end.t >= self.settings.until:
+        if file is None or run.outcome.name is not OutcomeKind.STOPPED_BY_EVENT or run.end.t >= self.settings.until:
             return None
         other = self.mechanism.handed(file)
         own = other.run_numbers().until
@@ -54,7 +54,7 @@ def follow(stage: Stage, first: Run) -> Run:
         run = run.next
         if at_once and run.end.t == run.start.t:
             what = f"the models continue with one another at t = {run.end.t:g} s without any motion between"
-            raise MotionError("hands_over_at_once", "", what, "let each begin on the far side of its event")
+            raise MotionError(OutcomeKind.HANDS_OVER_AT_ONCE, "", what, "let each begin on the far side of its event")
     return first
 
 

@@ -8,6 +8,7 @@ use super::minimal::Force;
 use super::rows::{closing_rows, gap_row, slide_row};
 use super::{generalized_force, Row, Trouble, Workspace};
 use crate::contact::complementarity::{self, Answer, FrictionLaw, Problem, Status, Verdict};
+use crate::error::Paradox;
 use crate::mechanism::Friction;
 use crate::mode::ContactMode;
 use crate::plane::{Vec2, Wrench};
@@ -182,7 +183,7 @@ impl Workspace<'_> {
     ) -> Result<ContactDecision, Trouble> {
         let mut free = self.free_accelerations(contacts)?;
         if !free.iter().all(|a| a.is_finite()) {
-            return Err(Trouble::not_finite());
+            return Err(Trouble::NoFiniteAcceleration);
         }
         // Round-off is no reason to part.
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.acceleration).for_each(|a| *a = 0.0);
@@ -325,13 +326,13 @@ impl Workspace<'_> {
                 text += &format!(", and the paradox begins at a friction of {critical:.6}");
             }
         }
-        let name = match verdict {
-            Verdict::Indeterminate(_) => "painleve_indeterminate",
-            Verdict::Unknown => "contact_unsolved",
-            _ => "painleve_inconsistent",
+        let paradox = match verdict {
+            Verdict::Indeterminate(_) => Paradox::Indeterminate,
+            Verdict::Unknown => Paradox::Unsolved,
+            _ => Paradox::Inconsistent,
         };
         let group = &self.m.groups[self.m.unilateral[contacts.constraints[sliding.map_or(0, |s| s.0)]].group];
-        Trouble::new(name, text + "; lower the friction, or let a spring stand for the contact").about(group.path())
+        Trouble::Paradox(paradox, text, group.path())
     }
 
     /// The names of the contacts, stops and strings of unilateral constraints, each once.

@@ -68,8 +68,8 @@ impl Workspace<'_> {
                     "string" => format!("the string `{}` is stretched by {:.6e} m", group.name, -gap),
                     word => format!("the {word} `{}` is violated by {:.6e}", group.name, -gap),
                 };
-                let what = what + " at the start; move the parts, or change its size";
-                return Err(Trouble::new("penetration", what).about(group.path()));
+                let hint = "move the parts, or change its size";
+                return Err(Trouble::Penetration(what + " at the start", hint, group.path()));
             }
         }
         Ok(())
@@ -94,8 +94,7 @@ impl Workspace<'_> {
             if gap < -GRAZE * self.length {
                 let group = &self.m.groups[constraint.group];
                 let what = format!("the {} `{}` is violated by {:.6e} at t = {t:.12} s", group.word, group.name, -gap);
-                return Err(Trouble::new("penetration", what + "; choose a shorter longest step, `max_step`")
-                    .about(group.path()));
+                return Err(Trouble::Penetration(what, "choose a shorter longest step, `max_step`", group.path()));
             }
         }
         Ok(())

@@ -61,10 +61,7 @@ impl Workspace<'_> {
         let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
         let fastest = free.iter().fold(scale.acceleration, |most, a| most.max(a.abs()));
         let impulses = complementarity::impact_without_collision(&problem, &slips, BRIEF * scale.rest_speed / fastest)
-            .map_err(|e| {
-                let sentence = format!("no impulses at {} end the jam: {e}", self.names_of(&contacts.constraints));
-                Trouble::new("no_impact", sentence)
-            })?;
+            .map_err(|e| Trouble::NoImpulses(self.names_of(&contacts.constraints), "end the jam", e.to_string()))?;
         let note = Some("the contact jammed: an impact without a collision".to_string());
         Ok(impulses.map(|impulses| self.impact_solution(contacts, impulses, note)))
     }

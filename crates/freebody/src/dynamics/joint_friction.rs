@@ -5,7 +5,7 @@
 //! as long as friction does not jam the joint each turn brings them closer.
 
 use super::rows::joint_friction_row;
-use super::{ContactTolerances, Route, Source, Trouble, Workspace, INCONSISTENT};
+use super::{ContactTolerances, Route, Source, Trouble, Workspace};
 use crate::mechanism::FrictionSource;
 use crate::mode::ContactMode;
 
@@ -66,12 +66,8 @@ impl Workspace<'_> {
             self.joint_friction_forces = wanted;
             self.solve_once(route)?;
         }
-        let names: Vec<String> =
-            (0..self.m.joint_friction.len()).map(|r| format!("`{}`", Source::JointFriction(r).name(self.m))).collect();
-        Err(Trouble::new(
-            "self_locking",
-            format!("at {} no friction force fits the load that it causes; lower the friction", names.join(", ")),
-        ))
+        let names = (0..self.m.joint_friction.len()).map(|r| Source::JointFriction(r).name(self.m).to_string());
+        Err(Trouble::SelfLocking(names.collect()))
     }
 
     /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, effective,
@@ -141,7 +137,7 @@ impl Workspace<'_> {
 
     /// Whether the constraints of the present mode ask for motions that exclude each other.
     fn is_overconstrained(&mut self) -> bool {
-        matches!(self.solve_by(Route::Minimal), Err(error) if error.name == INCONSISTENT)
+        matches!(self.solve_by(Route::Minimal), Err(Trouble::Contradiction(..) | Trouble::Residual(..)))
     }
 
     /// Lets slide what no friction can hold, because the other constraints alone tell its acceleration: a slider that

@@ -184,21 +184,14 @@ impl Workspace<'_> {
             true => (&*self.m.bodies[node + 1].name, format!("bodies.{}", self.m.bodies[node + 1].name)),
             false => (groups[node - bodies].name(self.m), groups[node - bodies].path(self.m)),
         };
-        Trouble::new(
-            super::INCONSISTENT,
-            format!("the equations leave a residual of {residual:.1e} at `{name}`: its constraints exclude each other, or a motion there has no inertia"),
-        )
-        .about(path)
+        Trouble::Residual(residual, name.to_string(), path)
     }
 
     /// The same equations as a full matrix, for actuators that act along another gauge than the one they drive.
     fn solve_dense(&mut self, rows: &[Row], starts: &[usize], rhs: &[f64], x: &mut [f64]) -> Result<(), Trouble> {
         let (n, all) = (rhs.len() - rows.len(), rhs.len());
         if all > DENSE_LIMIT {
-            return Err(Trouble::new(
-                "unsupported",
-                "the route `constraints` cannot hold actuators with a direction of their own in a mechanism of this size; use `minimal`",
-            ));
+            return Err(Trouble::TooManyForDense);
         }
         let mut a = Matrix::zeros(all, all);
         for i in 1..self.m.bodies.len() {
@@ -223,12 +216,7 @@ impl Workspace<'_> {
             enter(&mut a, &row.motion, true);
             enter(&mut a, row.loads(), false);
         }
-        super::newton_euler::solve_any(&a, rhs, x).map_err(|_| {
-            Trouble::new(
-                "singular_mass",
-                "the bodies' equations with all constraints have no unique motion; the route `minimal` says where",
-            )
-        })
+        super::newton_euler::solve_any(&a, rhs, x).map_err(|_| Trouble::NoUniqueMotion)
     }
 
     /// Reads the unknowns back: accelerations, joint accelerations, loads passed, multipliers.

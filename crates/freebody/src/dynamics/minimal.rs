@@ -3,7 +3,6 @@
 use super::rows::closing_rows;
 use super::{
     generalized_force, inertia_wrench, size_of_power, visit_ancestors, Row, Source, Trouble, Workspace, CANCELLED,
-    INCONSISTENT,
 };
 use crate::kinematics::StateView;
 use crate::mode::ContactMode;
@@ -108,21 +107,14 @@ impl Workspace<'_> {
         match error {
             SaddleError::ZeroInertia { direction } => {
                 let (what, first) = self.describe_motion(&direction);
-                let sentence =
-                    format!("{what} with no inertia to resist it; give it mass and inertia, or lock that motion");
-                Trouble::new("singular_mass", sentence).about(first)
+                Trouble::ZeroInertia(what, first)
             }
             SaddleError::InsufficientActuation { direction } => {
                 let (what, first) = self.describe_motion(&direction);
-                let sentence =
-                    format!("the actuators cannot bring about the prescribed motion: {what} out of their reach");
-                Trouble::new("insufficient_actuation", sentence).about(first)
+                Trouble::OutOfReach(what, first)
             }
             SaddleError::RankMismatch { motion, force } => match &self.dependent()[..] {
-                [] => Trouble::new(
-                    "insufficient_actuation",
-                    format!("the prescribed motions and loops ask for {motion} independent conditions, but the actuators and joints can act in {force} ways; let each motion have an actuator of its own"),
-                ),
+                [] => Trouble::TooFewActuators { asked: motion, ways: force },
                 spare => self.indeterminate_contact(spare),
             },
         }
@@ -141,11 +133,8 @@ impl Workspace<'_> {
 
     /// Unilateral constraints that slide press against each other: the balance equations leave open how hard.
     fn indeterminate_contact(&self, spare: &[usize]) -> Trouble {
-        let names = self.names_of(spare);
-        let what = format!("{names} slide while they press against each other: the balance equations leave open how hard, and the motion depends on it");
         let group = &self.m.groups[self.m.unilateral[spare[0]].group];
-        Trouble::new("painleve_indeterminate", what + "; lower the friction, or let a spring stand for one of them")
-            .about(group.path())
+        Trouble::UndecidedPress(self.names_of(spare), group.path())
     }
 
     /// Which bodies take part in a motion of the tree, in words, and where the first of them stands in the model.
@@ -177,14 +166,9 @@ impl Workspace<'_> {
         if inconsistency <= CONTRADICTION * most {
             return Ok(());
         }
-        let names: Vec<String> = self.rows.iter().map(|row| format!("`{}`", row.source.name(self.m))).collect();
-        let mut unique = names.clone();
-        unique.dedup();
-        Err(Trouble::new(
-            INCONSISTENT,
-            format!("{} ask for motions that exclude each other; remove one, or make them agree", unique.join(", ")),
-        )
-        .about(self.rows.last().map(|row| row.source.path(self.m))))
+        let mut names: Vec<String> = self.rows.iter().map(|row| row.source.name(self.m).to_string()).collect();
+        names.dedup();
+        Err(Trouble::Contradiction(names, self.rows.last().map(|row| row.source.path(self.m))))
     }
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.

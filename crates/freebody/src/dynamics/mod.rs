@@ -70,27 +70,15 @@ impl Route {
     }
 }
 
-/// The trouble of constraints that contradict each other.
-const INCONSISTENT: &str = "inconsistent_constraints";
 /// Part of its terms below which a sum is round-off.
 const CANCELLED: f64 = 1e-13;
 
 impl Trouble {
-    /// Accelerations that are no numbers.
-    pub(crate) fn not_finite() -> Trouble {
-        let what = "the accelerations are not finite; look for a division by 0, or a force along a line of no length";
-        Trouble::new("not_finite", what)
-    }
-
     /// A motion of a body that nothing resists.
     pub(crate) fn singular_inertia(m: &Mechanism, body: usize) -> Trouble {
         let tree_joint = m.bodies[body].tree_joint.expect("a body of the tree");
         let (name, joint) = (&m.bodies[body].name, &m.joints[tree_joint.joint].name);
-        Trouble::new(
-            "singular_mass",
-            format!("`{name}` can move at `{joint}` with no inertia to resist it; give it (or what hangs on it) mass and inertia, or lock that motion"),
-        )
-        .about(format!("bodies.{name}"))
+        Trouble::ZeroInertia(format!("`{name}` can move at `{joint}`"), Some(format!("bodies.{name}")))
     }
 }
 

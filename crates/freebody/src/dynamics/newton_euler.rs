@@ -56,9 +56,7 @@ impl Workspace<'_> {
         let reactions = self.reactions();
         let (a, b) = self.brute_force(&reactions);
         let mut x = vec![0.0; a.cols()];
-        solve_any(&a, &b, &mut x).map_err(|_| {
-            Trouble::new("singular_mass", "the balance equations have no unique motion; the route `minimal` says where")
-        })?;
+        solve_any(&a, &b, &mut x).map_err(|_| Trouble::NoUniqueMotion)?;
         self.take_brute_force(&reactions, &x);
         Ok(())
     }

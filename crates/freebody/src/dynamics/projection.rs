@@ -93,9 +93,7 @@ impl Workspace<'_> {
             return Ok(moved);
         }
         let open = self.largest_gap_source();
-        let (name, far) = (open.name(self.m), gap * self.length);
-        let sentence = format!("the loop at `{name}` opened by {far:.3e} m and could not be closed again");
-        Err(Trouble::new("branch_lost", sentence).about(open.path(self.m)))
+        Err(Trouble::LoopOpened(open.name(self.m).to_string(), gap * self.length, open.path(self.m)))
     }
 
     /// Makes the velocities at (t, q) keep the loops closed: returns the size of the correction.

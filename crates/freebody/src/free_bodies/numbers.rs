@@ -17,7 +17,7 @@ const NO_COUPLE: f64 = 1e-12;
 pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, Trouble> {
     workspace.solve()?;
     if !workspace.solved().nu_dot.iter().all(|a| a.is_finite()) {
-        return Err(Trouble::not_finite());
+        return Err(Trouble::NoFiniteAcceleration);
     }
     let determinacy = workspace.determinacy();
     let sizes = LoadValues::of(workspace, &determinacy);

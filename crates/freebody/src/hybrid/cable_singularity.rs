@@ -43,12 +43,6 @@ impl HybridSystem<'_> {
 
     fn zero_length_error(&self, l: usize) -> Trouble {
         let group = &self.workspace.m.groups[self.workspace.m.unilateral[l].group];
-        let what = format!(
-            "the taut string `{}` is drawn in until two of its points meet and it has no direction",
-            group.name
-        );
-        let why = "a little to one side it would swing round at once, straight through it would jerk";
-        Trouble::new("string_zero_length", format!("{what}: {why}; let it pass beside, or put a stop before"))
-            .about(group.path())
+        Trouble::StringZeroLength(group.name.clone(), group.path())
     }
 }

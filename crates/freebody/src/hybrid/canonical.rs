@@ -60,7 +60,7 @@ impl HybridSystem<'_> {
         let n = q.len();
         let flat = mass_columns(self.workspace.m, &self.workspace.n, q);
         let mass = Matrix::from_fn(n, n, |i, j| flat[j * n + i]);
-        let lu = Lu::factor(&mass).map_err(|_| Trouble::new("singular_mass", "the mass matrix is singular here"))?;
+        let lu = Lu::factor(&mass).map_err(|_| Trouble::NoUniqueMotion)?;
         Ok(lu.solve(p))
     }
 }

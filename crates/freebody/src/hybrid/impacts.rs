@@ -102,8 +102,7 @@ impl HybridSystem<'_> {
         }
         y.copy_from_slice(&before);
         self.place(t, y);
-        let sentence = format!("the impulses found at t = {t:.12} s would create the energy {:.6e} J", -lost);
-        Err(Trouble::new("no_impact", sentence))
+        Err(Trouble::ImpulsesCreateEnergy(t, -lost))
     }
 
     /// From now on in this instant the speeds that yielding left over count as none.
@@ -269,9 +268,7 @@ fn decide(
             let note = format!("Taken as plastic, and of {n} outcomes as the one that leaves least energy.");
             return Ok((complementarity::least(all), Some(note)));
         }
-        (Err(e), _) => {
-            return Err(Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))
-        }
+        (Err(e), _) => return Err(Trouble::NoImpulses(names.to_string(), "satisfy the law of impact", e.to_string())),
     };
     let note = (!resolved.notes.is_empty()).then(|| resolved.notes.join("; "));
     Ok((resolved.impulses, note))
@@ -284,7 +281,7 @@ fn yielding(
     names: &str,
 ) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
     let impulses = complementarity::compliant_regularization(problem, share)
-        .map_err(|e| Trouble::new("no_impact", format!("no impulses at {names} satisfy the law of impact: {e}")))?;
+        .map_err(|e| Trouble::NoImpulses(names.to_string(), "satisfy the law of impact", e.to_string()))?;
     let note = format!("Taken as plastic, e = 0, at touches that yield by {share:.0e} of themselves: of rigid ones no impulses were found that create no energy.");
     Ok((impulses, Some(note)))
 }
@@ -298,11 +295,5 @@ fn undecided(names: &str, alternatives: &[(ImpactLaw, complementarity::Impulses)
             format!("by {} they part at {} m/s", Rule::Law(*law).word(), speeds.join(", "))
         })
         .collect();
-    Trouble::new(
-        "simultaneous_impact",
-        format!(
-            "{names} strike at once, and rigid bodies do not decide what follows: {}; choose a rule, `impacts: newton`, `poisson` or `sequential`",
-            outcomes.join("; ")
-        ),
-    )
+    Trouble::SimultaneousImpact(names.to_string(), outcomes)
 }

@@ -68,10 +68,7 @@ impl Settings {
     /// `unknown_method`.
     pub fn integrator(&self) -> Result<&'static Method, Trouble> {
         let known = crate::motion::METHODS.iter().map(|m| m.name);
-        method(&self.method).ok_or_else(|| {
-            let list = known.collect::<Vec<_>>().join(", ");
-            Trouble::new("unknown_method", format!("no integrator is called `{}`; there is {list}", self.method))
-        })
+        method(&self.method).ok_or_else(|| Trouble::UnknownMethod(self.method.clone(), known.collect()))
     }
 }
 
@@ -105,7 +102,7 @@ pub fn simulate(
 ) -> Result<Trajectory, Trouble> {
     m.check_state(start.p, start.t, start.q, start.u)?;
     if !until.is_finite() {
-        return Err(Trouble::new("not_finite", format!("the run must end at a finite time, not at {until} s")));
+        return Err(Trouble::NoFiniteNumber("until".into(), until));
     }
     let integrator = settings.integrator()?;
     let mut workspace = Workspace::new(m, start.p);

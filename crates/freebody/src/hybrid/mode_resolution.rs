@@ -12,8 +12,6 @@ pub(super) const CLOSED_GAP: f64 = 1e-10;
 pub(super) const REST_SPEED: f64 = 1e-10;
 /// Kinetic energy, over the mechanism's own, that it takes no round-off to gain.
 const GAIN: f64 = 1e-9;
-/// The troubles in which friction lets no motion go on, or none that was found.
-const PARADOXES: [&str; 2] = ["painleve_inconsistent", "contact_unsolved"];
 /// Impacts that one instant may hold, and those after which ever larger speeds count as none.
 const ROUNDS: usize = 100;
 const MANY: usize = 50;
@@ -27,10 +25,7 @@ impl HybridSystem<'_> {
     pub fn begin(&mut self, start: &Start, until: f64, y: &mut [f64]) -> Result<(), Trouble> {
         let (m, t) = (self.workspace.m, start.t);
         if m.is_hybrid() && until < t {
-            return Err(Trouble::new(
-                "backward",
-                "impacts and releases cannot be undone: choose an end after the start",
-            ));
+            return Err(Trouble::Backward);
         }
         if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
             self.place(t, y);
@@ -129,7 +124,7 @@ impl HybridSystem<'_> {
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| contacts.rates[i] > rest_speed);
             let staying: Vec<usize> = staying.iter().map(|&i| contacts.constraints[i]).collect();
             match self.decide_modes(t, y, &staying, released) {
-                Err(error) if self.jam_by_impact && PARADOXES.contains(&error.name) => {
+                Err(error) if self.jam_by_impact && error.is_jam() => {
                     if self.relaxed {
                         return Err(error);
                     }
@@ -149,10 +144,7 @@ impl HybridSystem<'_> {
             }
             return self.record_mode_changes(t, &before);
         }
-        Err(Trouble::new(
-            "impact_iteration_limit",
-            format!("{ROUNDS} impacts in one instant did not bring it to an end; choose another rule for impacts"),
-        ))
+        Err(Trouble::EndlessImpacts(ROUNDS))
     }
 
     /// Decides which unilateral constraints hold and which joints stick.
@@ -191,9 +183,7 @@ impl HybridSystem<'_> {
         let after = self.energy(t, y);
         let [speed, height] = [0, 1].map(|i| after[i] - before[i]);
         if speed > GAIN * self.strength * self.workspace.length {
-            let names = self.workspace.names_of(contacts);
-            let what = format!("to bring {names} to rest on each other would create the energy {speed:.6e} J");
-            return Err(Trouble::new("contact_unsolved", what));
+            return Err(Trouble::CreatesEnergy(self.workspace.names_of(contacts), speed));
         }
         if speed + height != 0.0 {
             self.begin_phase(t, 0.0, speed + height);

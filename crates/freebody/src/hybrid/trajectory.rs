@@ -118,10 +118,7 @@ impl Trajectory {
                 y.copy_from_slice(&self.run.y);
             } else if !self.run.trajectory.at(t, &mut y) {
                 let (first, end) = (self.steps[0], self.run.t);
-                return Err(Trouble::new(
-                    "out_of_range",
-                    format!("t = {t} s is outside the run, {first} s to {end} s"),
-                ));
+                return Err(Trouble::OutOfRange(t, first, end));
             }
             self.workspace_at(m, t, &mut last);
             let (_, workspace) = last.as_mut().expect("made above");
@@ -272,7 +269,7 @@ impl Trajectory {
     ) -> Result<T, Trouble> {
         let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
         let Some((t, [before, _], impulses)) = found else {
-            return Err(Trouble::new("no_blow", format!("change {change} of the run is no blow")));
+            return Err(Trouble::NoBlow(change));
         };
         let mut workspace = Workspace::new(m, &self.phase(t).p);
         workspace.mode = impulses.mode.clone();

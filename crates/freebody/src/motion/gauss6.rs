@@ -84,11 +84,7 @@ impl Gauss6 {
             }
             last = change;
         }
-        let sentence = format!(
-            "the stages of the step at t = {t} did not converge in {ITERATIONS} fixed-point \
-             iterations; use a smaller step"
-        );
-        Err(Trouble::new("FixedPointStalled", sentence).into())
+        Err(Trouble::FixedPointStalled(t, ITERATIONS).into())
     }
 
     /// One fixed-point iteration; returns the largest change relative to the largest rate.

@@ -61,7 +61,7 @@ impl Outcome {
             Self::ToleranceTooTight { .. } => "ToleranceTooTight",
             Self::StiffSuspected => "StiffSuspected",
             Self::Interrupted => "Interrupted",
-            Self::Trouble(error) => error.name,
+            Self::Trouble(error) => error.name(),
             Self::Unsupported { .. } => "Unsupported",
             Self::Chatter { .. } => "Chatter",
         }
@@ -70,7 +70,7 @@ impl Outcome {
     /// The item of the model that it is about, e.g. `joints.pivot`, or nothing.
     pub fn path(&self) -> &str {
         match self {
-            Self::Trouble(error) => error.path.as_deref().unwrap_or(""),
+            Self::Trouble(error) => error.path().unwrap_or(""),
             _ => "",
         }
     }
@@ -101,7 +101,7 @@ impl fmt::Display for Outcome {
                 write!(out, "the system looks stiff and the steps allowed do not suffice; use the method radau")
             }
             Self::Interrupted => write!(out, "the run was interrupted"),
-            Self::Trouble(error) => write!(out, "{}", error.sentence),
+            Self::Trouble(error) => write!(out, "{}", error.sentence()),
             Self::Unsupported { method, reason } => {
                 write!(out, "{method} cannot do this because {reason}")
             }

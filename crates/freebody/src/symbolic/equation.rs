@@ -57,7 +57,7 @@ impl SymbolicState<'_> {
     }
 
     fn load(&self, index: usize) -> Result<&Load<Symbol>, Trouble> {
-        let sentence = || Trouble::new("unknown_name", format!("there is no load {index}; count them from 0"));
+        let sentence = || Trouble::UnknownName(format!("there is no load {index}; count them from 0"));
         self.loads.get(index).ok_or_else(sentence)
     }
 
@@ -65,7 +65,7 @@ impl SymbolicState<'_> {
     fn acts_on(&self, index: usize, bodies: &[usize]) -> Result<Part<Symbol>, Trouble> {
         let load = self.load(index)?;
         let part = load.parts.iter().find(|part| bodies.contains(&part.body)).or(load.parts.first());
-        part.copied().ok_or_else(|| Trouble::new("unknown_name", format!("`{}` acts on nothing", load.symbol)))
+        part.copied().ok_or_else(|| Trouble::UnknownName(format!("`{}` acts on nothing", load.symbol)))
     }
 
     /// What a load does to a group, with the friction that follows from it: its force, and its moment about the origin.
@@ -136,9 +136,8 @@ impl SymbolicState<'_> {
         match (about, along) {
             (Some(about), None) => self.turned_about(about, bodies),
             (None, Some(along)) => Ok(VirtualMotion::Force(self.along(along, bodies)?)),
-            _ => Err(Trouble::new(
-                "wrong_question",
-                "an equation is told `about` a point or `along` a direction, one of them",
+            _ => Err(Trouble::WrongQuestion(
+                "an equation is told `about` a point or `along` a direction, one of them".into(),
             )),
         }
     }
@@ -280,7 +279,7 @@ fn meeting(a: Wrench<Symbol>, b: Wrench<Symbol>) -> VirtualMotion {
 
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> Trouble {
     let entries = crate::builder::unknown(what, name, known);
-    Trouble::new("unknown_name", format!("{}; {}", entries.what, entries.hint))
+    Trouble::UnknownName(format!("{}; {}", entries.what, entries.hint))
 }
 
 /// An expression as coefficients of unknowns in which it is linear, and the rest.

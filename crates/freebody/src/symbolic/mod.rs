@@ -174,7 +174,7 @@ impl SymbolicState<'_> {
         let found = known.iter().position(|k| *k == name);
         found.ok_or_else(|| {
             let entries = crate::builder::unknown("coordinate", name, known.into_iter());
-            Trouble::new("unknown_name", format!("{}; {}", entries.what, entries.hint))
+            Trouble::UnknownName(format!("{}; {}", entries.what, entries.hint))
         })
     }
 

@@ -17,7 +17,7 @@ impl SymbolicState<'_> {
         let bound: Vec<usize> = bound.iter().map(|name| self.coordinate(name)).collect::<Result<_, _>>()?;
         let jacobian = self.jacobian(rows);
         if jacobian.len() != bound.len() {
-            return Err(Trouble::new("wrong_question", "as many rows as bound coordinates are needed"));
+            return Err(Trouble::WrongQuestion("as many rows as bound coordinates are needed".into()));
         }
         let all = self.m.freedom();
         let free = (0..all).filter(|i| !bound.contains(i));

@@ -146,8 +146,7 @@ pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Que
         let variables = SymbolicState::new(workspace, setting, &values);
         let answers: Result<Vec<Value>, Trouble> = questions.iter().map(|q| variables.answer(q)).collect();
         if algebra::is_exhausted() {
-            let sentence = "the symbolic equations of this mechanism are too long to be written; ask for fewer, or set symbols to numbers";
-            return Err(Trouble::new("too_large", sentence));
+            return Err(Trouble::TooLarge);
         }
         Ok(
             json!({"answers": answers?, "loads": diagram["loads"], "laws": variables.laws(), "letters": variables.table()}),

@@ -396,8 +396,8 @@ fn how_hard_walls_pinch_what_slides_is_not_decided() {
         workspace.mode.contacts[l].mode = ContactMode::Slip(sense);
     }
     let trouble = workspace.solve().expect_err("any pinch");
-    assert_eq!(trouble.name, "painleve_indeterminate");
-    assert!(trouble.sentence.starts_with("`low` and `high` slide"), "{}", trouble.sentence);
+    assert_eq!(trouble.name(), "painleve_indeterminate");
+    assert!(trouble.sentence().starts_with("`low` and `high` slide"), "{trouble}");
     workspace.mode.contacts[1].mode = ContactMode::ClosedUnloaded;
     workspace.solve().expect("one wall less");
 }

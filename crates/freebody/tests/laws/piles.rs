@@ -65,7 +65,7 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
     let start = Start { p: &[], t: 0.0, q: &q, u: &u, mode: None };
     let run = simulate(m, &start, until, &settings, &mut |_| clock.elapsed().as_secs_f64() < patience);
     let wall = clock.elapsed().as_secs_f64();
-    let run = run.unwrap_or_else(|e| panic!("seed {seed}: {}", e.sentence));
+    let run = run.unwrap_or_else(|e| panic!("seed {seed}: {e}"));
     judge(seed, &pile, &run, wall)
 }
 

@@ -130,7 +130,7 @@ fn equations_told_at_one_state_hold_at_another() {
         let answers = match answer(&mut workspace, &Setting::default(), &questions(&bench)) {
             Ok(answers) => answers,
             Err(trouble) => {
-                assert_eq!(trouble.name, "too_large", "seed {seed}: {trouble:?}");
+                assert_eq!(trouble.name(), "too_large", "seed {seed}: {trouble:?}");
                 continue;
             }
         };

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import CompiledModel, FreeBodies, Load, MotionError, Row, State
+from freebody.core import CompiledModel, FreeBodies, Load, MotionError, OutcomeKind, Row, State
 from freebody.equations.balances.system import DEPENDENT, alike
 from freebody.run.records import Array
 
@@ -155,7 +155,7 @@ class Closing:
         try:
             stated = list(self.core.instant(self.state.at(q)).limits.values())
         except MotionError as error:
-            if error.kind == "penetration":
+            if error.kind is OutcomeKind.PENETRATION:
                 return None
             raise
         return np.array([stated[i].gap for i in self.closed]) * self.normal

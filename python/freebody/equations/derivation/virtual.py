@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.core import MotionError
+from freebody.core import MotionError, OutcomeKind
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.balances.system import DEPENDENT
 from freebody.equations.derivation.data import SymbolicState
@@ -66,7 +66,7 @@ def section(subject: SymbolicState, wanted: int) -> list[Block]:
     try:
         found = virtual_power(subject)
     except MotionError as error:
-        if error.kind != "too_large":
+        if error.kind is not OutcomeKind.TOO_LARGE:
             raise
         return [head, Paragraph(f"{said}. The symbolic equations are too long to be written.")]
     driving = {load.symbol for load in subject.free.loads if load.kind == "motion"}
