@@ -145,7 +145,7 @@ def test_an_unknown_letter_is_told_with_its_place_and_a_near_one(model):
     with pytest.raises(StatementError) as error:
         letters.require(parse("m s̈ = m thetta", letters.names))
     assert str(error.value) == (
-        "the letter `thetta` has no meaning in this model\n    m s̈ = m thetta\n            ^^^^^^\n"
+        "the symbol `thetta` has no meaning in this model\n    m s̈ = m thetta\n            ^^^^^^\n"
         "  did you mean `theta`? Otherwise declare it, like `thetta: …`"
     )
 
@@ -157,7 +157,7 @@ def test_a_third_derivative_is_not_known(model):
 
 
 WRONG = [
-    ("phi", "thetaa - alpha", "letter `phi`: nothing is called `thetaa`"),
+    ("phi", "thetaa - alpha", "symbol `phi`: nothing is called `thetaa`"),
     ("r", "position of rod.X", "`rod` has no point `X`"),
     ("R", "force of pivott on rod", "there is no joint `pivott`"),
     ("R", "force of pivot on ground", "`pivot` does not touch `ground`"),

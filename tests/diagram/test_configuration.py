@@ -14,7 +14,7 @@ from freebody.equations.topics import topic
 from freebody.model import Mechanism
 from freebody.views.diagram.configuration import Configuration, Places
 from freebody.views.diagram.names import letter
-from freebody.views.dimension_lines import measures
+from freebody.views.dimension_lines import dimension_lines
 from freebody.views.sketch import sketch_of_state
 
 HEAD = """
@@ -123,11 +123,11 @@ def test_an_arrow_goes_from_zero_to_the_value(kind):
     goes on, along the arrow, and the tail that stays."""
     source, state = pair(kind)
     sketch = sketch_of_state(source, state)
-    for i, measure in enumerate(measures(sketch)):
+    for i, measure in enumerate(dimension_lines(sketch)):
         step, value = 1e-3, state.q[i]
         beyond = sketch_of_state(source, replace(state, q=state.q + step * np.eye(len(state.q))[i]))
         beyond.size = sketch.size
-        after = list(measures(beyond))[i]
+        after = list(dimension_lines(beyond))[i]
         way, turned = np.diff(measure.arrow, axis=0), np.diff(after.arrow, axis=0)
         length, longer = (np.hypot(*each.T).sum() for each in (way, turned))
         if measure.angle:
@@ -142,7 +142,7 @@ def test_an_arrow_goes_from_zero_to_the_value(kind):
 
 def test_a_zero_is_shown_by_its_sense():
     source, state = pair("free")
-    for measure in measures(sketch_of_state(source, replace(state, q=np.zeros(3)))):
+    for measure in dimension_lines(sketch_of_state(source, replace(state, q=np.zeros(3)))):
         assert np.hypot(*np.diff(measure.arrow, axis=0).T).sum() > 0
 
 
