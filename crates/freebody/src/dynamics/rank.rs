@@ -99,7 +99,7 @@ impl Freedom {
     pub fn explain(&self) -> String {
         let (count, here) = (self.count, self.here);
         let mut text = match (self.redundant, here as i64 - count) {
-            (0, 0) => format!("{} of freedom, as Grübler's count", degrees(here)),
+            (0, 0) => format!("{} of freedom, as many as Grübler's count", degrees(here)),
             (r, more) => {
                 let singular = r - self.always_redundant.min(r);
                 let mut why = vec![];
