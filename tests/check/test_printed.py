@@ -10,7 +10,8 @@ import pytest
 
 import freebody as fb
 from freebody.check import Checker, Kind
-from freebody.document.blocks import Block, Document, Equation, Matrices, MatrixEquation, Written
+from freebody.document.blocks import Block, Equation, Matrices, MatrixEquation, Written
+from freebody.document.document import Document
 from freebody.equations.derivation.derive import FORMS
 
 SYSTEMS = Path(fb.__file__).parent / "systems"

@@ -8,7 +8,8 @@ import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
 
 from freebody.check.language.glyphs import glyphs
-from freebody.document.blocks import Document, Equation
+from freebody.document.blocks import Equation
+from freebody.document.document import Document
 from freebody.equations import latex
 from freebody.symbolic.printers.latex import sides_latex
 from freebody.symbolic.printers.line_breaking import lines, width

@@ -14,7 +14,8 @@ import pytest
 
 import freebody as fb
 from freebody.check import Checker, Kind
-from freebody.document.blocks import Document, Equation, Matrices, Written, is_tree
+from freebody.document.blocks import Equation, Matrices, Written, is_tree
+from freebody.document.document import Document
 from freebody.equations import equation_latex
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.derive import FORMS

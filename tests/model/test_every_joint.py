@@ -8,7 +8,8 @@ import pytest
 import freebody as fb
 from freebody.check import Checker, Kind
 from freebody.core import cards
-from freebody.document.blocks import Document, Equation
+from freebody.document.blocks import Equation
+from freebody.document.document import Document
 from freebody.equations.derivation.derive import FORMS
 from freebody.run.records import quote
 

@@ -64,15 +64,13 @@ def report(checker: Checker, declared: Declared, label: str, figure: str) -> Ver
 
 def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: str, expression: str) -> Verdict:
     """An expression has one value at a moment of the runs with several numbers of a parameter."""
-    from .api import Checker as Another
-
     if name not in checker.mechanism.parameters:
         raise ModelProblem(f"the model has no parameter `{name}`", f"it has {', '.join(checker.mechanism.parameters)}")
     before, found = checker.mechanism.parameters[name], {}
     try:
         for number in (part.strip() for part in numbers.split(",")):
             checker.mechanism.parameters[name] = number
-            case, values, _ = _read(Another(checker.mechanism, checker.declared), declared, moment, f"{expression} = 0")
+            case, values, _ = _read(type(checker)(checker.mechanism, checker.declared), declared, moment, f"{expression} = 0")
             found[number] = evaluate(case.equations[0].left, values)[0]
     finally:
         checker.mechanism.parameters[name] = before

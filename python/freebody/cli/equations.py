@@ -12,7 +12,7 @@ from freebody.cli.models import opened, pairs
 from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
-    from freebody.document.blocks import Document
+    from freebody.document.document import Document
     from freebody.equations.derivation.derive import Equations
     from freebody.model import Mechanism
 

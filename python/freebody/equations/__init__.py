@@ -7,7 +7,6 @@ from __future__ import annotations
 from freebody.codegen.functions import generate
 from freebody.document.blocks import (
     Bullets,
-    Document,
     Equation,
     Figure,
     Heading,
@@ -18,6 +17,7 @@ from freebody.document.blocks import (
     Written,
     letters_table,
 )
+from freebody.document.document import Document
 from freebody.equations.solve import Singular, TooLarge, coefficients, limit, linear_system, solve, solve_equations, substitute
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
 from freebody.symbolic.evaluate import evaluate

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import State
-from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Side, Words, listed
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, listed
+from freebody.document.document import Document
 from freebody.equations.balances.perturbed_states import nearby, others
 from freebody.equations.balances.system import NotUnknown
 from freebody.equations.derivation.balance_text import blocks
@@ -151,7 +152,12 @@ def _ways(subject: SymbolicState, chosen: Substitutions, limits: Collection[str]
 
 
 def _answers(
-    subject: SymbolicState, chosen: Substitutions, names: Sequence[str], limits: Mapping[str, Any], patience: float, with_ratios: bool
+    subject: SymbolicState,
+    chosen: Substitutions,
+    names: Sequence[str],
+    limits: Mapping[str, Any],
+    patience: float,
+    with_ratios: bool,
 ) -> Answers:
     letters, wanted = subject.letters, {name: _letter(subject, name) for name in names}
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
@@ -341,7 +347,9 @@ def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
     said = ["all rates are 0"] * subject.at_rest + chosen.said()
     made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
     if chosen.measured:
-        made.append(Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI."))
+        made.append(
+            Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI.")
+        )
     if chosen.at_start:
         made.append(Paragraph("The symbolic form for every configuration would fill pages: this one holds at the start."))
     return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])

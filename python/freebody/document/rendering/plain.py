@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from freebody.document.blocks import (
     Block,
     Bullets,
-    Document,
     Equation,
     Figure,
     Heading,
@@ -35,10 +34,10 @@ _TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
 
 
-def render(document: Document, *, ascii: bool, width: int) -> str:
+def render(blocks: Sequence[Block], letters: Letters, *, ascii: bool, width: int) -> str:
     """All blocks, an empty line between them."""
-    writer = _Writer(document.letters, ascii, width)
-    made = [(block, writer.block(block)) for block in document.blocks]
+    writer = _Writer(letters, ascii, width)
+    made = [(block, writer.block(block)) for block in blocks]
     kept = [(block, shown) for block, shown in made if shown]
     spaces = ["" if place == 0 else _space(kept[place - 1][0], block) for place, (block, _) in enumerate(kept)]
     return "".join(space + shown for space, (_, shown) in zip(spaces, kept, strict=True)) + "\n"

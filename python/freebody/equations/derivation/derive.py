@@ -8,7 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from freebody.document.blocks import Block, Document, Equation, Heading
+from freebody.document.blocks import Block, Equation, Heading
+from freebody.document.document import Document
 from freebody.equations.derivation import conserved, matrices, preamble
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained

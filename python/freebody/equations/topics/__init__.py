@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from freebody.document.blocks import Document
+from freebody.document.document import Document
 from freebody.equations.topics.common import NotHere
 from freebody.equations.topics.elimination import elimination
 from freebody.equations.topics.frame import frame

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from freebody.document.blocks import Block, Document, Heading
+from freebody.document.blocks import Block, Heading
+from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.data import Arrow, SymbolicState
 from freebody.equations.derivation.derive import used

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Words, listed
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words, listed
+from freebody.document.document import Document
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linear import linear_in

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
+from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.data import Arrow, Direction, SymbolicState
 from freebody.equations.derivation.directions import Directions
@@ -68,7 +69,9 @@ def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, 
 
     made += [
         Heading("Velocity"),
-        component_equation("v_transport", "v_transport", f"Transport: of the place on {body} where {point} is, v of its origin + ω × r"),
+        component_equation(
+            "v_transport", "v_transport", f"Transport: of the place on {body} where {point} is, v of its origin + ω × r"
+        ),
         component_equation("v_relative", "v_relative", f"Relative: as {body} sees {point} move"),
         component_equation("v", "v", "Together, v = v_transport + v_relative"),
         Heading("Acceleration"),

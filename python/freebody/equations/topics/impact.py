@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Load
-from freebody.document.blocks import Block, Bullets, Document, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Words
+from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Words
+from freebody.document.document import Document
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.meaning import joined

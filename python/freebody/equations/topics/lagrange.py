@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Words, Written
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words, Written
+from freebody.document.document import Document
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.document.blocks import Block, Document, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
+from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
 from freebody.document.blocks import Matrix as Rows
+from freebody.document.document import Document
 from freebody.equations.balances.perturbed_states import nearby
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from freebody.core import GROUND
-from freebody.document.blocks import Block, Document, Equation, Heading, Paragraph, Written
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
+from freebody.document.document import Document
 from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.topics.common import (
     NotHere,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from freebody.document.blocks import Block, Bullets, Document, Equation, Heading, Paragraph, Written
+from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Written
+from freebody.document.document import Document
 from freebody.equations.substitutions import given_quantity
 from freebody.equations.topics.common import document, subject_of
 from freebody.symbolic.letters import Letter

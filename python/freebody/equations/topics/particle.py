@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from freebody.core import GROUND
-from freebody.document.blocks import Block, Bullets, Document, Equation, Heading, Paragraph, Vector, Words
+from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Vector, Words
+from freebody.document.document import Document
 from freebody.equations.derivation.data import Arrow, Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
 from freebody.solve.symbols import load_words
