@@ -36,7 +36,8 @@ class Mechanism:
         """``bodies`` [{name, mass, inertia, centre:[x,y], particle}], ``parameters`` [{name, unit, value}],
         ``coordinates`` (the state, in order) [{name, joint, dimension ("m" or "rad"), absolute, doc}],
         ``closure_coordinates`` (of cut joints; measured, not integrated), ``joints`` [{name, type, first, second, point, cut,
-        coordinates, reaction: [labels]}], ``forces`` [{name, type, conservative}], ``motions`` [{name, of, level, ideal}],
+        coordinates, reaction: [labels]}], ``forces`` [{name, type, conservative}], ``motions`` [{name, level, ideal, engaged}],
+        ``locks`` [{name, first, second, turns: whether it passes a couple}],
         ``limits`` (contacts, strings and stops) [{name, type, first, second, engaged}],
         ``events`` [names], ``freedom`` {count, joints_count}, ``notes`` [str: what is modelled, ignored, assumed]."""
 

@@ -71,6 +71,7 @@ class FakeMechanism:
             "limits": [],
             "forces": [{"name": f["name"], "type": f["type"], "conservative": f["type"] == "spring"} for f in self.spec.get("forces", [])],
             "motions": [],
+            "locks": [],
             "events": [e["name"] for e in self.spec.get("events", [])],
             "freedom": {"count": 1, "joints_count": len(self.hinges)},
             "notes": ["hinges without friction", "air is ignored"],
@@ -180,7 +181,7 @@ class FakeMechanism:
                 "self_stress": [f"{n} can be pulled along x" for n in self.unknown]}  # fmt: skip
         return {
             "accelerations": bodies[:, 2], "body_accelerations": bodies, "reactions": np.where(known, least, np.nan),
-            "least_reactions": least, "determinate": known, "motions": np.zeros(0), "residual": 1e-16,
+            "least_reactions": least, "determinate": known, "motions": {}, "couplings": {}, "locks": {}, "residual": 1e-16,
             "body_residuals": np.full((len(bodies), 3), 1e-16), "rank": rank, "sizes": (1.0, 1.0), "limits": [],
         }  # fmt: skip
 

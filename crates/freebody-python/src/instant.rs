@@ -2,7 +2,7 @@
 
 use crate::data::{array, plain};
 use freebody::dynamics::{Freedom, Instant};
-use freebody::mechanism::Mechanism;
+use freebody::mechanism::{DriveKind, Mechanism};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -17,8 +17,15 @@ pub fn solution<'py>(
     let least: Vec<f64> = solved.joints.iter().flat_map(|l| [l.force.x, l.force.y, l.couple]).collect();
     let determinate = solved.determinate.concat();
     let known = |(x, sure): (&f64, &bool)| if *sure { *x } else { f64::NAN };
-    let motions = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
-    let motions: Vec<f64> = motions.map(|d| known((&solved.drives[d], &solved.drives_determinate[d]))).collect();
+    // Of locks only those in place.
+    let is_told = |d: &usize| m.drives[*d].kind != DriveKind::Lock || solved.drives_in_place.contains(d);
+    let drives = |kind: DriveKind| -> PyResult<Bound<'py, PyDict>> {
+        let forces = PyDict::new(py);
+        for d in (0..m.drives.len()).filter(|&d| m.drives[d].kind == kind).filter(is_told) {
+            forces.set_item(&m.drives[d].name, known((&solved.drives[d], &solved.drives_determinate[d])))?;
+        }
+        Ok(forces)
+    };
     let told = PyDict::new(py);
     told.set_item("accelerations", array(py, solved.accelerations.clone(), [solved.accelerations.len()])?)?;
     told.set_item("body_accelerations", by_body(&solved.bodies)?)?;
@@ -26,7 +33,9 @@ pub fn solution<'py>(
     told.set_item("reactions", array(py, least.iter().zip(&determinate).map(known).collect(), [joints, 3])?)?;
     told.set_item("least_reactions", array(py, least, [joints, 3])?)?;
     told.set_item("determinate", array(py, determinate, [joints, 3])?)?;
-    told.set_item("motions", array(py, motions, [m.drives.iter().filter(|d| !d.coupling).count()])?)?;
+    told.set_item("motions", drives(DriveKind::Motion)?)?;
+    told.set_item("couplings", drives(DriveKind::Coupling)?)?;
+    told.set_item("locks", drives(DriveKind::Lock)?)?;
     told.set_item("residual", solved.residual)?;
     told.set_item("sizes", (solved.sizes.load, solved.sizes.acceleration))?;
     told.set_item("limits", plain(py, &solved.contacts())?)?;

@@ -3,7 +3,7 @@
 use crate::bound_values::BoundValues;
 use crate::dynamics::{Count, Source};
 use crate::joints::{Joint as _, Kind};
-use crate::mechanism::{Drive, FrictionSource, Joint, Level, Mechanism, Part};
+use crate::mechanism::{Drive, DriveKind, FrictionSource, Joint, Level, Mechanism, Part};
 use crate::mode::Mode;
 use serde_json::{json, Map, Value};
 
@@ -28,6 +28,7 @@ pub fn metadata(m: &Mechanism) -> Value {
         "joints": (0..m.joints.len()).map(|j| joint(m, &start, j)).collect::<Vec<_>>(),
         "forces": (0..m.forces.len()).map(|f| force(m, &start, f)).collect::<Vec<_>>(),
         "motions": motions(m, &start),
+        "locks": locks(m),
         "limits": m.groups.iter().map(|g| json!({"name": g.name, "type": g.word, "engaged": g.engaged,
             "first": m.bodies[g.ends[0]].name, "second": m.bodies[g.ends[1]].name})).collect::<Vec<_>>(),
         "events": m.events.iter().map(|e| &e.name).collect::<Vec<_>>(),
@@ -127,12 +128,22 @@ fn motions(m: &Mechanism, start: &Mode) -> Vec<Value> {
         Level::Velocity => "velocity",
         Level::Acceleration => "acceleration",
     };
-    let motions = m.drives.iter().enumerate().filter(|(_, d)| !d.coupling);
+    let motions = m.drives.iter().enumerate().filter(|(_, d)| d.is_motion());
     let entry = |(i, d): (usize, &Drive)| {
         let engaged = start.has(Part::Drive(i));
         json!({"name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none(), "engaged": engaged})
     };
     motions.map(entry).collect()
+}
+
+/// What events lock: the second body on which each lock acts, the first being that which takes the opposite or ground.
+fn locks(m: &Mechanism) -> Vec<Value> {
+    let entry = |d: &Drive| {
+        let bodies = m.bodies_of(&d.of);
+        let body = |i: usize| &m.bodies[bodies.get(i).copied().unwrap_or(0)].name;
+        json!({"name": d.name, "first": body(1), "second": body(0), "turns": m.turns(&d.of)})
+    };
+    m.drives.iter().filter(|d| d.kind == DriveKind::Lock).map(entry).collect()
 }
 
 /// Grübler's count at the start.

@@ -14,6 +14,8 @@ pub struct Mode {
     pub contacts: Vec<ContactState>,
     /// How each joint with friction is held: stuck, sliding, or open while nothing is decided.
     pub joint_friction: Vec<ContactMode>,
+    /// The gear pairs whose teeth bear on the other flank than that of the model, by joint.
+    other_flank: Vec<usize>,
     /// At rest by friction: nothing moves until the mode changes.
     pub resting: bool,
 }
@@ -103,6 +105,7 @@ impl Mode {
             row_offsets: HashMap::new(),
             contacts: m.unilateral.iter().map(|constraint| held(constraint.group)).collect(),
             joint_friction: vec![ContactMode::Open; m.joint_friction.len()],
+            other_flank: vec![],
             resting: false,
         }
     }
@@ -113,6 +116,17 @@ impl Mode {
     /// Freezes a switch at an arm.
     pub fn freeze(&mut self, discontinuity: usize, arm: bool) {
         self.branches[discontinuity] = Some(arm);
+    }
+    /// Whether the teeth of a gear pair bear on the other flank than that of the model.
+    pub fn bears_on_other_flank(&self, joint: usize) -> bool {
+        self.other_flank.contains(&joint)
+    }
+    /// Lets the teeth of a gear pair bear on the flank on which they do not.
+    pub fn turn_flank(&mut self, joint: usize) {
+        match self.other_flank.iter().position(|&j| j == joint) {
+            Some(place) => drop(self.other_flank.swap_remove(place)),
+            None => self.other_flank.push(joint),
+        }
     }
     /// Whether a part is in place.
     pub fn has(&self, part: Part) -> bool {

@@ -165,7 +165,6 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
     if opening:
         put(Text("just before the events at the start\n", "bold"))
     put(accelerations, reactions_along(first.reactions) if joint_axes else reactions, *limits)
-    put(table("prescribed motions", ["motion", "force or torque"], first.motions.items()))
     if balance:
         put(residuals, f"Largest relative residual: {first.residual:.1e}")
     put(first.explanation, *first.self_stress)
@@ -215,6 +214,8 @@ def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
         "reactions": _reactions_as_dict(instant.reactions, joint_axes),
         "limits": {name: asdict(limit) for name, limit in instant.limits.items()},
         "motions": instant.motions,
+        "couplings": instant.couplings,
+        "locks": instant.locks,
         "residual": instant.residual,
         "residuals": instant.residuals,
         "freedom": instant.freedom,

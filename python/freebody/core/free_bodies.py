@@ -13,7 +13,7 @@ from .errors import Indeterminate
 from .state import Array
 
 GROUND = "ground"
-_DRIVEN = ("motion", "coupling", "force")
+_DRIVEN = ("motion", "coupling", "lock", "force")
 Pair = tuple[float, float]
 
 
@@ -42,7 +42,7 @@ class Part:
 class Load:
     """One load, or one component of a reaction, and what it does to each body that it touches, ground included.
 
-    ``symbol`` is what an expression of the model calls it (``pivot.Fx``); ``kind`` is joint, motion, coupling, weight, force,
+    ``symbol`` is what an expression of the model calls it (``pivot.Fx``); ``kind`` is joint, motion, coupling, lock, weight, force,
     contact, string, stop or friction; ``axis`` the fixed axis, x or y, along which it is a component of a pin's force;
     ``number`` which one it is of several of its kind that its owner has; ``of`` are its first and second body. An ``unknown`` load has a ``value`` (N or N·m; NaN
     where it is not ``determinate``) that multiplies its parts; the parts of a known one are what acts. One that ``follows``

@@ -57,18 +57,22 @@ class Snapshot:
 class Impulses:
     """The impulses of an impact: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
     second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
-    ``restitution`` is that of what was struck; ``spared`` was reached too, but would have had to pull."""
+    ``drives`` (motions and couplings) and ``locks`` along what they hold. ``restitution`` is that of what was struck; ``spared`` was
+    reached too, but would have had to pull."""
 
     contacts: Mapping[str, tuple[float, float]]
     joints: Mapping[str, tuple[float, float, float]]
     stops: Mapping[str, float] = field(default_factory=dict)
     restitution: Mapping[str, float] = field(default_factory=dict)
     spared: tuple[str, ...] = ()
+    drives: Mapping[str, float] = field(default_factory=dict)
+    locks: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def sizes(self) -> dict[str, float]:
-        """How large the impulse of each contact, string and stop is."""
-        return {name: float(np.hypot(*force)) for name, force in self.contacts.items()} | dict(self.stops)
+        """How large the impulse of each contact, string, stop and lock is."""
+        locks = {name: abs(impulse) for name, impulse in self.locks.items()}
+        return {name: float(np.hypot(*force)) for name, force in self.contacts.items()} | dict(self.stops) | locks
 
 
 @dataclass(frozen=True)
@@ -131,15 +135,18 @@ class Motion:
         return Change(**plain, of=tuple(of), note=note or "", impulses=impulses and self._impulses(**impulses),
                       **dict(zip(("before", "after"), sides, strict=True)))  # fmt: skip
 
-    def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str]) -> Impulses:
+    def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str], drives: Any = ()) -> Impulses:
         stops = {limit["name"] for limit in self.about["limits"] if limit["type"] == "stop"}
         names = [joint["name"] for joint in self.about["joints"]]
+        locks = {lock["name"] for lock in self.about["locks"]}
         return Impulses(
             contacts={name: tuple(p) for name, p in limits if name not in stops},
             joints={name: tuple(p) for name, p in zip(names, joints, strict=True) if any(p)},
             stops={each["name"]: each["normal"] for each in struck if each["name"] in stops},
             restitution={each["name"]: each["restitution"] for each in struck},
             spared=tuple(spared),
+            drives={name: p for name, p in drives if name not in locks},
+            locks={name: p for name, p in drives if name in locks},
         )
 
 

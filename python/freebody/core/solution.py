@@ -46,8 +46,12 @@ class Solution:
     """(nj, 3) the member of least norm, where reactions are indeterminate."""
     determinate: NDArray[np.bool_]
     """(nj, 3)"""
-    motions: Array
-    """Force or torque of each prescribed motion."""
+    motions: dict[str, float]
+    """Force or torque of each prescribed motion by name; NaN where indeterminate."""
+    couplings: dict[str, float]
+    """The same of each coupling."""
+    locks: dict[str, float]
+    """The same of each lock in place."""
     residual: float
     """Largest momentum-balance residual of a body, relative to the largest term."""
     sizes: tuple[float, float]

@@ -273,7 +273,7 @@ def columns_of(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> li
     if kind == "reaction":
         return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
     if kind == "limit":
-        return [column for limit in about["limits"] for column in _limit_columns(limit)]
+        return [column for limit in about["limits"] for column in _limit_columns(limit)] + [*map(_lock_column, about["locks"])]
     if kind == "energy":
         return [_energy_column(name) for name in ledger]
     axes = (("x({0}.origin)", "x", "m"), ("y({0}.origin)", "y", "m"), ("angle({0})", r"\varphi", "rad"))
@@ -296,6 +296,12 @@ def _limit_columns(limit: Mapping[str, Any]) -> list[Column]:
         Column(f"{quote(name)}.{part}", f"{sign}_{{{roman(name)}}}", unit, "limit")
         for part, sign, unit in [*forces, ("gap", "g", length)]
     ]
+
+
+def _lock_column(lock: Mapping[str, Any]) -> Column:
+    """The force or torque along what a lock holds; 0 where it is not in place."""
+    name = lock["name"]
+    return Column(f"{quote(name)}.force", f"F_{{{roman(name)}}}", "N*m" if lock["turns"] else "N", "limit")
 
 
 def _energy_column(name: str) -> Column:

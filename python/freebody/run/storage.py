@@ -48,7 +48,7 @@ _MEANING = {
     "rate": "rates of the coordinates, m/s or rad/s",
     "acceleration": "second time derivatives of the coordinates, m/s^2 or rad/s^2",
     "reaction": "reaction on the joint's second body: N, N, N*m about the joint's point; NaN where indeterminate",
-    "limit": "forces (N) and gaps (m) of contacts, strings and stops; N*m and rad at a stop of an angle",
+    "limit": "forces (N) and gaps (m) of contacts, strings and stops, forces of locks; N*m and rad at an angle",
     "energy": "energy ledger, J",
     "pose": "frame origin x, y (m) and angle (rad) of the bodies",
 }

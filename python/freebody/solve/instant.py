@@ -172,8 +172,17 @@ class Instant:
     @property
     def motions(self) -> dict[str, float]:
         """Force (N) or torque (N·m) that each prescribed motion takes."""
-        names = (m["name"] for m in self._about["motions"])
-        return dict(zip(names, self._solved.motions.tolist(), strict=True))
+        return self._solved.motions
+
+    @property
+    def couplings(self) -> dict[str, float]:
+        """Force (N) or torque (N·m) that each coupling passes, along what it holds at 0."""
+        return self._solved.couplings
+
+    @property
+    def locks(self) -> dict[str, float]:
+        """Force (N) or torque (N·m) along what each lock in place holds, named ``lock theta``."""
+        return self._solved.locks
 
     @property
     def residual(self) -> float:
@@ -251,12 +260,16 @@ class Instant:
         )
 
     def tables(self) -> list[Table]:
-        """Accelerations, reactions on both bodies, what contacts, strings and stops do, and residuals, for rich."""
+        """Accelerations, reactions on both bodies, what contacts, strings, stops, motions, couplings and locks do, and residuals, for
+        rich."""
         return [
             rich_tables.of_accelerations(self._about["coordinates"], self.accelerations),
             rich_tables.of_reactions(self.reactions.values()),
             rich_tables.of_limits(self.limits.values()),
             rich_tables.of_forces(self.limits.values()),
+            rich_tables.of_drives("prescribed motions", "motion", self.motions),
+            rich_tables.of_drives("couplings", "coupling", self.couplings),
+            rich_tables.of_drives("locks", "lock", {name.removeprefix("lock "): value for name, value in self.locks.items()}),
             rich_tables.of_residuals(self.residuals),
         ]
 

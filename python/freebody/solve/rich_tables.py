@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from freebody.core import Limit
     from freebody.solve.instant import Reaction
 
-_WORDS = ("coordinate", "unit", "joint", "on", "body", "", "state")
+_WORDS = ("motion", "coupling", "lock", "coordinate", "unit", "joint", "on", "body", "", "state")
 _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what rounding left
 
 
@@ -70,6 +70,14 @@ def of_forces(limits: Iterable[Limit]) -> Table:
         if limit.kind != "stop" and limit.N != 0:
             force = [figure(0.0 if abs(f) <= noise else f) for f in (limit.Fx, limit.Fy)]
             _add(made, limit.name, limit.first, *force, *(map(figure, limit.at) if limit.at else ("", "")))
+    return made
+
+
+def of_drives(title: str, kind: str, values: Mapping[str, float]) -> Table:
+    """The forces of prescribed motions, couplings or locks."""
+    made = _table(title, kind, "force or torque")
+    for name, value in values.items():
+        _add(made, name, figure(value))
     return made
 
 

@@ -88,7 +88,7 @@ def load_words(load: Load, bodies: Collection[str] = ()) -> str:
         return f"weight of {load.of[-1]}"
     if load.kind == "force":
         return load.name
-    if load.kind in ("motion", "coupling"):
+    if load.kind in ("motion", "coupling", "lock"):
         return f"what {load.name} exerts"
     return f"{load.card.name} of {load.name}{_between(load, bodies)}"
 

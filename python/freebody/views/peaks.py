@@ -1,4 +1,4 @@
-"""The largest reaction of every joint, contact, string and stop, and when."""
+"""The largest reaction of every joint, contact, string, stop and lock, and when."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ROUND_OFF = 1e-9  # of the largest of its kind: below it a reaction is what rou
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest force of a joint, contact, string or stop on ``body``: its size and components (N) at time ``t`` (s), and the
+    """The largest force of a joint, contact, string, stop or lock on ``body``: its size and components (N) at time ``t`` (s), and the
     largest couple (N·m) at ``t_couple``, None for what passes none. An indeterminate reaction has no figures: they are None."""
 
     joint: str
@@ -38,7 +38,8 @@ def peak_reactions(run: Run) -> list[Peak]:
     sampled = run if run.recorded else run.at(Window(run.edges).samples())
     noise = couple_noise(sampled)
     joints = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
-    return joints + [_peak_of_limit(run, sampled, limit) for limit in run.about["limits"]]
+    limits = [_peak_of_limit(run, sampled, limit) for limit in run.about["limits"]]
+    return joints + limits + [_peak_of_lock(run, sampled, lock) for lock in run.about["locks"]]
 
 
 def couple_noise(run: Run) -> float:
@@ -77,6 +78,22 @@ def _peak_of_limit(run: Run, sampled: Run, limit: Mapping[str, Any]) -> Peak:
         return Peak(name, limit["first"], True, t, largest)
     force = run.motion.evaluate([f"{own}.Fx", f"{own}.Fy"], np.array([t]))[0]
     return Peak(name, limit["first"], True, t, largest, *force.tolist())
+
+
+def _peak_of_lock(run: Run, sampled: Run, lock: Mapping[str, Any]) -> Peak:
+    """The largest force, or couple, along what a lock holds."""
+    name, text = lock["name"], f"{quote(lock['name'])}.force"
+
+    def size(motion: Any, t: Array) -> Array:
+        return np.abs(motion.evaluate([text], t)[:, 0])
+
+    sizes = size(sampled.motion, sampled.t)
+    if np.isnan(sizes).any():
+        return Peak(name, lock["second"], False)
+    t, largest = _largest(run, sampled.t, sizes, lambda t: size(run.motion, t))
+    if lock["turns"]:
+        return Peak(name, lock["second"], True, couple=largest, t_couple=t)
+    return Peak(name, lock["second"], True, t, largest)
 
 
 def _solved(run: Run, i: int, t: Array) -> Array:

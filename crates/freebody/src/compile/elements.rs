@@ -4,7 +4,7 @@ use crate::builder::{twice, unknown, Builder, Fields, Reach, Result};
 use crate::error::CompileError;
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Card, FieldKind, Role};
-use crate::mechanism::{Drive, Level};
+use crate::mechanism::{Drive, DriveKind, Level};
 
 /// The card of a coupling, which joins gauges rather than bodies.
 pub fn coupling_card() -> Card {
@@ -29,7 +29,7 @@ impl Builder<'_> {
             let name = element.name.clone();
             self.drive(
                 &path,
-                Drive { name, coupling: true, of, law, level: Level::Position, by: None, feedback: false },
+                Drive { name, kind: DriveKind::Coupling, of, law, level: Level::Position, by: None, feedback: false },
             )?;
         }
         for motion in &self.spec.motions {
@@ -59,7 +59,7 @@ impl Builder<'_> {
             }
             let feedback = law.variables().any(|l| !matches!(l, ModelVariable::Time | ModelVariable::Parameter(_)));
             let name = motion.name.clone();
-            self.drive(&path, Drive { name, coupling: false, of, law, level, by, feedback })?;
+            self.drive(&path, Drive { name, kind: DriveKind::Motion, of, law, level, by, feedback })?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use crate::builder::{unknown, Builder, Names, Reach, Result};
 use crate::error::CompileError;
 use crate::gauges::{ModelExpr, ModelVariable};
-use crate::mechanism::{CurveFollower, Drive, Event, EventAction, Level, Part};
+use crate::mechanism::{CurveFollower, Drive, DriveKind, Event, EventAction, Level, Part};
 use crate::spec::{Action, Element, Event as EventSpec, Spec};
 
 /// Whether a joint is there all the time; one that comes or goes cannot be in the tree.
@@ -30,7 +30,10 @@ impl Builder<'_> {
                     let of = self.law(&path, text, Reach::Configuration)?;
                     self.m.initially_absent.push(Part::Drive(self.m.drives.len()));
                     let (law, level) = (ModelExpr::constant(0.0), Level::Velocity);
-                    self.drive(&path, Drive { name, coupling: true, of, law, level, by: None, feedback: false })?;
+                    self.drive(
+                        &path,
+                        Drive { name, kind: DriveKind::Lock, of, law, level, by: None, feedback: false },
+                    )?;
                 }
             }
         }
@@ -50,7 +53,7 @@ impl Builder<'_> {
                 (format!("{}.hold", element.name), ModelExpr::variable(ModelVariable::Coordinate(joint, 0)));
             let (law, level) = (ModelExpr::constant(0.0), Level::Velocity);
             self.m.initially_absent.push(Part::Drive(hold));
-            let drive = Drive { name, coupling: true, of, law, level, by: None, feedback: false };
+            let drive = Drive { name, kind: DriveKind::Coupling, of, law, level, by: None, feedback: false };
             self.drive(&format!("joints.{}", element.name), drive)?;
             self.m.curve_followers.push(CurveFollower { joint, released_joint: pin, hold });
         }

@@ -5,6 +5,7 @@
 //! freedom is eliminated; back, each joint's acceleration and the load that it passes follow. Lever arms are relative
 //! vectors, so nothing is lost far from the origin.
 
+use super::momentum::Inertia;
 use super::Trouble;
 use crate::kinematics::StateView;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
@@ -133,14 +134,14 @@ impl ArticulatedBody {
         self.inverse_inertia.resize(n, 0.0);
         self.general.resize(n, Default::default());
         for i in 0..n {
-            let (m, arm, w) = (at.n.mass[i], arms[i], at.k.twist[i].w);
-            let swing = arm * (-m * w * w);
-            let turn = if at.m.bodies[i].particle { 0.0 } else { at.n.inertia[i] + m * arm.dot(arm) };
+            let (arm, w) = (arms[i], at.k.twist[i].w);
+            let Inertia { mass, moment, turn } = Inertia::of(at, i, arm);
+            let swing = arm * (-mass * w * w);
             self.full[i] = ArticulatedInertia {
-                xx: m,
+                xx: mass,
                 xy: 0.0,
-                yy: m,
-                h: arm.perp() * m,
+                yy: mass,
+                h: moment.perp(),
                 turn,
                 p: swing - loads[i].f,
                 pm: arm.cross(swing) - loads[i].m,

@@ -271,8 +271,7 @@ impl Workspace<'_> {
 
     /// Whether the rows of the last solution leave nothing free, and no motion drives it.
     pub fn is_locked(&self) -> bool {
-        let driven =
-            self.m.drives.iter().enumerate().any(|(d, drive)| !drive.coupling && self.mode.has(Part::Drive(d)));
+        let driven = self.at().drives().any(|(_, drive)| drive.is_motion());
         !driven && self.dense.saddle.dof() == 0
     }
 

@@ -22,12 +22,13 @@ impl Workspace<'_> {
             if joint.kind != Kind::Gear {
                 continue;
             }
-            let flank = joint.numbers[Gear::FLANK];
-            if self.n.values[flank] * lambda < 0.0 && self.keeps_centre_distance(joint) {
-                pulling.push(flank);
+            let model = self.n.values[joint.numbers[Gear::FLANK]];
+            let flank = if self.mode.bears_on_other_flank(j) { -model } else { model };
+            if flank * lambda < 0.0 && self.keeps_centre_distance(joint) {
+                pulling.push(j);
             }
         }
-        pulling.iter().for_each(|&flank| self.n.values[flank] = -self.n.values[flank]);
+        pulling.iter().for_each(|&joint| self.mode.turn_flank(joint));
         !pulling.is_empty()
     }
 

@@ -24,6 +24,8 @@ pub struct ImpactSolution {
     pub on_first: Vec<Vec2>,
     /// Impulsive reaction of every joint, N·s and N·m·s.
     pub joints: Vec<JointLoad>,
+    /// Impulse of every coupling, motion and lock along its gauge.
+    pub drives: Vec<f64>,
     /// What was to be said of the law.
     pub note: Option<String>,
 }
@@ -84,7 +86,8 @@ impl Workspace<'_> {
         let k = contacts.len();
         let on_first = (0..k).map(|i| self.on_first(contacts, i, p[i], p[k + i])).collect();
         let (normal, tangent) = (impulses.normal, impulses.tangent);
-        ImpactSolution { change, normal, tangent, on_first, joints, note }
+        let drives = self.of_drives(&solution.lambda);
+        ImpactSolution { change, normal, tangent, on_first, joints, drives, note }
     }
 
     /// The impulses by which the present closing rows come to rest, unilateral constraints apart from those that carry.
@@ -98,7 +101,8 @@ impl Workspace<'_> {
         let mut change = vec![0.0; self.m.freedom()];
         self.to_user(&solution.a, &mut change);
         let joints = self.impulsive_loads(&nothing, &[], &solution.a, &solution.lambda);
-        Ok(ImpactSolution { change, normal: vec![], tangent: vec![], on_first: vec![], joints, note: None })
+        let drives = self.of_drives(&solution.lambda);
+        Ok(ImpactSolution { change, normal: vec![], tangent: vec![], on_first: vec![], joints, drives, note: None })
     }
 
     /// The coefficient of friction of a unilateral constraint that slides: 0 where it is smooth, infinite where it
@@ -127,18 +131,18 @@ impl Workspace<'_> {
         let n = self.m.bodies.len();
         let mut bodies = vec![Twist::zero(); n];
         self.k.propagate_motion(self.m, change, false, &mut bodies);
-        let mut needed: Vec<Wrench> = (0..n)
-            .map(|i| {
-                let momentum = bodies[i].at(self.arms[i]) * self.n.mass[i];
-                Wrench { f: momentum, m: self.arms[i].cross(momentum) + self.n.inertia[i] * bodies[i].w }
-            })
-            .collect();
+        let momentum = |i: usize| {
+            let arm = self.arms[i];
+            super::momentum(self.at(), i, bodies[i].at(arm), bodies[i].w).seen_from(arm)
+        };
+        let mut unbalanced: Vec<Wrench> = (0..n).map(|i| -momentum(i)).collect();
         for (i, &p) in p.iter().enumerate() {
             for &(body, load) in contacts.row(i).map_or(&[][..], |row| &row.motion) {
-                needed[body] = needed[body] - load * p;
+                unbalanced[body] += load * p;
             }
         }
-        let joint_wrenches = self.joint_wrenches(needed, lambda);
+        super::add_multipliers(&self.rows, lambda, &mut unbalanced);
+        let joint_wrenches = self.joint_wrenches(unbalanced);
         (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &joint_wrenches, &self.rows, lambda)).collect()
     }
 }

@@ -22,6 +22,8 @@ pub struct Instant {
     pub drives: Vec<f64>,
     /// Whether those are determinate.
     pub drives_determinate: Vec<bool>,
+    /// The couplings, motions and locks in place.
+    pub drives_in_place: Vec<usize>,
     /// What is left of the momentum balance of each body, N, N, N·m.
     pub residuals: Vec<[f64; 3]>,
     /// The largest of them relative to the largest load.
@@ -90,6 +92,7 @@ impl Workspace<'_> {
         self.accelerations(&mut accelerations);
         let joints = self.joint_loads();
         let drives = self.drive_forces();
+        let drives_in_place = self.at().drives().map(|(drive, _)| drive).collect();
         let (residuals, sizes) = (self.residuals(), self.term_scales());
         let length = self.length;
         let size = |r: &[f64; 3]| r[0].abs().max(r[1].abs()).max(r[2].abs() / length);
@@ -112,6 +115,7 @@ impl Workspace<'_> {
             determinate,
             drives,
             drives_determinate,
+            drives_in_place,
             residuals,
             residual,
             sizes,

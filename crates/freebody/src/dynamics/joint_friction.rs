@@ -70,11 +70,11 @@ impl Workspace<'_> {
         Err(Trouble::SelfLocking(names.collect()))
     }
 
-    /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, effective,
-    /// N.
+    /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, of
+    /// inertia, N.
     fn largest_force(&self) -> f64 {
-        let effective = |i: usize| super::inertia_wrench(self.at(), i, self.arms[i], self.solved.bodies[i]);
-        let forces = |i: usize| [self.loads[i], self.solved.joint_wrenches[i], effective(i)].map(|load| load.f.norm());
+        let inertial = |i: usize| super::inertia_wrench(self.at(), i, self.solved.bodies[i]);
+        let forces = |i: usize| [self.loads[i], self.solved.joint_wrenches[i], inertial(i)].map(|load| load.f.norm());
         (0..self.m.bodies.len()).flat_map(forces).fold(0.0, f64::max)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::kinematics::{gradient, State, StateView};
 use crate::mechanism::{Force, GaugeForce, Part, PointForce};
-use crate::plane::{vec2, Twist, Vec2, Wrench};
+use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::Scalar;
 
 /// From the joint origin of each body to its mass centre, fixed axes.
@@ -105,14 +105,4 @@ pub fn force_value(at: StateView<'_, f64>, force: usize) -> f64 {
     let gauge_forces: f64 = force.gauge_forces.iter().map(|p| gauge_force_value(at, p)).sum();
     let point_forces: f64 = force.point_forces.iter().map(|p| pushed(at, p).2.norm()).sum();
     gauge_forces + point_forces
-}
-
-/// What the inertia of a body asks for, at its joint origin, for an acceleration of its joint origin and angle; `arm`
-/// from the joint origin to the mass centre: m a_G at G and I α.
-#[inline]
-pub fn inertia_wrench<S: Scalar>(at: StateView<'_, S>, body: usize, arm: Vec2<S>, acceleration: Twist<S>) -> Wrench<S> {
-    let w = at.k.twist[body].w;
-    let centre = acceleration.at(arm) - arm * (w * w);
-    let force = centre * at.n.mass[body];
-    Wrench { f: force, m: arm.cross(force) + at.n.inertia[body] * acceleration.w }
 }

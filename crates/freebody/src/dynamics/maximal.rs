@@ -1,6 +1,7 @@
 //! Three coordinates a body and every joint a constraint: M a − Gᵀλ = f, G a = −γ, by a block-sparse factorisation that
 //! is linear in the number of bodies for trees and for ladders of loops.
 
+use super::momentum::Inertia;
 use super::rows::{closing_rows, joint_rows, pair};
 use super::{Row, Source, Trouble, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
@@ -64,10 +65,8 @@ impl Workspace<'_> {
         let at = self.at();
         let mut rows = vec![];
         for (j, joint) in at.joints() {
-            match (joint.rows.is_empty(), joint.curve.is_some()) {
-                (true, _) => {}
-                (_, true) => rows.push(curve_row(at, j).0),
-                _ => joint_rows(at, j, None, &mut rows),
+            if !joint.rows.is_empty() {
+                constraint_rows(at, j, &mut rows);
             }
         }
         let closing = closing_rows(at, None);
@@ -105,7 +104,7 @@ impl Workspace<'_> {
     fn momentum_side(&self, starts: &[usize]) -> Vec<f64> {
         let mut side = vec![0.0; starts[starts.len() - 1]];
         for i in 1..self.m.bodies.len() {
-            let needed = self.loads[i] - super::inertia_wrench(self.at(), i, self.arms[i], Twist::zero());
+            let needed = self.loads[i] - super::inertia_wrench(self.at(), i, Twist::zero());
             let range = starts[i - 1]..starts[i];
             let parts = needed.parts();
             side[range.clone()].copy_from_slice(&parts[..range.len()]);
@@ -115,12 +114,12 @@ impl Workspace<'_> {
 
     /// Mass matrix of a body at its joint origin, row-major, 3 × 3 or 2 × 2.
     fn body_mass(&self, i: usize) -> Vec<f64> {
-        let (m, arm) = (self.n.mass[i], self.arms[i]);
+        let Inertia { mass, moment, turn } = Inertia::of(self.at(), i, self.arms[i]);
         if self.m.bodies[i].particle {
-            return vec![m, 0.0, 0.0, m];
+            return vec![mass, 0.0, 0.0, mass];
         }
-        let h = arm.perp() * m;
-        vec![m, 0.0, h.x, 0.0, m, h.y, h.x, h.y, self.n.inertia[i] + m * arm.dot(arm)]
+        let h = moment.perp();
+        vec![mass, 0.0, h.x, 0.0, mass, h.y, h.x, h.y, turn]
     }
 
     /// The least motion ν (in the metric of the masses) that changes the closing rows by `asked`, in their order.
@@ -300,10 +299,29 @@ fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
     rates
 }
 
+/// The rows of a joint, of the tree or not, expressed as a constraint; where its reaction acts, fixed axes.
+pub fn constraint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, out: &mut Vec<Row<S>>) -> Vec2<S> {
+    let joint = &at.m.joints[index];
+    if joint.curve.is_some() {
+        let (row, touch) = curve_row(at, index);
+        out.push(row);
+        return touch;
+    }
+    joint_rows(at, index, None, out);
+    joint_place(at, index)
+}
+
+/// Where the reaction of a joint acts, fixed axes.
+pub fn joint_place<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec2<S> {
+    let joint = &at.m.joints[index];
+    let (axes, place) = relative(joint, at.m, &at);
+    axes.place(JointView::new(at.m, at.n, joint, |x| x).contact(&place))
+}
+
 /// The row of a joint along a curve, which has no residual: a force across the curve where it touches. The second
 /// body's marker has, against that force, the acceleration that the coordinates give it as they go on at their rates.
 /// With it the place where the force acts.
-pub fn curve_row<S: Scalar>(at: StateView<'_, S>, index: usize) -> (Row<S>, Vec2<S>) {
+fn curve_row<S: Scalar>(at: StateView<'_, S>, index: usize) -> (Row<S>, Vec2<S>) {
     let joint = &at.m.joints[index];
     let child = joint.child.expect("a joint along a curve is in the tree");
     let start = at.m.bodies[child].tree_joint.expect("a body of the tree").start;

@@ -1,9 +1,8 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
+use super::momentum::Inertia;
 use super::rows::closing_rows;
-use super::{
-    generalized_force, inertia_wrench, size_of_power, visit_ancestors, Row, Source, Trouble, Workspace, CANCELLED,
-};
+use super::{generalized_force, residual, size_of_power, visit_ancestors, Row, Source, Trouble, Workspace, CANCELLED};
 use crate::kinematics::StateView;
 use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
@@ -76,17 +75,11 @@ impl Workspace<'_> {
         self.k.propagate_motion(self.m, &zero, true, &mut self.solved.bodies);
         self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
         let mut force = vec![0.0; self.m.freedom()];
-        let needed = self.unbalanced_wrenches();
-        generalized_force(self.at(), &needed, &mut force);
+        let unbalanced = residual(self.at(), &self.loads, &self.solved.bodies, &[], &[]);
+        let unbalanced: Vec<(usize, Wrench)> = unbalanced.into_iter().enumerate().skip(1).collect();
+        generalized_force(self.at(), &unbalanced, &mut force);
         self.factor(Force::ActuatorDirection)?;
         Ok(force)
-    }
-
-    /// Loads less effective loads of the present accelerations, body by body.
-    fn unbalanced_wrenches(&self) -> Vec<(usize, Wrench)> {
-        (1..self.m.bodies.len())
-            .map(|i| (i, self.loads[i] - inertia_wrench(self.at(), i, self.arms[i], self.solved.bodies[i])))
-            .collect()
     }
 
     /// Factors mass matrix and rows of the present state.
@@ -173,20 +166,14 @@ impl Workspace<'_> {
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.
     pub(super) fn propagate_joint_wrenches(&mut self) {
-        let mut needed = vec![Wrench::zero(); self.m.bodies.len()];
-        for (i, load) in self.unbalanced_wrenches() {
-            needed[i] = -load;
-        }
-        self.solved.joint_wrenches = self.joint_wrenches(needed, &self.solved.lambda);
+        let s = &self.solved;
+        self.solved.joint_wrenches =
+            self.joint_wrenches(residual(self.at(), &self.loads, &s.bodies, &self.rows, &s.lambda));
     }
 
-    /// The load that each body's joint passes, for what each body needs and the present rows with their multipliers.
-    pub(super) fn joint_wrenches(&self, mut needed: Vec<Wrench>, lambda: &[f64]) -> Vec<Wrench> {
-        for (row, &lambda) in self.rows.iter().zip(lambda) {
-            for &(body, load) in row.loads() {
-                needed[body] = needed[body] - load * lambda;
-            }
-        }
+    /// The load that each body's joint passes, for what all else leaves of the balance of each body.
+    pub(super) fn joint_wrenches(&self, unbalanced: Vec<Wrench>) -> Vec<Wrench> {
+        let mut needed: Vec<Wrench> = unbalanced.into_iter().map(|load| -load).collect();
         let mut joint_wrenches = vec![Wrench::zero(); needed.len()];
         for i in (1..needed.len()).rev() {
             let b = self.m.bodies[i].tree_joint.expect("every body hangs in the tree");
@@ -243,30 +230,22 @@ fn generalized_force_clean(at: StateView<'_>, wrenches: &[(usize, Wrench)], leng
     }
 }
 
-/// The inertia of a body with all that hangs on it, at its joint origin (composite rigid bodies; Featherstone ch. 6).
-#[derive(Clone, Copy, Default)]
-struct Composite {
-    mass: f64,
-    moment: crate::plane::Vec2,
-    turn: f64,
-}
-
-/// The mass matrix of the tree by joint coordinates, n × n.
+/// The mass matrix of the tree by joint coordinates, n × n, from the inertia of each body with all that hangs on it
+/// (composite rigid bodies; Featherstone ch. 6).
 pub(super) fn mass_matrix(at: StateView<'_>, arms: &[crate::plane::Vec2], out: &mut Matrix) {
     let bodies = at.m.bodies.len();
     out.reset(at.m.freedom(), at.m.freedom());
-    let mut whole = vec![Composite::default(); bodies];
+    let mut whole = vec![Inertia::default(); bodies];
     for i in (1..bodies).rev() {
-        let (m, arm) = (at.n.mass[i], arms[i]);
-        let own = &mut whole[i];
-        own.mass += m;
-        own.moment += arm * m;
-        own.turn += at.n.inertia[i] + m * arm.dot(arm);
+        let (body, own) = (Inertia::of(at, i, arms[i]), &mut whole[i]);
+        own.mass += body.mass;
+        own.moment += body.moment;
+        own.turn += body.turn;
         let own = *own;
         let tree_joint = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
         let particle = at.m.bodies[i].particle;
         for k in 0..tree_joint.freedom {
-            let mut load = momentum(&own, at.k.motion_subspace[i][k]);
+            let mut load = own.momentum(at.k.motion_subspace[i][k]);
             if particle {
                 load.m = 0.0;
             }
@@ -284,11 +263,6 @@ pub(super) fn mass_matrix(at: StateView<'_>, arms: &[crate::plane::Vec2], out: &
             up.turn += own.turn + 2.0 * r.dot(own.moment) + own.mass * r.dot(r);
         }
     }
-}
-
-fn momentum(c: &Composite, motion: Twist) -> Wrench {
-    let f = motion.v * c.mass + c.moment.perp() * motion.w;
-    Wrench { f, m: c.moment.cross(motion.v) + c.turn * motion.w }
 }
 
 /// Enters what the load of coordinate `j` does on every coordinate from body `i` down to ground.

@@ -20,6 +20,7 @@ mod joint_friction;
 mod loads;
 mod maximal;
 mod minimal;
+mod momentum;
 mod newton_euler;
 mod projection;
 mod rank;
@@ -31,8 +32,9 @@ pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
 pub use energy::{kinetic, potential};
 pub use impact::ImpactSolution;
 pub use instant::{ContactLoad, Instant, Observer};
-pub use loads::{add_force, force_power, force_value, inertia_wrench, pulled, pushed, unaccounted_power};
-pub use maximal::curve_row;
+pub use loads::{add_force, force_power, force_value, pulled, pushed, unaccounted_power};
+pub use maximal::{constraint_rows, joint_place};
+pub use momentum::{add_multipliers, inertia_wrench, momentum, residual};
 pub(crate) use projection::{CLOSED, OPEN};
 pub use rank::{Count, Determinacy, Freedom, SelfStress};
 pub use reactions::JointLoad;
@@ -100,7 +102,7 @@ pub struct Workspace<'m> {
     /// The mechanism.
     pub m: &'m Mechanism,
     /// Its numbers.
-    pub n: BoundValues,
+    n: BoundValues,
     /// Which arms of switches are frozen.
     pub mode: Mode,
     /// Characteristic length, for the scaling of rows and coordinates, m.

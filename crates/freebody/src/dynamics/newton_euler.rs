@@ -2,7 +2,7 @@
 //! where there are loops): A x = b.
 
 use super::rows::closing_rows;
-use super::{inertia_wrench, size_of_power, Row, Trouble, Workspace, CANCELLED};
+use super::{momentum, residual, size_of_power, Row, Trouble, Workspace, CANCELLED};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
@@ -93,7 +93,8 @@ impl Workspace<'_> {
             self.k.propagate_motion(m, &unit, false, &mut motion);
             unit[j] = 0.0;
             for (i, &motion) in motion.iter().enumerate().skip(1) {
-                enter(&mut a, i, j, self.momentum_rate(i, motion), 1.0);
+                let arm = self.arms[i];
+                enter(&mut a, i, j, momentum(self.at(), i, motion.at(arm), motion.w).seen_from(arm), 1.0);
             }
             for (r, row) in self.rows.iter().enumerate() {
                 a[(balances + r, j)] = rate_of_row(row, &motion, self.length);
@@ -112,20 +113,13 @@ impl Workspace<'_> {
             }
             b[balances + r] = -row.bias;
         }
-        for i in 1..m.bodies.len() {
-            let side = self.loads[i] - inertia_wrench(self.at(), i, self.arms[i], self.solved.bodies[i]);
+        let unbalanced = residual(self.at(), &self.loads, &self.solved.bodies, &[], &[]);
+        for (i, side) in unbalanced.into_iter().enumerate().skip(1) {
             for (k, value) in side.parts().into_iter().take(sizes[i]).enumerate() {
                 b[starts[i] + k] = value;
             }
         }
         (a, b)
-    }
-
-    /// Rate of momentum of a body at its joint origin for an acceleration, velocities left out.
-    fn momentum_rate(&self, i: usize, a: Twist) -> Wrench {
-        let (m, arm) = (self.n.mass[i], self.arms[i]);
-        let f = a.at(arm) * m;
-        Wrench { f, m: arm.cross(f) + self.n.inertia[i] * a.w }
     }
 
     fn take_brute_force(&mut self, reactions: &[(usize, Wrench)], x: &[f64]) {
@@ -171,10 +165,10 @@ pub(super) fn solve_any(a: &Matrix, b: &[f64], x: &mut [f64]) -> Result<(), ()> 
             let least = Orthogonal::factor(&scaled);
             x.fill(0.0);
             least.add_solution(&side, x);
-            let left = residual(&scaled, x, &side);
+            let left = left_over(&scaled, x, &side);
             least.add_solution(&left, x);
             let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            if largest(&residual(&scaled, x, &side)) > 1e-7 * (1.0 + largest(&side)) {
+            if largest(&left_over(&scaled, x, &side)) > 1e-7 * (1.0 + largest(&side)) {
                 return Err(());
             }
         }
@@ -183,7 +177,7 @@ pub(super) fn solve_any(a: &Matrix, b: &[f64], x: &mut [f64]) -> Result<(), ()> 
     Ok(())
 }
 
-fn residual(a: &Matrix, x: &[f64], b: &[f64]) -> Vec<f64> {
+fn left_over(a: &Matrix, x: &[f64], b: &[f64]) -> Vec<f64> {
     a.mul_vec(x).iter().zip(b).map(|(ax, b)| b - ax).collect()
 }
 

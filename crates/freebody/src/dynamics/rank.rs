@@ -77,7 +77,7 @@ impl Count {
     pub fn of(m: &Mechanism, mode: &Mode) -> Self {
         let joints = (0..m.joints.len()).filter(|&j| mode.has(Part::Joint(j)));
         let drives = (0..m.drives.len()).filter(|&d| mode.has(Part::Drive(d)));
-        let (couplings, motions): (Vec<usize>, Vec<usize>) = drives.partition(|&d| m.drives[d].coupling);
+        let (motions, couplings): (Vec<usize>, Vec<usize>) = drives.partition(|&d| m.drives[d].is_motion());
         Count {
             bodies: m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum(),
             rows: joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings.len(),
@@ -173,7 +173,7 @@ impl Workspace<'_> {
     fn geometric(&self) -> Vec<Row> {
         let closes = |s: Source| match s {
             Source::Joint(..) => true,
-            Source::Drive(d) => self.m.drives[d].coupling,
+            Source::Drive(d) => !self.m.drives[d].is_motion(),
             Source::Gap(_) | Source::Friction(_) | Source::JointFriction(_) => false,
         };
         closing_rows(self.at(), None).into_iter().filter(|r| closes(r.source)).collect()
@@ -230,17 +230,14 @@ impl Workspace<'_> {
 
     fn self_stress(&self, multipliers: &Matrix, k: usize) -> SelfStress {
         let lambda: Vec<f64> = (0..self.rows.len()).map(|i| multipliers[(i, k)]).collect();
-        let joint_wrenches = self.joint_wrenches(vec![Wrench::zero(); self.m.bodies.len()], &lambda);
+        let mut loads = vec![Wrench::zero(); self.m.bodies.len()];
+        super::add_multipliers(&self.rows, &lambda, &mut loads);
+        let joint_wrenches = self.joint_wrenches(loads);
         let joint = |j| {
             let load = joint_load(self.at(), j, &joint_wrenches, &self.rows, &lambda);
             [load.force.x, load.force.y, load.couple]
         };
-        let mut drives = vec![0.0; self.m.drives.len()];
-        for (row, &l) in self.rows.iter().zip(&lambda) {
-            if let Source::Drive(d) = row.source {
-                drives[d] = l;
-            }
-        }
+        let drives = self.of_drives(&lambda);
         let mut groups = vec![[0.0; 4]; self.m.groups.len()];
         for (row, &l) in self.rows.iter().zip(&lambda) {
             let (Source::Gap(constraint) | Source::Friction(constraint)) = row.source else { continue };

@@ -1,9 +1,9 @@
 //! What every joint does to its bodies.
 
 use super::rows::{Row, Source};
-use super::Workspace;
+use super::{constraint_rows, residual, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
-use crate::mechanism::{FrictionSource, Mechanism};
+use crate::mechanism::{DriveKind, FrictionSource, Mechanism};
 use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::real;
 use crate::solve::{Matrix, Orthogonal};
@@ -44,8 +44,12 @@ impl Source {
                 FrictionSource::Limit(constraint) => Source::Gap(constraint).path(m),
                 FrictionSource::Joint { joint, .. } => Source::Joint(joint, 0).path(m),
             },
-            Source::Drive(drive) if !m.drives[drive].coupling => format!("motions.{}", self.name(m)),
-            Source::Drive(_) | Source::Joint(..) => format!("joints.{}", self.name(m)),
+            Source::Drive(drive) => match m.drives[drive].kind {
+                DriveKind::Motion => format!("motions.{}", self.name(m)),
+                DriveKind::Coupling => format!("joints.{}", self.name(m)),
+                DriveKind::Lock => "events".to_string(),
+            },
+            Source::Joint(..) => format!("joints.{}", self.name(m)),
         }
     }
 }
@@ -123,10 +127,7 @@ impl Workspace<'_> {
         let second = at.m.ends(&at.m.joints[joint])[1];
         let on_second = load.at_pin(at, second).parts();
         let mut rows = vec![];
-        match at.m.joints[joint].curve {
-            Some(_) => rows.push(super::maximal::curve_row(at, joint).0),
-            None => super::rows::joint_rows(at, joint, None, &mut rows),
-        }
+        constraint_rows(at, joint, &mut rows);
         let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());
         let unit = [1.0, 1.0, 1.0 / self.length];
         let g = Matrix::from_fn(3, rows.len(), |i, j| of_second(&rows[j])[i] * unit[i]);
@@ -138,8 +139,13 @@ impl Workspace<'_> {
 
     /// Force or torque of each drive in the last solution.
     pub fn drive_forces(&self) -> Vec<f64> {
+        self.of_drives(&self.solved.lambda)
+    }
+
+    /// The multiplier of each drive among those of the present rows; 0 where it is not in place.
+    pub(super) fn of_drives(&self, lambda: &[f64]) -> Vec<f64> {
         let mut forces = vec![0.0; self.m.drives.len()];
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
+        for (row, &lambda) in self.rows.iter().zip(lambda) {
             if let Source::Drive(drive) = row.source {
                 forces[drive] = lambda;
             }
@@ -159,31 +165,20 @@ impl Workspace<'_> {
         powers
     }
 
-    /// What is left of the momentum balance of each body in the last solution: N, N, N·m at its mass centre.
+    /// What is left of the momentum balance of each body in the last solution, with what every joint can pass: N, N,
+    /// N·m at its mass centre.
     pub fn residuals(&self) -> Vec<[f64; 3]> {
         let at = self.at();
-        let n = self.m.bodies.len();
-        let mut left: Vec<Wrench> =
-            (0..n).map(|i| self.loads[i] - super::inertia_wrench(at, i, self.arms[i], self.solved.bodies[i])).collect();
-        for joint in 0..self.m.joints.len() {
-            let load = joint_load(at, joint, &self.solved.joint_wrenches, &self.rows, &self.solved.lambda);
-            let wrench = Wrench { f: load.force, m: load.couple };
-            for (body, w) in super::rows::pair(at, &self.m.joints[joint], load.point, wrench) {
-                left[body] += w;
-            }
+        let (mut rows, mut multipliers) = (self.rows.clone(), self.solved.lambda.clone());
+        for (index, _) in at.joints().filter(|(_, joint)| joint.child.is_some() && !joint.rows.is_empty()) {
+            constraint_rows(at, index, &mut rows);
+            multipliers.extend(self.row_loads(index));
         }
-        // The loads of friction that slides are among the others.
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
-            if !matches!(row.source, Source::Joint(..)) {
-                for &(body, load) in row.loads() {
-                    left[body] += load * lambda;
-                }
-            }
-        }
+        let left = residual(at, &self.loads, &self.solved.bodies, &rows, &multipliers);
         let at_centre = |i: usize| {
             let w = left[i].seen_from(-self.arms[i]);
             [w.f.x, w.f.y, if self.m.bodies[i].particle { 0.0 } else { w.m }]
         };
-        (1..n).map(at_centre).collect()
+        (1..left.len()).map(at_centre).collect()
     }
 }

@@ -166,8 +166,8 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
     let joint = &at.m.joints[index];
     let going = MotionView { at, bodies: base, accelerations: None };
     let (_, place) = relative(joint, at.m, &going);
-    let jets = JointView::new(at.m, at.n, joint, Jet::constant).residual(&place);
-    let loads = joint_loads(at, joint);
+    let jets = JointView::in_mode(at, index, Jet::constant).residual(&place);
+    let loads = joint_loads(at, index);
     for &row in &joint.rows {
         out.push(Row {
             source: Source::Joint(index, row),
@@ -181,14 +181,15 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
 }
 
 /// The loads of a unit multiplier of each row of a joint's card.
-fn joint_loads<S: Scalar>(at: StateView<'_, S>, joint: &Joint) -> Vec<BodyWrenches<S>> {
+fn joint_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec<BodyWrenches<S>> {
+    let joint = &at.m.joints[index];
     let (axes, place) = relative(joint, at.m, &at);
     let seeded = crate::joints::Relative {
         x: Dual::<3, S>::variable(place.x, 0),
         y: Dual::variable(place.y, 1),
         angle: Dual::variable(place.angle, 2),
     };
-    let rows = JointView::new(at.m, at.n, joint, Dual::constant).residual(&seeded);
+    let rows = JointView::in_mode(at, index, Dual::constant).residual(&seeded);
     let point = axes.place(place.at());
     rows.iter()
         .map(|row| {
@@ -231,8 +232,8 @@ pub fn drive_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -
         }
     };
     let motion = gauge_wrenches(at, &gauge);
-    let own_way = drive.by.is_some() || (drive.feedback && drive.level == Level::Position && !drive.coupling);
-    let force = own_way.then(|| gauge_wrenches(at, drive.by.as_ref().unwrap_or(&drive.of)));
+    let own_way = drive.by.is_some() || (drive.feedback && drive.level == Level::Position && drive.is_motion());
+    let force = own_way.then(|| gauge_wrenches(at, drive.along()));
     Row { source: Source::Drive(index), value, rate, bias, motion, force }
 }
 

@@ -11,10 +11,10 @@ mod reactions;
 
 pub use numbers::free_bodies;
 
-use crate::dynamics::Source;
+use crate::dynamics::{joint_place, Source};
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::LoadCard;
-use crate::kinematics::{relative, JointView, Poses, StateView};
+use crate::kinematics::{Poses, StateView};
 use crate::mechanism::{FrictionSource, Mechanism};
 use crate::mode::ContactMode;
 use crate::plane::{Vec2, Wrench};
@@ -184,11 +184,4 @@ fn looks_at_ground<S: Scalar>(at: StateView<'_, S>, gauge: &ModelExpr) -> bool {
         ModelVariable::Coordinate(joint, _) => at.m.ends(&at.m.joints[*joint]).contains(&0),
         _ => false,
     })
-}
-
-/// Where the reaction of a joint acts, fixed axes.
-fn joint_place<S: Scalar>(at: StateView<'_, S>, joint: usize) -> Vec2<S> {
-    let joint = &at.m.joints[joint];
-    let (axes, place) = relative(joint, at.m, &at);
-    axes.place(JointView::new(at.m, at.n, joint, |x| x).contact(&place))
 }

@@ -1,7 +1,7 @@
 //! Unknown loads of joints, motions and couplings.
 
-use super::{along_gauge, joint_place, part, Load, Origin, Part, Size};
-use crate::dynamics::{curve_row, drive_row, joint_rows, Row, Source};
+use super::{along_gauge, part, Load, Origin, Part, Size};
+use crate::dynamics::{constraint_rows, drive_row, Row, Source};
 use crate::expr::spell;
 use crate::joints::{Joint as _, LoadCard};
 use crate::kinematics::{Poses, StateView};
@@ -13,17 +13,7 @@ use crate::scalar::Scalar;
 pub fn joints<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, joint) in at.joints().filter(|(_, joint)| !joint.rows.is_empty()) {
         let (of, mut rows) = (at.m.ends(joint), vec![]);
-        let place = match joint.curve {
-            Some(_) => {
-                let (row, touch) = curve_row(at, index);
-                rows.push(row);
-                touch
-            }
-            None => {
-                joint_rows(at, index, None, &mut rows);
-                joint_place(at, index)
-            }
-        };
+        let place = constraint_rows(at, index, &mut rows);
         let card = joint.kind.card();
         for row in &rows {
             let Source::Joint(_, r) = row.source else { continue };
@@ -72,10 +62,10 @@ pub(super) fn loaded<S: Scalar>(at: StateView<'_, S>, row: &Row<S>, place: Vec2<
 pub fn drives<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, drive) in at.drives() {
         let row = drive_row(at, index, None);
-        let parts = along_gauge(at, drive.by.as_ref().unwrap_or(&drive.of), row.loads());
+        let parts = along_gauge(at, drive.along(), row.loads());
         let first = if parts.len() > 1 { parts[1].body } else { 0 };
         let of = [first, parts.first().map_or(0, |p| p.body)];
-        let card = LoadCard::force("force", "force", "F").along(at.m.turns(drive.by.as_ref().unwrap_or(&drive.of)));
+        let card = LoadCard::force("force", "force", "F").along(at.m.turns(drive.along()));
         let (origin, symbol) = (Origin::Row(row.source), format!("{}.{}", spell(&drive.name), card.reading));
         out.push(Load { origin, symbol, card, number: None, of, parts, size: Size::Unknown });
     }

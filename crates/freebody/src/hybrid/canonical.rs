@@ -52,13 +52,13 @@ pub fn mass_matrix(m: &Mechanism, p: &[f64], q: &[f64]) -> Vec<f64> {
 
 impl HybridSystem<'_> {
     fn mass_times(&self, q: &[f64], u: &[f64]) -> Vec<f64> {
-        momenta(self.workspace.m, &self.workspace.n, q, u)
+        momenta(self.workspace.m, self.workspace.at().n, q, u)
     }
 
     /// u from p: solves M u = p.
     fn rates(&self, q: &[f64], p: &[f64]) -> Result<Vec<f64>, Trouble> {
         let n = q.len();
-        let flat = mass_columns(self.workspace.m, &self.workspace.n, q);
+        let flat = mass_columns(self.workspace.m, self.workspace.at().n, q);
         let mass = Matrix::from_fn(n, n, |i, j| flat[j * n + i]);
         let lu = Lu::factor(&mass).map_err(|_| Trouble::NoUniqueMotion)?;
         Ok(lu.solve(p))
@@ -92,7 +92,7 @@ impl Canonical for HybridSystem<'_> {
         self.workspace.accelerations(&mut u_dot);
         let along: Vec<Dual<1>> = q.iter().zip(&u).map(|(&q, &u)| Dual { re: q, du: [u] }).collect();
         let still: Vec<Dual<1>> = u.iter().map(|&u| Dual::constant(u)).collect();
-        let p: Vec<Dual<1>> = self.workspace.n.p.iter().map(|&p| Dual::constant(p)).collect();
+        let p: Vec<Dual<1>> = self.workspace.at().n.p.iter().map(|&p| Dual::constant(p)).collect();
         let drift = momenta(self.workspace.m, &self.workspace.m.bind(&p), &along, &still);
         let mass = self.mass_times(q, &u_dot);
         dz[..n].copy_from_slice(&u);

@@ -141,7 +141,8 @@ impl HybridSystem<'_> {
             tangent: impact.tangent[i],
             restitution: self.workspace.restitution(contacts.constraints[i]),
         });
-        Impulses { groups: limits, joints, contacts: impacting.collect(), unloaded: self.names(&unloaded), mode }
+        let (impacting, unloaded, drives) = (impacting.collect(), self.names(&unloaded), impact.drives.clone());
+        Impulses { groups: limits, joints, drives, contacts: impacting, unloaded, mode }
     }
 
     /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.

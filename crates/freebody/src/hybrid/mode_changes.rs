@@ -32,6 +32,8 @@ pub struct Impulses {
     pub groups: Vec<(String, Vec2)>,
     /// Of each joint on its second body, N·s and N·m·s about its point.
     pub joints: Vec<[f64; 3]>,
+    /// Of each coupling, motion and lock along its gauge, N·s or N·m·s.
+    pub drives: Vec<f64>,
     /// Each unilateral constraint with an impulse.
     pub contacts: Vec<ContactImpulse>,
     /// Contacts, stops and strings that were reached, and that what took part in the impact acts on, but that would

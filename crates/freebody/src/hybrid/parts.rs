@@ -94,7 +94,8 @@ impl HybridSystem<'_> {
             return Ok(());
         }
         let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
-        let impulses = Some(Impulses { groups: vec![], joints, contacts: vec![], unloaded: vec![], mode });
+        let impulses =
+            Some(Impulses { groups: vec![], joints, drives: impact.drives, contacts: vec![], unloaded: vec![], mode });
         let states = Some([before, y.to_vec()]);
         self.record_jump(ModeChange { t, kind: "impact", of: engaged, lost, states, impulses, note: None });
         Ok(())

@@ -76,7 +76,7 @@ impl<'m> HybridSystem<'m> {
     pub fn new(workspace: Workspace<'m>, p: &[f64]) -> Self {
         let m = workspace.m;
         let worked = (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative());
-        let driven = (0..m.drives.len()).filter(|&d| !m.drives[d].coupling);
+        let driven = (0..m.drives.len()).filter(|&d| m.drives[d].is_motion());
         let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
         let friction =
             !m.joint_friction.is_empty() || m.unilateral.iter().any(|constraint| constraint.friction.is_some());
@@ -155,7 +155,7 @@ impl<'m> HybridSystem<'m> {
     }
 
     pub(super) fn begin_phase(&mut self, from: f64, jump: f64, impact: f64) {
-        let (p, mode) = (self.workspace.n.p.clone(), self.workspace.mode.clone());
+        let (p, mode) = (self.workspace.at().n.p.clone(), self.workspace.mode.clone());
         self.phases.push(Phase { from, p, mode, jump, impact });
     }
 
@@ -174,14 +174,15 @@ impl<'m> HybridSystem<'m> {
         self.place(t, y);
         let m = self.workspace.m;
         let (n, length) = (m.freedom(), self.workspace.length);
-        let gravity = self.workspace.n.gravity.norm();
+        let gravity = self.workspace.at().n.gravity.norm();
         let (q, u) = self.split(y);
         let unit = |i: usize| if m.coordinate(i).dimension == "m" { length } else { 1.0 };
         let fastest = (0..n).map(|i| u[i].abs() / unit(i)).fold((gravity / length).sqrt(), f64::max);
         let rate = if fastest > 0.0 { fastest } else { 1.0 };
         let mut scales: Vec<f64> = (0..n).map(|i| unit(i).max(q[i].abs())).collect();
         scales.extend((0..n).map(|i| unit(i) * rate));
-        let mass: f64 = self.workspace.n.mass.iter().sum::<f64>() + self.workspace.n.inertia[1..].iter().sum::<f64>();
+        let numbers = self.workspace.at().n;
+        let mass: f64 = numbers.mass.iter().sum::<f64>() + numbers.inertia[1..].iter().sum::<f64>();
         let energy = (mass.max(1e-300) * length * rate * length * rate).max(self.workspace.kinetic_energy());
         scales.resize(self.scales.len(), energy);
         // A gap is told to the round-off of places.

@@ -1,9 +1,10 @@
 //! A joint with its numbers: its own formulas, read with any scalar.
 
+use super::StateView;
 use crate::bound_values::BoundValues;
 use crate::expr::Env;
 use crate::gauges::{ModelExpr, ModelVariable};
-use crate::joints::{Curve as CurveOf, Joint as Formulas, Numbers as JointNumbers, Relative};
+use crate::joints::{Curve as CurveOf, Gear, Joint as Formulas, Numbers as JointNumbers, Relative};
 use crate::mechanism::{Curve, Joint, Mechanism};
 use crate::plane::{vec2, Rows3, Vec2};
 use crate::scalar::{Dual, Scalar};
@@ -37,6 +38,14 @@ impl<'a, T: Scalar> JointView<'a, T> {
             p: n.p.iter().map(|&x| to(x)).collect(),
         });
         JointView { joint, own, curve }
+    }
+    /// Joint `index` at a state: the teeth of a gear pair bear on the flank that its mode says.
+    pub fn in_mode<S: Scalar>(at: StateView<'a, S>, index: usize, to: impl Fn(S) -> T) -> Self {
+        let mut view = JointView::new(at.m, at.n, &at.m.joints[index], to);
+        if at.mode.bears_on_other_flank(index) {
+            view.own[Gear::FLANK] = -view.own[Gear::FLANK];
+        }
+        view
     }
     fn numbers(&self) -> JointNumbers<'_, T> {
         JointNumbers {

@@ -3,11 +3,12 @@
 //! The group moves as one, virtually: turned about a point P, or shifted along a direction e. The power of all loads on
 //! it is then that of its rate of momentum: Σ M/P = Ḣ/P, or Σ F·e = L̇·e. Loads between its own bodies cancel.
 
+use super::motion::acceleration;
 use super::query::{About, Along, Group, Parts};
 use super::vectors::{tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Tree, Variable};
-use crate::dynamics::Trouble;
+use crate::dynamics::{momentum, Trouble};
 use crate::free_bodies::{Load, Part, Size};
 use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -165,23 +166,18 @@ impl SymbolicState<'_> {
     /// The rate of momentum of a body as the equation sees it.
     fn momentum_rate(&self, body: usize, test: VirtualMotion) -> Symbol {
         let (arm, w, a) = (self.arm(body), self.k.twist[body].w, self.bodies[body]);
-        let force = (a.at(arm) - arm * (w * w)) * self.n.mass[body];
-        test.power(self.centre(body), force, self.turning(body, a.w))
-    }
-
-    fn turning(&self, body: usize, w: Symbol) -> Symbol {
-        if self.m.bodies[body].particle {
-            Symbol::zero()
-        } else {
-            self.n.inertia[body] * w
-        }
+        self.tested(body, test, momentum(self.at(), body, acceleration(a, arm, w), a.w))
     }
 
     /// The momentum of a body as the equation sees it.
     pub(super) fn momentum(&self, body: usize, test: VirtualMotion) -> Symbol {
         let twist = self.k.twist[body];
-        let velocity = twist.at(self.arm(body));
-        test.power(self.centre(body), velocity * self.n.mass[body], self.turning(body, twist.w))
+        self.tested(body, test, momentum(self.at(), body, twist.at(self.arm(body)), twist.w))
+    }
+
+    /// The power of a load about the mass centre of a body.
+    fn tested(&self, body: usize, test: VirtualMotion, about_centre: Wrench<Symbol>) -> Symbol {
+        test.power(self.centre(body), about_centre.f, about_centre.m)
     }
 
     /// Σ loads − rate of momentum, which must vanish.

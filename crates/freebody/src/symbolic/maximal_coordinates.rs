@@ -6,7 +6,7 @@ use super::motion::acceleration;
 use super::vectors::tree_by;
 use super::{own_letter, sizes, SymbolicState};
 use crate::algebra::{Symbol, Tree, Variable};
-use crate::dynamics::{closing_rows, joint_rows, Row, Source};
+use crate::dynamics::{closing_rows, joint_rows, momentum, Row, Source};
 use crate::free_bodies::{loads, relate_friction, Load, Size};
 use crate::kinematics::{Kinematics, StateView};
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
@@ -100,7 +100,8 @@ impl SymbolicState<'_> {
         let turn = free.k.pose[i].turn;
         let arm = turn.apply(self.n.centre[i]);
         let centre = free.k.pose[i].at + arm;
-        let a = acceleration(free.bodies[i], arm, free.k.twist[i].w) * self.n.mass[i];
+        let a = acceleration(free.bodies[i], arm, free.k.twist[i].w);
+        let rate = momentum(self.at(), i, a, free.bodies[i].w);
         let mut left = [Symbol::zero(); 3];
         for (load, &size) in all.iter().zip(sizes) {
             for part in load.parts.iter().filter(|part| part.body == i) {
@@ -109,7 +110,7 @@ impl SymbolicState<'_> {
                 left[2] += ((part.point - centre).cross(part.force) + part.couple) * size;
             }
         }
-        let right = [a.x, a.y, self.n.inertia[i] * free.bodies[i].w];
+        let right = [rate.f.x, rate.f.y, rate.m];
         let kinds = ["LMB along x", "LMB along y", "AMB about G"];
         let count = if self.m.bodies[i].particle { 2 } else { 3 };
         (0..count)

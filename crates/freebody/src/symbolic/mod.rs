@@ -65,12 +65,6 @@ impl<'m> SymbolicState<'m> {
         };
         let p: Vec<Symbol> = m.parameters.iter().zip(&at.n.p).map(|(p, &x)| named(&p.name, 0, x)).collect();
         let mut bound = m.bind(&p).values;
-        for (id, &now) in bound.iter_mut().zip(&at.n.values) {
-            // What the balance has turned (the flank of a gear) is no longer what the model says.
-            if (id.value() + now).abs() <= f64::EPSILON * now.abs() && now != 0.0 {
-                *id = -*id;
-            }
-        }
         let numbers = name_numbers(m, at.n, &named, &mut bound);
         let n = m.with_values(&p, bound);
         let coordinate = |i: usize, dots: u8, x: f64| named(&m.coordinate(i).name, dots, x);

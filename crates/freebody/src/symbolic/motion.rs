@@ -92,8 +92,7 @@ impl SymbolicState<'_> {
     pub(super) fn row_in(&self, row: &Row<Symbol>, unknowns: &[Variable]) -> Value {
         let kind = match row.source {
             Source::Joint(..) => "joint",
-            Source::Drive(drive) if self.m.drives[drive].coupling => "coupling",
-            Source::Drive(_) => "motion",
+            Source::Drive(drive) => self.m.drives[drive].kind.word(),
             Source::Gap(limit) | Source::Friction(limit) => self.m.groups[self.m.unilateral[limit].group].word,
             Source::JointFriction(_) => "friction",
         };

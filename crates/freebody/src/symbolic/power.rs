@@ -4,7 +4,7 @@ use super::motion::acceleration;
 use super::vectors::{tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
-use crate::dynamics::Trouble;
+use crate::dynamics::{momentum, Trouble};
 use crate::plane::{vec2, Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
@@ -43,10 +43,8 @@ impl SymbolicState<'_> {
         for body in self.m.listed_bodies() {
             let (arm, pin, turning) = (self.arm(body), self.bodies[body], self.k.twist[body].w);
             let (v, w) = self.virtual_motion(body, arm, rates);
-            moves += acceleration(pin, arm, turning).dot(v) * self.n.mass[body];
-            if !self.m.bodies[body].particle {
-                moves += self.n.inertia[body] * pin.w * w;
-            }
+            let rate = momentum(self.at(), body, acceleration(pin, arm, turning), pin.w);
+            moves += rate.power(Twist { v, w });
         }
         let unknowns = self.unknowns();
         let rates: serde_json::Map<String, Value> =

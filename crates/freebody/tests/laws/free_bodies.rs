@@ -3,7 +3,10 @@
 use crate::random::*;
 use crate::random_mechanisms::{recipe, HOME, MECHANISMS};
 use crate::rng::Rng;
+use freebody::dynamics::Route;
 use freebody::free_bodies::free_bodies;
+use freebody::mechanism::{DriveKind, Part};
+use freebody::spec::{Action, Event};
 use serde_json::Value;
 
 /// Part of the largest load of an instant that is round-off: that of the solution, with some cancellation.
@@ -37,28 +40,76 @@ fn every_diagram(mut visit: impl FnMut(&Value, &str)) {
     }
 }
 
-#[test]
-fn the_loads_on_every_body_are_its_rate_of_momentum() {
-    every_diagram(|label, name| {
-        let loads = label["loads"].as_array().unwrap();
-        for body in label["bodies"].as_array().unwrap() {
-            let (centre, mass) = (pair(&body["G"]), body["mass"].as_f64().unwrap());
-            let a = pair(&body["a"]);
-            let inertia = body["inertia"].as_f64().unwrap() * body["alpha"].as_f64().unwrap();
-            let mut left = [-mass * a[0], -mass * a[1], -inertia];
-            let mut largest = left.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-            for load in loads {
-                for part in load["on"].as_array().unwrap().iter().filter(|p| p["body"] == body["name"]) {
-                    for (sum, w) in left.iter_mut().zip(wrench(part, size(load), centre)) {
-                        *sum += w;
-                        largest = largest.max(w.abs());
-                    }
+/// The loads on every body are its rate of momentum.
+fn assert_balanced(label: &Value, name: &str) {
+    let loads = label["loads"].as_array().unwrap();
+    for body in label["bodies"].as_array().unwrap() {
+        let (centre, mass) = (pair(&body["G"]), body["mass"].as_f64().unwrap());
+        let a = pair(&body["a"]);
+        let inertia = body["inertia"].as_f64().unwrap() * body["alpha"].as_f64().unwrap();
+        let mut left = [-mass * a[0], -mass * a[1], -inertia];
+        let mut largest = left.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+        for load in loads {
+            for part in load["on"].as_array().unwrap().iter().filter(|p| p["body"] == body["name"]) {
+                for (sum, w) in left.iter_mut().zip(wrench(part, size(load), centre)) {
+                    *sum += w;
+                    largest = largest.max(w.abs());
                 }
             }
-            let label = if body["particle"].as_bool().unwrap() { &left[..2] } else { &left[..] };
-            assert!(label.iter().all(|x| x.abs() < ROUND_OFF * largest), "{} of {name}: {left:?}", body["name"]);
         }
-    });
+        let label = if body["particle"].as_bool().unwrap() { &left[..2] } else { &left[..] };
+        assert!(label.iter().all(|x| x.abs() < ROUND_OFF * largest), "{} of {name}: {left:?}", body["name"]);
+    }
+}
+
+#[test]
+fn the_loads_on_every_body_are_its_rate_of_momentum() {
+    every_diagram(assert_balanced);
+}
+
+/// A lock is a load like those of joints: with it every body balances, and what it locks stays; by whichever route.
+#[test]
+fn what_locks_hold_is_among_the_loads() {
+    let mut held = 0;
+    for seed in 0..MECHANISMS {
+        let mut thrown = recipe(seed).draw(seed, HOME);
+        let plain = Bench::new(&thrown);
+        let coordinate = plain.compiled.mechanism.coordinate(seed as usize % plain.q.len()).name.clone();
+        let lock = Action::Lock(vec![format!("'{coordinate}'")]);
+        let (name, when) = ("hold".to_string(), "1".to_string());
+        let event = Event { name, when, direction: 0, condition: None, opening: true, guard: false, then: vec![lock] };
+        thrown.model.0.events.push(event);
+        let bench = Bench::new(&thrown);
+        let m = &bench.compiled.mechanism;
+        let lock = m.drives.iter().position(|drive| drive.kind == DriveKind::Lock).expect("a lock");
+        let mut workspace = bench.balance();
+        let state = bench.state(&mut workspace, &mut Rng::new(seed), 0.3).expect("a state");
+        workspace.place(state.t, &state.q, &state.u);
+        workspace.put(Part::Drive(lock), true);
+        let mut u = state.u.clone();
+        let label = format!("seed {seed}, lock of {coordinate}, {}", bench.told());
+        if workspace.project_velocities(state.t, &state.q, &mut u).is_err() {
+            continue; // A motion drives it.
+        }
+        workspace.place(state.t, &state.q, &u);
+        let Ok(now) = workspace.instant(Route::Minimal) else { continue };
+        if !now.drives_determinate[lock] {
+            continue; // Loops and motions hold it already.
+        }
+        for (word, route) in Route::ALL {
+            let other = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));
+            let most = other.sizes.load.max(1.0);
+            assert!((other.drives[lock] - now.drives[lock]).abs() < ROUND_OFF * most, "{label}: {word}");
+        }
+        let loads = free_bodies(&mut workspace).expect("a solution");
+        assert_balanced(&loads, &label);
+        let load = loads["loads"].as_array().unwrap().iter().find(|load| load["kind"] == "lock").expect("its load");
+        assert!((size(load) - now.drives[lock]).abs() < ROUND_OFF * now.sizes.load.max(1.0), "{label}: {load}");
+        let (a, most) = (loads["accelerations"][&coordinate].as_f64().unwrap(), now.sizes.acceleration.max(1.0));
+        assert!(a.abs() < ROUND_OFF * most, "{label}: it accelerates with {a:e}");
+        held += 1;
+    }
+    assert!(held > 15, "{held}");
 }
 
 #[test]

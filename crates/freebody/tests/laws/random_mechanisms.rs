@@ -143,7 +143,8 @@ fn energy_changes_by_the_power_put_in() {
     every_state(recipe, 8, |bench, workspace, _, label, _| {
         workspace.solve().unwrap_or_else(|e| panic!("{label}: {e:?}"));
         let m = &bench.compiled.mechanism;
-        let (at, n) = (workspace.at(), &workspace.n);
+        let at = workspace.at();
+        let n = at.n;
         let mut terms = vec![];
         for b in 1..m.bodies.len() {
             let (v, w) = (workspace.centre(b).1, at.k.twist[b].w);

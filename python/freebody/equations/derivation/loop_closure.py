@@ -15,7 +15,7 @@ from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zer
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
-    "coupling": ("couples motions", "couple motions"), "contact": ("holds", "hold"), "string": ("is taut", "are taut"),
+    "coupling": ("couples motions", "couple motions"), "lock": ("holds", "hold"), "contact": ("holds", "hold"), "string": ("is taut", "are taut"),
     "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
 }  # fmt: skip
 
@@ -79,6 +79,7 @@ def _title(rows: Sequence[Row]) -> str:
     named = (
         ("Loop closure", {"joint"}),
         ("couplings", {"coupling"}),
+        ("locks", {"lock"}),
         ("contacts", set(_HELD)),
         ("prescribed motions", {"motion"}),
     )

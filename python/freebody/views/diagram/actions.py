@@ -82,7 +82,7 @@ def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Ac
 
 def _acts(load: Load, part: Part, label: str, force: Array, couple: float, sketch: Sketch) -> Action:
     at = attached(load, part, sketch)
-    bound = load.kind in ("joint", "friction", "motion") or not np.array_equal(at, part.point)
+    bound = load.kind in ("joint", "friction", "motion", "lock") or not np.array_equal(at, part.point)
     return Action(load.name, load.kind, label, part.body, at, force, couple, (load,), _pulls(load, part, force), bound)
 
 
@@ -99,7 +99,7 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
     if load.kind == "joint" and load.card.pulls:
         joint = next(j for j in sketch.spec["joints"] if j["name"] == load.name)
         return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
-    if load.kind in ("force", "motion") and not any(part.force):
+    if load.kind in ("force", "motion", "lock") and not any(part.force):
         between = {j["name"] for j in sketch.about["joints"] if {j["first"], j["second"]} == set(load.of)}
         places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
         return next((place for place in places if place is not None), np.array(part.point))

@@ -1,0 +1,69 @@
+//! Momentum and inertia of a body, and what the balances of momentum leave over.
+
+use super::Row;
+use crate::kinematics::StateView;
+use crate::plane::{Twist, Vec2, Wrench};
+use crate::scalar::Scalar;
+
+/// The momentum of a body about its mass centre, which moves at `v`, as it turns at `w`: m v and I ω. With
+/// accelerations in place of velocities its rate of momentum, with jumps of them an impulse.
+pub fn momentum<S: Scalar>(at: StateView<'_, S>, body: usize, v: Vec2<S>, w: S) -> Wrench<S> {
+    let turning = if at.m.bodies[body].particle { S::zero() } else { at.n.inertia[body] * w };
+    Wrench { f: v * at.n.mass[body], m: turning }
+}
+
+/// The rate of momentum of a body, at its joint origin, for an acceleration of its joint origin and angle: m a_G at G
+/// and I α.
+#[inline]
+pub fn inertia_wrench<S: Scalar>(at: StateView<'_, S>, body: usize, acceleration: Twist<S>) -> Wrench<S> {
+    let (arm, w) = (at.centre_arm(body), at.k.twist[body].w);
+    momentum(at, body, acceleration.at(arm) - arm * (w * w), acceleration.w).seen_from(arm)
+}
+
+/// What is left of the balance of momentum of every body, at its joint origin: the loads on it and those of the rows
+/// with their multipliers, less its rate of momentum.
+pub fn residual<S: Scalar>(
+    at: StateView<'_, S>,
+    loads: &[Wrench<S>],
+    accelerations: &[Twist<S>],
+    rows: &[Row<S>],
+    multipliers: &[S],
+) -> Vec<Wrench<S>> {
+    let unbalanced = |body: usize| loads[body] - inertia_wrench(at, body, accelerations[body]);
+    let mut left: Vec<Wrench<S>> = (0..at.m.bodies.len()).map(unbalanced).collect();
+    add_multipliers(rows, multipliers, &mut left);
+    left
+}
+
+/// Adds the loads of rows with their multipliers to those on each body.
+pub fn add_multipliers<S: Scalar>(rows: &[Row<S>], multipliers: &[S], loads: &mut [Wrench<S>]) {
+    for (row, &multiplier) in rows.iter().zip(multipliers) {
+        for &(body, load) in row.loads() {
+            loads[body] += load * multiplier;
+        }
+    }
+}
+
+/// Mass, first and second moment of a body, or of several that move as one, about its joint origin.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Inertia {
+    pub mass: f64,
+    pub moment: Vec2,
+    pub turn: f64,
+}
+
+impl Inertia {
+    /// That of a body whose mass centre is at `arm` from its joint origin; a particle does not resist turning.
+    #[inline(always)]
+    pub fn of(at: StateView<'_>, body: usize, arm: Vec2) -> Self {
+        let mass = at.n.mass[body];
+        let turn = if at.m.bodies[body].particle { 0.0 } else { at.n.inertia[body] + mass * arm.dot(arm) };
+        Inertia { mass, moment: arm * mass, turn }
+    }
+
+    /// The momentum of a motion, at the joint origin.
+    pub fn momentum(&self, motion: Twist) -> Wrench {
+        let f = motion.v * self.mass + self.moment.perp() * motion.w;
+        Wrench { f, m: self.moment.cross(motion.v) + self.turn * motion.w }
+    }
+}

@@ -1,0 +1,84 @@
+"""What a lock holds is told like what a joint holds: in tables, in the largest reactions, in impulses, in free bodies."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import freebody as fb
+from freebody.views.peaks import peak_reactions
+
+G = 9.81
+PARTICLE = """
+freebody: 1
+bodies: {{b: {{shape: particle, mass: {mass} kg}}}}
+initial: {{b.x: 0 m, b.y: 0 m, rates: {{b.x: {speed} m/s}}}}
+events: {{hold: {{at: {when}, then: {{lock: [b.x, b.y]}}}}}}
+run: {{until: 1 s}}
+"""
+ROD = """
+freebody: 1
+bodies: {rod: {shape: rod, length: 2 m, mass: 3 kg, points: {A: start}}}
+joints: {pivot: {type: hinge, of: [ground.O, rod.A], coordinate: theta}}
+initial: {theta: 0, rates: {theta: 0.5 rad/s}}
+events: {hold: {at: start, then: {lock: theta}}, go: {at: 0.5 s, then: {unlock: theta}}}
+run: {until: 0.6 s}
+"""
+
+
+def model(path: Path, text: str) -> fb.Mechanism:
+    file = path / "model.yaml"
+    file.write_text(text)
+    return fb.load(file)
+
+
+@pytest.mark.parametrize("mass", [0.1, 1.0, 7.0])
+def test_a_particle_is_held_by_its_weight(tmp_path: Path, mass: float) -> None:
+    m = model(tmp_path, PARTICLE.format(mass=mass, speed=0, when="start"))
+    run = m.simulate()
+    held = run.instant(0.5)
+    assert_allclose([held.locks["lock b.x"], held.locks["lock b.y"]], [0, mass * G], atol=1e-12)
+    assert held.free_bodies().bodies["b"].a == (0.0, 0.0)
+    peaks = {peak.joint: peak for peak in peak_reactions(run)}
+    assert_allclose(peaks["lock b.y"].size, mass * G)
+    assert m.solve().locks == {}
+    assert_allclose(run["'lock b.y'.force"], mass * G)
+
+
+@pytest.mark.parametrize(("mass", "speed"), [(1.0, 2.0), (0.5, -3.0)])
+def test_the_impulse_of_a_lock_takes_the_momentum(tmp_path: Path, mass: float, speed: float) -> None:
+    run = model(tmp_path, PARTICLE.format(mass=mass, speed=speed, when="0.3 s")).simulate()
+    [impact] = [change for change in run.changes if change.impulses]
+    assert_allclose([impact.impulses.locks["lock b.x"], impact.impulses.locks["lock b.y"]], [-mass * speed, mass * G * 0.3])
+    assert_allclose(impact.impulses.sizes["lock b.x"], abs(mass * speed))
+    assert_allclose(impact.lost, mass * (speed**2 + (G * 0.3) ** 2) / 2)
+
+
+def test_a_locked_angle_passes_a_couple_until_it_is_unlocked(tmp_path: Path) -> None:
+    """About the pivot the couple is the moment of the weight, M g l/2; its impulse the angular momentum, M l²/3 ω."""
+    m = model(tmp_path, ROD)
+    run = m.simulate()
+    assert_allclose(run.instant(0.2).locks["lock theta"], 3 * G)
+    assert run.instant(0.55).locks == {}
+    [impact] = [change for change in run.changes if change.impulses]
+    assert_allclose(impact.impulses.locks["lock theta"], -3 * 4 / 3 * 0.5)
+    [peak] = [peak for peak in peak_reactions(run) if peak.joint == "lock theta"]
+    assert_allclose(peak.couple, 3 * G)
+    assert peak.size is None
+    load = next(load for load in run.instant(0.2).free_bodies().loads if load.kind == "lock")
+    assert load.card.couple
+    assert_allclose(load.unit(["rod"]), [0, 0, 1], atol=1e-12)
+    assert np.isclose(load.value, 3 * G)
+
+
+def test_the_command_line_tells_what_locks_hold(tmp_path: Path) -> None:
+    from typer.testing import CliRunner
+
+    from freebody.cli import app
+
+    model(tmp_path, PARTICLE.format(mass=1, speed=0, when="start"))
+    file = str(tmp_path / "model.yaml")
+    for command in (["solve", file], ["run", file, "--no-report"]):
+        stated = CliRunner().invoke(app, command).output
+        assert "b.y" in stated and "9.81" in stated.replace("-9.81", "")
