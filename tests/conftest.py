@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime
-from collections import defaultdict
+from collections import Counter, defaultdict
 
 import pytest
 from store import sample
@@ -18,18 +18,19 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "family(name): a member of a family, of which a sample is visited by default")
+    config.addinivalue_line("markers", "family(name, share): a member of a family, of which a sample is visited by default")
     config.addinivalue_line("markers", "long: runs with --all only")
     config.stash[SEEN] = {}
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    families = defaultdict(set)
+    families, seed = defaultdict(dict), config.getoption("sample")
     for item in items:
         if found := item.get_closest_marker("family"):
-            families[item.path, item.originalname].add(found.args[0])
-    visited = {test: sample(names, config.getoption("sample")) for test, names in families.items()}
+            name, share = found.args
+            families[item.path, item.originalname][name] = share
+    visited = {test: sample({*names}, seed, max(names.values())) for test, names in families.items()}
 
     def is_taken(item: pytest.Item) -> bool:
         found = item.get_closest_marker("family")
@@ -54,6 +55,9 @@ def pytest_testnodedown(node, error) -> None:
 
 
 def pytest_terminal_summary(terminalreporter, config: pytest.Config) -> None:
+    skipped = terminalreporter.stats.get("skipped", [])
+    for reason, count in Counter(value for report in skipped for _, value in report.user_properties).most_common():
+        terminalreporter.write_line(f"not visited: {count} cases, {reason}")
     if seen := config.stash[SEEN]:
         how = "all" if config.getoption("all") else f"sample {config.getoption('sample')}, --all for the rest"
         terminalreporter.write_line(

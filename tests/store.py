@@ -39,21 +39,21 @@ SHARE, LEAST = 12, 3
 ALWAYS = {*REPRESENTATIVE, *(name.split("/")[0] for name in REPRESENTATIVE)}
 
 
-def sample(names: set[str], seed: int) -> set[str]:
-    """The members of a family that are visited: the representative ones, and some that are drawn."""
+def sample(names: set[str], seed: int, share: int = SHARE) -> set[str]:
+    """The members of a family that are visited: the representative ones, and one of ``share`` that are drawn."""
     drawn = sorted(names, key=lambda name: zlib.crc32(f"{seed} {name}".encode()))
-    return names & ALWAYS | set(drawn[: max(LEAST, len(names) // SHARE)])
+    return names & ALWAYS | set(drawn[: max(LEAST, len(names) // share)])
 
 
-def every(names: Iterable[str], argument: str = "model") -> pytest.MarkDecorator:
-    """Parametrizes a test by names: of models, or of anything else that comes in a family."""
-    return pytest.mark.parametrize(argument, family(names))
+def every(names: Iterable[str], argument: str = "model", share: int = SHARE) -> pytest.MarkDecorator:
+    """Parametrizes a test by names: of models, or of anything else that comes in a family, one of ``share`` by default."""
+    return pytest.mark.parametrize(argument, family(names, share))
 
 
-def family(names: Iterable[str], group: str = "") -> list:
+def family(names: Iterable[str], share: int = SHARE, group: str = "") -> list:
     """The same for a fixture's ``params``; all in one process if there is a ``group``."""
     marks = pytest.mark
-    return [pytest.param(name, id=name, marks=(marks.family(name), marks.xdist_group(group or name))) for name in names]
+    return [pytest.param(name, id=name, marks=(marks.family(name, share), marks.xdist_group(group or name))) for name in names]
 
 
 @cache

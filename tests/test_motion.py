@@ -49,6 +49,12 @@ def test_a_table_of_straight_pieces_is_integrated_exactly():
     assert run.q[-1, 0] == pytest.approx(2, abs=1e-12)
 
 
+def test_every_other_time_may_be_asked_for():
+    run = one_sided_spring().simulate(until=0.4)
+    assert run.evaluate("y", run.t[::2]) == pytest.approx(1 - G * run.t[::2] ** 2 / 2, abs=1e-9)
+    assert run.at(run.t[::2])["y"] == pytest.approx(run["y"][::2])
+
+
 def test_an_event_changes_a_parameter_and_the_ledger_knows():
     """A mass on a spring whose stiffness is quartered where the spring is relaxed: the amplitude doubles, no energy enters."""
     m = fb.Mechanism("softer", gravity="none")

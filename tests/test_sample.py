@@ -1,6 +1,5 @@
 """The models that are always visited are a sample of everything that a model can hold."""
 
-
 from store import MODELS, REPRESENTATIVE, mechanism, sample
 
 

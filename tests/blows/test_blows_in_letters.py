@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import sympy
+from store import every
 from struck import ALL, mechanism, struck
 
 from freebody.equations import Sym, evaluate, from_sympy
@@ -90,7 +91,7 @@ def test_a_rod_caught_at_its_end():
     assert equal(made[cord], from_sympy(-m * u / 4)) and size == pytest.approx(-2 * found.values[v] / 4, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", sorted(set(ALL) - LONG - REDUNDANT))
+@every(sorted(set(ALL) - LONG - REDUNDANT), "name", share=2)
 def test_in_letters_are_the_numbers_of_the_run(name):
     found = blow(mechanism(name))
     made, values, sizes = jumps(found).spelt(), found.values, found.sizes()
@@ -102,7 +103,7 @@ def test_in_letters_are_the_numbers_of_the_run(name):
         assert float(evaluate(made[letter], values)) == pytest.approx(sizes[letter], abs=1e-7 * most), letter
 
 
-@pytest.mark.parametrize("name", ALL)
+@every(ALL, "name", share=2)
 def test_every_equation_holds_in_the_run(name):
     """Balances of coordinates and of bodies, what comes back or holds, and the law of friction."""
     for number in range(1, len(struck(name, 2)) + 1):

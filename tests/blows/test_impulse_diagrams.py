@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
+from store import every
 from struck import ALL, mechanism, struck
 from typer.testing import CliRunner
 
@@ -15,7 +16,7 @@ from freebody.views.diagram.arrows import Arrow
 from freebody.views.diagram.impulses import impulse_diagram
 from freebody.views.diagram.layout import extent
 
-every_model = pytest.mark.parametrize("name", ALL)
+every_model = every(ALL, "name", share=2)
 
 
 @cache

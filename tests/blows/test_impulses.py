@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from store import every
 from struck import ALL, CATALOGUE, TEXTS, mechanism, struck
 
 from freebody import catalogue
 from freebody.impact.impacts import NoImpact
 
-every_model = pytest.mark.parametrize("name", ALL)
+every_model = every(ALL, "name", share=2)
 CLOSE = 1e-9
 """Relative to the largest impulse: both routes solve linear systems of a few unknowns in double precision, at places where gaps
 are closed within 1e-10 of the mechanism's length."""

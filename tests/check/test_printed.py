@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from store import family
 
 import freebody as fb
 from freebody.check import Checker, Kind
@@ -38,7 +39,7 @@ initial: {theta: 0.4, s: 0.3 m, rates: {theta: 1, s: 0.2}}
 """
 
 
-@pytest.fixture(scope="module", params=[*NAMED, "words"])
+@pytest.fixture(scope="module", params=family([*NAMED, "words"]))
 def model(request: pytest.FixtureRequest) -> fb.Mechanism:
     return fb.Mechanism.loads(WORDS) if request.param == "words" else fb.Mechanism.load(SYSTEMS / f"{request.param}.yaml")
 

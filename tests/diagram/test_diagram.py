@@ -161,6 +161,7 @@ def test_the_page_of_all_diagrams(tmp_path):
     assert {line.split('"')[0] for line in text.split(' href="#')[1:]} <= set(own)
 
 
+@pytest.mark.long
 def test_the_page_shows_the_first_blow_of_every_kind(tmp_path):
     """A wheel of eight feet that fall one after another has one kind; a foot and a stop at one time are two."""
     page = tmp_path / "page.html"

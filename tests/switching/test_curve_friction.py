@@ -182,3 +182,15 @@ initial: {{p: 0, q: 0, rates: {{p: 9, q: {0 if absolute == "true" else -9}}}}}
 def test_a_hoop_has_no_bearing():
     with pytest.raises(Exception, match="takes no `bearing_radius`"):
         model(HOOP.replace("friction: mu", "friction: mu, bearing_radius: 0.1 m"))
+
+
+def test_the_letter_of_a_curve_hides_a_parameter_of_that_name():
+    """A bead on a parabola: at s, m (1 + y'²) s̈ = −m g y' with y' = 0.8 s."""
+    text = """
+parameters: {m: 1 kg, s: 0.3 kg}
+ground: {curves: {wave: {x: s, y: 0.4*s^2}}}
+bodies: {bead: {shape: particle, mass: m}}
+joints: {wire: {type: curved_slot, along: ground.wave, point: bead.centre, coordinate: q}}
+initial: {q: 0.5, at_rest: true}
+"""
+    assert model(text).solve().accelerations["q"] == pytest.approx(-9.81 * 0.4 / (1 + 0.4**2), rel=1e-12)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from .models import run_double_pendulum, run_four_bar
+from .models import run_double_pendulum, run_four_bar, run_shelf
 
 
 @pytest.fixture(scope="session")
@@ -17,4 +17,4 @@ def four_bar():
 
 @pytest.fixture(scope="session")
 def indeterminate():
-    return run_double_pendulum(until=0.5, indeterminate=["knee"])
+    return run_shelf()

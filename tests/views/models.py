@@ -1,106 +1,71 @@
-"""Models for the views' tests, as the JSON that the core reads."""
+"""Models for the views' tests."""
 
 from __future__ import annotations
 
-from freebody.core import CompiledModel, Settings
-from freebody.run.records import ReportItem
-from freebody.run.simulation import Run, simulate
+import json
 
-from .fake import FakeMechanism
+import freebody as fb
 
-
-def rod(name, length, mass=1.0):
-    return {"name": name, "pieces": [{"shape": "rod", "mass": mass, "sizes": {"length": length}}]}
-
-
-def ends(name, length):
-    half = length / 2
-    places = {"start": [-half, 0], "end": [half, 0], "origin": [0, 0], "G": [0, 0]}
-    return [point(f"{name}.{key}", name, at) for key, at in places.items()]
-
-
-def point(name, body, at):
-    return {"name": name, "body": body, "at": list(at)}
-
-
-def hinge(name, first, second):
-    return {"name": name, "type": "hinge", "with": {"of": [first, second]}, "coordinates": []}
-
-
-def compiled(spec):
-    return CompiledModel(FakeMechanism(spec), spec)
-
-
-def source(spec, report=()):
-    return CompiledModel(FakeMechanism(spec), spec, {"freebody": 1, "name": spec["name"]}, tuple(report))
-
-
-def double_pendulum(upper="upper", **more):
-    spec = {
-        "name": "double pendulum",
-        "parameters": [],
-        "bodies": [rod(upper, 1.0, 2.0), rod("lower", 0.8)],
-        "points": [point("ground.O", "ground", [0, 0]), *ends(upper, 1.0), *ends("lower", 0.8)],
-        "joints": [hinge("pivot", "ground.O", f"{upper}.start"), hinge("knee", f"{upper}.end", "lower.start")],
-        "forces": [],
-        "events": [{"name": "level", "when": "phi1"}],
-        "angles": {upper: "phi1", "lower": "phi2"},
-        **more,
-    }
-    items = [
-        ReportItem("tip speed at the end", "speed(lower.end)"),
-        ReportItem("largest pull", "pivot.F", "max"),
-        ReportItem("mean height", "y(lower.end)", "mean"),
-        ReportItem("angle when level", "phi2", at="level", unit="deg"),
-        ReportItem("never", "phi2", at="leaves"),
-    ]
-    return source(spec, items)
-
-
-def four_bar():
-    ground = [
-        point("ground.O", "ground", [0, 0]),
-        point("ground.B", "ground", [0.9, 0]),
-        point("ground.S", "ground", [1.25, 0.75]),
-    ]
-    spec = {
-        "name": "four-bar with a motor",
-        "parameters": [{"name": "T", "value": 2.0, "unit": "N*m"}],
-        "bodies": [rod("crank", 0.3), rod("coupler", 0.9), rod("rocker", 0.6)],
-        "points": [
-            *ground,
-            *ends("crank", 0.3),
-            *ends("coupler", 0.9),
-            *ends("rocker", 0.6),
-            point("coupler.P", "coupler", [0.1, 0.28]),
-        ],
-        "joints": [
-            hinge("main bearing", "ground.O", "crank.start"),
-            hinge("crank pin", "crank.end", "coupler.start"),
-            hinge("rocker bearing", "ground.B", "rocker.start"),
-            hinge("rocker pin", "coupler.end", "rocker.end"),
-        ],
-        "forces": [
-            {"name": "motor", "type": "torque", "with": {"on": "crank", "from": "ground", "value": "T"}},
-            {"name": "return spring", "type": "spring", "with": {"between": ["rocker.end", "ground.S"], "stiffness": 20.0}},
-        ],
-        "events": [{"name": "crank level", "when": "sin(theta)"}],
-        "angles": {"crank": "theta", "coupler": "beta", "rocker": "psi"},
-    }
-    items = [
-        ReportItem("largest bearing load", "'main bearing'.F", "max"),
-        ReportItem("rms crank speed", "omega(crank)", "rms"),
-        ReportItem("work of the motor", "motor.work"),
-    ]
-    return source(spec, items)
+DOUBLE_PENDULUM = """
+freebody: 1
+name: NAME
+bodies: {UPPER: {shape: rod, length: 1, mass: 2}, lower: {shape: rod, length: 0.8, mass: 1}}
+joints:
+  pivot: {type: hinge, of: [ground.O, UPPER.start], coordinate: phi1}
+  knee: {type: hinge, of: [UPPER.end, lower.start], coordinate: {name: phi2, absolute: true}}
+initial: {phi1: 0, phi2: -0.4, at_rest: true}
+events: {plumb: {when: phi1 + pi/2, then: record}, leaves: {when: phi1 - 100, then: record}}
+report:
+  tip speed at the end: speed(lower.end)
+  largest pull: max of pivot.F
+  mean height: mean of y(lower.end)
+  angle when plumb: {value: phi2, at: plumb, unit: deg}
+  never: phi2 @ leaves
+"""
+FOUR_BAR = """
+freebody: 1
+name: four-bar with a motor
+parameters: {T: 2 N*m}
+ground: {points: {B: [0.9, 0], S: [1.25, 0.75]}}
+bodies:
+  crank: {shape: rod, length: 0.3, mass: 1}
+  coupler: {shape: rod, length: 0.9, mass: 1, points: {P: [0.1, 0.28]}}
+  rocker: {shape: rod, length: 0.6, mass: 1}
+joints:
+  main bearing: {type: hinge, of: [ground.O, crank.start], coordinate: theta}
+  crank pin: {type: hinge, of: [crank.end, coupler.start], coordinate: {name: beta, absolute: true}}
+  rocker bearing: {type: hinge, of: [ground.B, rocker.start], coordinate: psi}
+  rocker pin: {type: hinge, of: [coupler.end, rocker.end]}
+forces:
+  motor: {type: torque, on: crank, value: T}
+  return spring: {type: spring, between: [rocker.end, ground.S], stiffness: 20}
+initial: {theta: 1, guess: {beta: 0.4, psi: 1.4}, at_rest: true}
+events: {crank level: {when: sin(theta), then: record}}
+report:
+  largest bearing load: max of 'main bearing'.F
+  rms crank speed: rms of omega(crank)
+  work of the motor: motor.work
+"""
+SHELF = """
+freebody: 1
+name: a board on two pins of a carriage
+bodies: {upper: {shape: rectangle, width: 1, height: 0.2, mass: 2, points: {A: [-0.4, 0.1], B: [0.4, 0.1]}}, lower: {shape: rod, length: 0.8, mass: 1}}
+joints:
+  pivot: {type: slider, along: {through: ground.O, angle: 0}, line: {through: upper.origin, angle: 0}, coordinate: phi1}
+  knee: {type: hinge, of: [upper.A, lower.start]}
+  other knee: {type: hinge, of: [upper.B, lower.end]}
+initial: {phi1: 0, rates: {phi1: 1}}
+"""
+"""How much the pins press the board together is open; what they carry is not."""
 
 
-def run_double_pendulum(until=2.0, **more) -> Run:
-    made = double_pendulum(**more)
-    return simulate(made, made.assemble(made.bind(), fixed={"phi1": 0.0, "phi2": -0.4})[0], Settings(until=until))
+def run_double_pendulum(until: float = 2.0, upper: str = "upper", name: str = "double pendulum") -> fb.Run:
+    return fb.Mechanism.loads(DOUBLE_PENDULUM.replace("UPPER", upper).replace("NAME", json.dumps(name))).simulate(until=until)
 
 
-def run_four_bar(until=3.0) -> Run:
-    made = four_bar()
-    start, _ = made.assemble(made.bind(), fixed={"theta": 1.0}, guess={"beta": 0.4, "psi": 1.4})
-    return simulate(made, start, Settings(until=until))
+def run_four_bar(until: float = 3.0) -> fb.Run:
+    return fb.Mechanism.loads(FOUR_BAR).simulate(until=until)
+
+
+def run_shelf(until: float = 0.5) -> fb.Run:
+    return fb.Mechanism.loads(SHELF).simulate(until=until)

@@ -8,12 +8,10 @@ import pytest
 from freebody.run.compare import compare
 from freebody.run.simulation import Run
 
-from .models import compiled
-
 
 @pytest.mark.parametrize("suffix", [".nc", ".csv"])
 def test_a_run_comes_back_to_the_last_bit(suffix, four_bar, tmp_path):
-    back = Run.load(four_bar.save(tmp_path / f"run{suffix}"), compiled)
+    back = Run.load(four_bar.save(tmp_path / f"run{suffix}"))
     assert (back.t == four_bar.t).all()
     for kind, block in four_bar.blocks.items():
         assert np.array_equal(back.blocks[kind], block, equal_nan=True), kind
@@ -24,7 +22,7 @@ def test_a_run_comes_back_to_the_last_bit(suffix, four_bar, tmp_path):
 
 
 def test_a_loaded_run_says_what_it_does_not_know(four_bar, tmp_path):
-    back = Run.load(four_bar.save(tmp_path / "run.csv"), compiled)
+    back = Run.load(four_bar.save(tmp_path / "run.csv"))
     assert back["theta"][0] == four_bar["theta"][0] and (back["coupler.P"] == four_bar["coupler.P"]).all()
     with pytest.raises(LookupError, match="again"):
         back.evaluate("theta", 0.12345)
@@ -34,12 +32,12 @@ def test_a_loaded_run_says_what_it_does_not_know(four_bar, tmp_path):
 
 
 def test_a_loaded_run_goes_on(four_bar, tmp_path):
-    back = Run.load(four_bar.save(tmp_path / "run.nc"), compiled)
+    back = Run.load(four_bar.save(tmp_path / "run.nc"))
     assert back.continue_(3.2).t[-1] == 3.2
 
 
 def test_indeterminate_stays_indeterminate(indeterminate, tmp_path):
-    back = Run.load(indeterminate.save(tmp_path / "run.nc"), compiled)
+    back = Run.load(indeterminate.save(tmp_path / "run.nc"))
     assert not back.reactions["knee"].determinate
     assert back.reactions["knee"].least.Fx == pytest.approx(indeterminate.reactions["knee"].least.Fx)
 
@@ -53,7 +51,7 @@ def test_tables_of_other_libraries(four_bar):
 
 
 def test_loaded_and_live_are_compared_at_the_saved_times(four_bar, tmp_path):
-    back = Run.load(four_bar.save(tmp_path / "run.csv"), compiled)
+    back = Run.load(four_bar.save(tmp_path / "run.csv"))
     assert compare(four_bar, back).largest.largest == 0
     assert compare(back, back).largest.largest == 0
 
@@ -67,6 +65,6 @@ def test_a_missing_library_is_one_line(four_bar, monkeypatch):
 def test_other_files_are_refused(four_bar, tmp_path):
     (tmp_path / "x.csv").write_text("t,theta\n")
     with pytest.raises(ValueError, match="no saved run"):
-        Run.load(tmp_path / "x.csv", compiled)
+        Run.load(tmp_path / "x.csv")
     with pytest.raises(ValueError, match=r"\.nc or \.csv"):
         four_bar.save(tmp_path / "run.xlsx")

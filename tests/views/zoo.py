@@ -2,93 +2,59 @@
 
 from __future__ import annotations
 
-import numpy as np
+import freebody as fb
 
-from freebody.core import State
-
-from .models import point, source
-
-
-class _Zoo:
-    def __init__(self):
-        self.bodies, self.points, self.joints, self.poses = [], [point("ground.O", "ground", [0, 0])], [], {}
-
-    def body(self, name, shape, at, angle=0.0, sizes=None, corners=(), **points):
-        self.bodies.append(
-            {"name": name, "pieces": [{"shape": shape, "mass": 1.0, "sizes": sizes or {}, "corners": list(corners)}]}
-        )
-        self.poses[name] = [*at, angle]
-        for key, place in {"origin": [0, 0], "G": [0, 0], **points}.items():
-            self.points.append(point(f"{name}.{key}", name, place))
-
-    def ground(self, name, at):
-        self.points.append(point(f"ground.{name}", "ground", at))
-
-    def joint(self, name, kind, coordinate="", **fields):
-        coordinates = [{"name": coordinate}] if coordinate else []
-        self.joints.append({"name": name, "type": kind, "with": fields, "coordinates": coordinates})
-
-
-def level(name):
-    return {"point": name, "angle": 0.0}
+ZOO = """
+freebody: 1
+name: zoo
+ground:
+  points: {S: [0.2, 0], S2: [1, 0], A: [0, 0.4], R: [1, 0.4], K: [1.8, 0.02], g1: [1.8, 0.7], g2: [2.12, 0.7], b1: [1.8, 1.15],
+           b2: [2.3, 1.2], L: [0.2, 1.3], W: [1, 1.1], sun: [2.75, 0.2]}
+  curves: {wire: {x: 2.8 + 0.25*cos(s), y: 0.9 + 0.25*sin(s)}}
+bodies:
+  piston: {mass: 1, inertia: 0.1}
+  block: {shape: rectangle, width: 0.3, height: 0.16, mass: 1}
+  arm: {shape: rod, length: 0.8, mass: 1}
+  collar: {shape: particle, mass: 1}
+  wheel: {shape: disk, radius: 0.15, mass: 1}
+  cart: {shape: rectangle, width: 0.4, height: 0.1, mass: 1, points: {P: [-0.15, -0.08], Q: [0.15, -0.08]}}
+  g1: {shape: disk, radius: 0.12, mass: 1}
+  g2: {shape: disk, radius: 0.2, mass: 1}
+  b1: {shape: ring, radius: 0.08, mass: 1}
+  b2: {shape: disk, radius: 0.16, mass: 1}
+  plate: {shape: polygon, corners: [[0, 0], [0.3, 0], [0.1, 0.2]], mass: 1, points: {V: [0.1, 0.2]}}
+  bar: {shape: rod, length: 0.4, mass: 1}
+  bead: {shape: particle, mass: 1}
+  sun: {shape: disk, radius: 0.12, mass: 1}
+  planet: {shape: disk, radius: 0.08, mass: 1}
+joints:
+  guide: {type: slider, along: {through: ground.S, angle: 0}, line: {through: piston.origin, angle: 0}, coordinate: s1}
+  slide: {type: slider, along: {through: ground.S2, angle: 0}, line: {through: block.origin, angle: 0}, coordinate: s2}
+  pin: {type: hinge, of: [ground.A, arm.start], coordinate: turn}
+  track: {type: slot, along: [arm.start, arm.end], point: collar.centre, coordinate: s3}
+  roll: {type: rolling, on: {through: ground.R, angle: 0}, circle: {centre: wheel.centre, radius: 0.15}, coordinate: s4}
+  rollers: {type: rollers, along: {through: ground.K, angle: 0}, points: [cart.P, cart.Q], coordinate: s5}
+  axle 1: {type: hinge, of: [ground.g1, g1.centre]}
+  axle 2: {type: hinge, of: [ground.g2, g2.centre]}
+  gears: {type: gear, of: [g1.centre, g2.centre], radii: [0.12, 0.2]}
+  axle 3: {type: hinge, of: [ground.b1, b1.centre]}
+  axle 4: {type: hinge, of: [ground.b2, b2.centre]}
+  belt: {type: belt, of: [b1.centre, b2.centre], radii: [0.08, 0.16]}
+  tie: {type: link, of: [ground.L, plate.V], length: 0.3}
+  clamp: {type: weld, of: [ground.W, bar.start], angle: 0.9}
+  wire: {type: curved_slot, along: ground.wire, point: bead.centre, coordinate: sigma}
+  sun pin: {type: hinge, of: [ground.sun, sun.centre]}
+  planetary: {type: rolling_circles, on: {centre: sun.centre, radius: 0.12}, circle: {centre: planet.centre, radius: 0.08}}
+forces:
+  strut: {type: spring, between: [bar.end, b1.centre], stiffness: 10, damping: 2}
+  damper: {type: damper, between: [g1.centre, cart.G], damping: 2}
+  push: {type: force, at: cart.P, value: 3, direction: 0}
+  drive: {type: torque, on: g2, value: 3}
+initial: {s1: 0.3, s2: 0.2, turn: 0.3, s3: 0.5, s4: 0.3, s5: 0, sigma: 0.9, at_rest: true}
+"""
 
 
 def zoo():
     """Model and state."""
-    z = _Zoo()
-    z.body("piston", "given", [0.5, 0])
-    z.ground("S", [0.2, 0])
-    z.joint("guide", "slider", along=level("ground.S"), line=level("piston.origin"))
-    z.body("block", "rectangle", [1.2, 0], sizes={"width": 0.3, "height": 0.16})
-    z.ground("S2", [1.0, 0])
-    z.joint("slide", "slider", along=level("ground.S2"), line=level("block.origin"))
-    z.body("arm", "rod", [0.4, 0.5], 0.3, sizes={"length": 0.8}, A=[-0.4, 0], B=[0.4, 0])
-    z.body("collar", "point", [0.4 + 0.1 * np.cos(0.3), 0.5 + 0.1 * np.sin(0.3)])
-    z.joint("track", "slot", along={"point": "arm.A", "towards": "arm.B"}, point="collar.origin")
-    z.body("wheel", "disk", [1.3, 0.55], -0.5, sizes={"radius": 0.15})
-    z.ground("R", [1.0, 0.4])
-    z.joint("roll", "rolling", circle={"centre": "wheel.origin", "radius": 0.15}, on=level("ground.R"))
-    z.body("cart", "rectangle", [2.0, 0.1], sizes={"width": 0.4, "height": 0.1}, P=[-0.15, -0.08], Q=[0.15, -0.08])
-    z.ground("K", [1.8, 0.02])
-    z.joint("rollers", "rollers", along=level("ground.K"), points=["cart.P", "cart.Q"])
-    z.body("g1", "disk", [1.8, 0.7], sizes={"radius": 0.12})
-    z.body("g2", "disk", [2.12, 0.7], 0.6, sizes={"radius": 0.2})
-    z.joint("gears", "gear", of=["g1.origin", "g2.origin"], radii=[0.12, 0.2])
-    z.body("b1", "ring", [1.8, 1.15], sizes={"radius": 0.08})
-    z.body("b2", "disk", [2.3, 1.2], 0.6, sizes={"radius": 0.16})
-    z.joint("belt", "belt", of=["b1.origin", "b2.origin"], radii=[0.08, 0.16])
-    z.ground("L", [0.2, 1.3])
-    z.body("plate", "polygon", [0.5, 1.0], 0.2, corners=[[0, 0], [0.3, 0], [0.1, 0.2]], V=[0.1, 0.2])
-    z.joint("tie", "link", of=["ground.L", "plate.V"], length=0.3)
-    z.body("bar", "rod", [1.1, 1.2], 0.9, sizes={"length": 0.4}, E=[-0.2, 0], F=[0.2, 0])
-    z.ground("W", [1.1 - 0.2 * np.cos(0.9), 1.2 - 0.2 * np.sin(0.9)])
-    z.joint("clamp", "weld", of=["ground.W", "bar.E"])
-    z.body("bead", "point", [2.8 + 0.25 * np.cos(0.9), 0.9 + 0.25 * np.sin(0.9)])
-    z.joint("wire", "curved_slot", "sigma", along="ground.wire", point="bead.origin")
-    z.body("sun", "disk", [2.75, 0.2], sizes={"radius": 0.12})
-    z.body("planet", "disk", [2.95, 0.2], 0.4, sizes={"radius": 0.08})
-    z.joint(
-        "planetary",
-        "rolling_circles",
-        circle={"centre": "planet.origin", "radius": 0.08},
-        on={"centre": "sun.origin", "radius": 0.12},
-    )
-    spec = {
-        "name": "zoo",
-        "parameters": [{"name": "sigma", "value": 0.9}],
-        "gravity": [0.0, -9.81],
-        "bodies": z.bodies,
-        "points": z.points,
-        "curves": [{"name": "ground.wire", "body": "ground", "x": "2.8+0.25*cos(s)", "y": "0.9+0.25*sin(s)"}],
-        "joints": z.joints,
-        "forces": [
-            {"name": "strut", "type": "spring", "with": {"between": ["bar.F", "b1.origin"], "stiffness": 10.0, "damping": 2.0}},
-            {"name": "damper", "type": "damper", "with": {"between": ["g1.origin", "cart.origin"], "damping": 2.0}},
-            {"name": "push", "type": "force", "with": {"at": "cart.P", "value": 3.0, "direction": 0.0}},
-            {"name": "drive", "type": "torque", "with": {"on": "g2", "from": "ground", "value": 3.0}},
-        ],
-        "poses": z.poses,
-    }
-    made = source(spec)
-    q = np.array([z.poses[body["name"]][2] for body in z.bodies])
-    return made, State(made.bind({}), 0.0, q, 0 * q)
+    mechanism = fb.Mechanism.loads(ZOO)
+    return mechanism.source(), mechanism.start()[0]

@@ -181,7 +181,7 @@ class Run:
 
         An expression that reads a reaction that is not determined raises ``Indeterminate``.
         """
-        times = np.atleast_1d(np.asarray(self.t if t is None else t, float))
+        times = np.ascontiguousarray(self.t if t is None else t, float)
         values = self.motion.evaluate([text], times)[:, 0]
         if np.isnan(values).any():
             refuse_indeterminate(text, self.reactions, self.about)
@@ -290,7 +290,7 @@ class Run:
 
     def at(self, times: Times) -> Run:
         """The same run on other output times."""
-        return Run(self.source, self.start, self.settings, self.motion, np.asarray(times, float))
+        return Run(self.source, self.start, self.settings, self.motion, np.ascontiguousarray(times, float))
 
     def again(self) -> Run:
         """The same simulation once more, with the same output times."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from freebody.equations.balances.perturbed_states import Closing
 from freebody.equations.balances.system import alike
@@ -32,7 +33,10 @@ def numbers(subject: SymbolicState) -> dict[Sym, float]:
 def rate(tree: Tree, subject: SymbolicState, values: Mapping[Sym, float] | None = None) -> float:
     """d/dt of an expression of coordinates and rates along the true motion; all other letters, time too, stay as they are."""
     values, names = values or numbers(subject), [c["name"] for c in subject.coordinates]
-    h = STEP / max(1.0, *(abs(values[Sym(n, 1)]) for n in names), *(abs(values[Sym(n, 2)]) ** 0.5 for n in names))
+    bodies = subject.free.bodies.values()
+    rates = [*(abs(values[Sym(n, 1)]) for n in names), *(abs(body.omega) for body in bodies)]
+    changes = [*(abs(values[Sym(n, 2)]) for n in names), *(abs(body.alpha) for body in bodies)]
+    h = STEP / max(1.0, *rates, *(change**0.5 for change in changes))
 
     def at(t: float) -> float:
         moved = {Sym(n): values[Sym(n)] + t * values[Sym(n, 1)] + t * t / 2 * values[Sym(n, 2)] for n in names}
@@ -40,6 +44,26 @@ def rate(tree: Tree, subject: SymbolicState, values: Mapping[Sym, float] | None 
         return evaluate(tree, values | moved, subject.tables)
 
     return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h)
+
+
+POWER = 1e-8
+"""Of the largest power: a difference of fourth order along the motion leaves 1e-11 of what is smooth."""
+
+
+def balanced(kinetic: Tree, potential: Tree, subject: SymbolicState) -> tuple[float, float]:
+    """Holds the rate of kinetic energy against the power of all loads on all bodies, that of potential energy, turned round, against
+    the power of weights and conservative forces. Returns the rate of their sum, and what of it is rounding, W."""
+    conservative = {force["name"]: force["conservative"] for force in subject.source.about["forces"]}
+    bodies, given = subject.free.bodies, []
+    for load in subject.free.loads:
+        parts = [(part, bodies[part.body]) for part in load.on if part.body in bodies]
+        given.append((load, [load.value * np.dot(part.wrench(body.G), (*body.v, body.omega)) for part, body in parts]))
+    rounding = POWER * max([1.0, *(abs(x) for _, powers in given for x in powers)])
+    stored = [x for load, x in given if load.kind == "weight" or (load.kind == "force" and conservative[load.name])]
+    rates = rate(kinetic, subject), rate(potential, subject)
+    assert rates[0] == pytest.approx(sum(sum(x) for _, x in given), abs=rounding)
+    assert rates[1] == pytest.approx(-sum(map(sum, stored)), abs=rounding)
+    return sum(rates), rounding
 
 
 def other_parameters(subject: SymbolicState) -> SymbolicState | None:

@@ -248,6 +248,7 @@ initial: {theta: 50 deg, at_rest: true, guess: {beta: -130 deg, s: l}}
 """
 
 
+@pytest.mark.long
 def test_a_governor() -> None:
     """cos θ = (m + 2 Mₛ) g/(m W² l), about which ω² = (m + 2 Mₛ) g sin²θ/(l cos θ (m + 4 Mₛ sin²θ)), Mₛ being half of the sleeve.
 

@@ -277,11 +277,12 @@ impl Scope<'_> {
 impl expr::Scope<ModelVariable> for Scope<'_> {
     fn name(&mut self, name: &str) -> Result<ModelExpr, Message> {
         let n = self.names;
-        if let Some(&i) = n.parameters.get(name) {
-            return Ok(ModelExpr::variable(ModelVariable::Parameter(i)));
-        }
+        // A curve's own letter hides a parameter of that name.
         if name == "s" && self.reach == Reach::Curve {
             return Ok(ModelExpr::variable(ModelVariable::Local));
+        }
+        if let Some(&i) = n.parameters.get(name) {
+            return Ok(ModelExpr::variable(ModelVariable::Parameter(i)));
         }
         if self.reach >= Reach::Configuration {
             if let Some(&(joint, k)) = n.coordinates.get(name) {

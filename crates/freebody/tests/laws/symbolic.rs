@@ -151,5 +151,5 @@ fn equations_told_at_one_state_hold_at_another() {
             label += 1;
         }
     }
-    assert!(label > 100, "{label}");
+    assert!(label > 50, "{label}");
 }
