@@ -29,7 +29,9 @@ def test_a_spinning_disk_bounces(v, w):
     (impact,) = changes(run, "impact")
     assert impact.t == pytest.approx(0.1, abs=1e-14)
     assert impact.after["u"] == pytest.approx([v - drag, 0.8 * 2, -(w + 2 * drag / 0.1)], abs=1e-12)
-    before, after = (1 / 2 * u[0] ** 2 + 1 / 2 * u[1] ** 2 + 0.005 / 2 * u[2] ** 2 for u in (impact.before["u"], impact.after["u"]))
+    before, after = (
+        1 / 2 * u[0] ** 2 + 1 / 2 * u[1] ** 2 + 0.005 / 2 * u[2] ** 2 for u in (impact.before["u"], impact.after["u"])
+    )
     assert impact.lost == pytest.approx(before - after, abs=1e-12)
 
 

@@ -132,7 +132,9 @@ def test_a_crank_turns_its_rubbing_slider_back_at_the_dead_points(guide):
     run = motion(text, 0.9, {"rtol": 1e-11})
     stated = changes(run)
     assert len(stated) >= 2 and {c.kind for c in stated} == {"reversal"}
-    assert [run.evaluate("theta", c.t) for c in stated] == pytest.approx([math.pi * (k + 1) for k in range(len(stated))], abs=1e-9)
+    assert [run.evaluate("theta", c.t) for c in stated] == pytest.approx(
+        [math.pi * (k + 1) for k in range(len(stated))], abs=1e-9
+    )
 
 
 @pytest.mark.parametrize("guide", ["slot, along: ground.way", "curved_slot, along: ground.curve"])

@@ -84,7 +84,9 @@ def test_an_instant_tells_signs_ranks_and_refuses_the_indeterminate(indeterminat
         _ = now.reactions["knee"].Fx
     assert float(now.reactions["knee"].least.Fx) == pytest.approx(indeterminate.reactions["knee"].least.Fx[0])
     stated = str(now)
-    assert all(word in stated for word in ("phi1", "knee", "ground", "indeterminate", "1 degree of freedom", "statically indeterminate"))
+    assert all(
+        word in stated for word in ("phi1", "knee", "ground", "indeterminate", "1 degree of freedom", "statically indeterminate")
+    )
     assert now["accel(phi1)"] == pytest.approx(now.accelerations["phi1"])
 
 

@@ -114,7 +114,9 @@ def test_moving_frame(name: str) -> None:
         for body, point in pairwise(bodies):
             stated = subject.ask([{"ask": "frame", "point": f"{point}.G", "body": body}])[0]
             parts = {
-                word: [value(subject, read(x)) for x in stated[word]["xy"]] for word in stated if word[0] in "va" and word != "alpha"
+                word: [value(subject, read(x)) for x in stated[word]["xy"]]
+                for word in stated
+                if word[0] in "va" and word != "alpha"
             }
             truth = subject.free.bodies[point]
             assert_allclose(np.add(parts["v_transport"], parts["v_relative"]), truth.v, atol=1e-10)
