@@ -38,6 +38,7 @@ FIELDS = {
     "rolling_circles": f"on: {{centre: ground.A, radius: 0.8}}, circle: {CIRCLE}",
     "free": "of: [ground.A, wheel.P]",
     "polar": "of: [ground.A, wheel.P]",
+    "parallel": "of: [ground.A, wheel.P]",
 }
 VALUES = np.array([0.8, 0.5, -1.1])
 

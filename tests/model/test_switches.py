@@ -149,7 +149,7 @@ def test_a_joint_that_only_pushes(joint):
 @pytest.mark.parametrize("word", cards.joints())
 def test_every_joint_can_come_later_and_only_pushers_are_one_sided(word):
     fields = elements.JOINTS[word].model_fields
-    assert "engaged" in fields and ("one_sided" in fields) == bool(cards.joints()[word].pushes)
+    assert "engaged" in fields and ("one_sided" in fields) == bool(cards.joints()[word].presses)
 
 
 def test_an_event_cannot_have_the_name_of_one_that_a_joint_makes():

@@ -100,7 +100,7 @@ impl Freedom {
         let (count, here) = (self.count, self.here);
         let mut text = match (self.redundant, here as i64 - count) {
             (0, 0) => format!("{} of freedom, as many as Grübler's count", degrees(here)),
-            (r, more) => {
+            (r, _) => {
                 let singular = r - self.always_redundant.min(r);
                 let mut why = vec![];
                 if self.always_redundant > 0 {
@@ -108,9 +108,9 @@ impl Freedom {
                     why.push(format!("{} of the {} constraints {are} redundant", self.always_redundant, self.rows));
                 }
                 if singular > 0 {
-                    let say = if singular == 1 { "says" } else { "say" };
+                    let are = if singular == 1 { "is" } else { "are" };
                     why.push(format!(
-                        "{singular} of the {} constraints are dependent in this configuration, which is singular",
+                        "{singular} of the {} constraints {are} dependent in this configuration, which is singular",
                         self.rows
                     ));
                 }
