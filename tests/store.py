@@ -17,7 +17,7 @@ import pytest
 import freebody as fb
 from freebody import catalogue
 from freebody.equations.balances.perturbed_states import RATES, others
-from freebody.equations.derivation import derive
+from freebody.equations.derivation.derive import derive
 from freebody.equations.derivation.data import SymbolicState
 
 ROOT = Path(__file__).parents[1]

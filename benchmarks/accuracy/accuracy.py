@@ -26,6 +26,7 @@ from rich.markup import escape
 from rich.table import Table
 
 import freebody
+from freebody.core import Change
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -169,7 +170,7 @@ def four_bar() -> Iterator[Row]:
     yield Row("four-bar, 10 s: gap of the loop at every output [m]", gap.max(), 1e-12)
 
 
-def switched(run: freebody.Run, *kinds: str) -> list[dict[str, Any]]:
+def switched(run: freebody.Run, *kinds: str) -> list[Change]:
     """Mode changes during a run, of these kinds."""
     return [change for change in run.changes if change.kind in kinds]
 
@@ -183,7 +184,7 @@ def bouncing_ball() -> Iterator[Row]:
     """Bounces without end, at √(2h/g) (1 + 2 Σ eʲ), have an end."""
     run, e, fall = simulate("bouncing_ball.yaml"), 0.7, math.sqrt(2 / G)
     (rest,) = switched(run, "rest")
-    yield Row("bouncing ball: the end of all bounces [s]", abs(rest["t"] - fall * (1 + e) / (1 - e)), 1e-9)
+    yield Row("bouncing ball: the end of all bounces [s]", abs(rest.t - fall * (1 + e) / (1 - e)), 1e-9)
     yield Row("bouncing ball: changes until it rests", len(run.changes), 200)
     yield Row("bouncing ball: energy ledger over kinetic energy", open_ledger(run), 1e-9)
 
@@ -192,7 +193,7 @@ def billiard() -> Iterator[Row]:
     """Chords that meet the wall at β from its normal: each impact is π − 2β further on."""
     run, beta = simulate("billiard.yaml"), 0.37
     impacts = switched(run, "impact")
-    (x, y), (vx, vy) = (np.array([impact["after"][part] for impact in impacts]).T for part in ("q", "u"))
+    (x, y), (vx, vy) = (np.array([list(getattr(impact.after, part).values()) for impact in impacts]).T for part in ("q", "u"))
     turned = np.arctan2(y, x) - (math.pi / 2 - beta) - np.arange(len(impacts)) * (math.pi - 2 * beta)
     yield Row("ball in a circle: impacts less than 10 000", max(0, 10_000 - len(impacts)), 0)
     yield Row("ball in a circle, 10 000 impacts: angle [rad]", np.abs(np.angle(np.exp(1j * turned))).max(), 1e-8)
@@ -206,7 +207,7 @@ def belt() -> Iterator[Row]:
     slip, stick = 2 * (math.pi - math.atan(a * omega / v)) / omega, 2 * a / v
     periods = np.arange(13) * (slip + stick)
     for kind, first in (("slip", 0.4 * G / 100 / v), ("stick", 0.4 * G / 100 / v + slip)):
-        times = [change["t"] for change in switched(run, kind)]
+        times = [change.t for change in switched(run, kind)]
         known = first + periods[: len(times)]
         late = np.abs(times - known).max() if len(times) >= 11 else math.inf
         yield Row(f"belt, {len(times)} periods: instants of {kind} [s]", late, 1e-9)
@@ -220,9 +221,9 @@ def leaning() -> Iterator[Row]:
     start = mp.radians(70)
     end = mp.asin(2 * mp.sin(start) / 3)
     pace = lambda z: 2 * z / mp.sqrt(3 * G * mp.cos(start - z * z / 2) * mp.sin(z * z / 2))  # θ = θ₀ − z²
-    late = abs(leaves["t"] - mp.quad(pace, [0, mp.sqrt(start - end)]))
+    late = abs(leaves.t - mp.quad(pace, [0, mp.sqrt(start - end)]))
     yield Row("leaning ladder: instant at which it leaves the wall [s]", float(late), 1e-9)
-    angle = math.asin(run.evaluate("y(ladder.end)", leaves["t"]) / 2)
+    angle = math.asin(run.evaluate("y(ladder.end)", leaves.t) / 2)
     yield Row("leaning ladder: angle at which it leaves the wall [rad]", abs(angle - float(end)), 1e-9)
 
 
@@ -230,11 +231,12 @@ def rocking() -> Iterator[Row]:
     """Housner 1963: an impact leaves 1 − ³⁄₂ sin² α of the speed; θ̇² = 3g/(2R) (cos(α − θ₀) − cos(α − θ))."""
     run, alpha, start = simulate("rocking.yaml"), mp.atan(0.25), mp.mpf(0.12)
     impacts = switched(run, "impact")
-    kept = np.array([impact["after"]["u"][2] / impact["before"]["u"][2] for impact in impacts])
+    spins = [[list(snapshot.u.values())[2] for snapshot in (impact.before, impact.after)] for impact in impacts]
+    kept = np.array([after / before for before, after in spins])
     yield Row("rocking block: speed kept at an impact", np.abs(kept - float(1 - 1.5 * mp.sin(alpha) ** 2)).max(), 1e-12)
     pace = lambda z: 2 * z / mp.sqrt(3 * G / mp.sqrt(4.25) * mp.sin(alpha - start + z * z / 2) * mp.sin(z * z / 2))
     quarter = mp.quad(pace, [0, mp.sqrt(start)])
-    yield Row("rocking block: first quarter of its period [s]", abs(float(impacts[0]["t"] - quarter)), 1e-9)
+    yield Row("rocking block: first quarter of its period [s]", abs(float(impacts[0].t - quarter)), 1e-9)
     yield Row("rocking block: speed at the end", np.abs(run.u[-1]).max(), 0)
     yield Row("rocking block: energy ledger over kinetic energy", open_ledger(run), 1e-9)
 
@@ -245,8 +247,8 @@ def leash() -> Iterator[Row]:
     (taut,) = switched(run, "taut")
     t = (-1 + math.sqrt(1 + 0.75 * 4.09)) / 4.09
     jump = 2 * (0.5 + 2 * t) + 0.3 * 0.3 * t
-    yield Row("leash: instant at which it goes taut [s]", abs(taut["t"] - t), 1e-12)
-    yield Row("leash: energy lost then [J]", abs(taut["lost"] - 0.75 / 2 * jump**2), 1e-12)
+    yield Row("leash: instant at which it goes taut [s]", abs(taut.t - t), 1e-12)
+    yield Row("leash: energy lost then [J]", abs(taut.lost - 0.75 / 2 * jump**2), 1e-12)
     momentum = np.array([run["momentum_x()"] - 6, run["momentum_y()"] - 0.3])
     yield Row("leash: momentum [kg m/s]", np.abs(momentum).max(), 1e-9)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 GRAVITY = 9.81
 READINGS = {"x": "Fx", "y": "Fy", "normal force": "Fn", "couple": "M", None: "force"}
-FACTS = {"stem": "F", "pulls": False, "tangent": False, "flank": False}
+FACTS = {"stem": "F", "pulls": False, "presses": False, "tangent": False, "flank": False}
 
 
 def left(v):

