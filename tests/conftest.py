@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import datetime
 from collections import Counter, defaultdict
 
 import pytest
 from store import sample
 
+SEED = 739_942
+"""Any number would do; it is fixed, so that what passes on one day passes on the next. ``--sample`` takes another."""
 SEEN = pytest.StashKey[dict]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    today = datetime.datetime.now(datetime.timezone.utc).toordinal()
     parser.addoption("--all", action="store_true", help="visit every member of every family, and run what takes long")
-    parser.addoption("--sample", type=int, default=today, help="seed of the sample of families; by default the day's number")
+    parser.addoption("--sample", type=int, default=SEED, help="seed of the sample of families")
 
 
 def pytest_configure(config: pytest.Config) -> None:
