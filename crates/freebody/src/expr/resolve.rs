@@ -1,6 +1,7 @@
 //! From syntax tree to expression.
 
 use super::function::Function;
+use super::tree::Op;
 use super::{nearest, Ast, Condition, Expr, ExprError, Kind, Message, Operator};
 
 /// Most operations in a resolved expression, named ones that it takes in included.
@@ -77,7 +78,8 @@ fn error_at<T>(ast: &Ast, what: impl Into<String>, hint: impl Into<String>) -> R
 }
 
 fn check<L>(expr: Expr<L>, ast: &Ast) -> Resolved<Expr<L>> {
-    if expr.literal().is_some_and(|value| !value.is_finite()) {
+    // Within as well: the rate of what is finite can overflow to a constant.
+    if expr.ops.iter().any(|op| matches!(op, Op::Constant(value) if !value.is_finite())) {
         return error_at(ast, "this number is undefined or infinite", "look for a division by 0 or a negative root");
     }
     if expr.ops.len() > MAX_OPERATIONS {

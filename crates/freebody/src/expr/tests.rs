@@ -144,8 +144,6 @@ proptest! {
     #[test]
     fn printing_keeps_the_value(text in texts(), x in -2.0..2.0f64) {
         let Ok(expr) = resolve(&text) else { return Ok(()) };
-        // The rate of what is finite can overflow to a constant; such a constant is refused in a text.
-        prop_assume!(!["inf", "NaN"].iter().any(|constant| print(&expr).contains(constant)));
         let again = resolve(&print(&expr)).unwrap();
         let at = free([x, -1.3, 2.1]);
         let (a, b) = (expr.eval(&at), again.eval(&at));
