@@ -146,5 +146,6 @@ def test_words_and_symbols():
     assert plain("arm.theta2") == "arm.θ2"
     assert symbol("phi1", "ddot") == r"\ddot{\phi}_{1}" and symbol("rod.x") == r"x_{\mathrm{rod}}"
     assert symbol("a$b^c").count("$") == 0
-    units = ["speed(rod.B)", "'main bearing'.Fx", "t", "2*theta", "kinetic()"]
-    assert [unit_of(text) for text in units] == ["m/s", "N", "s", "", "J"]
+    units = ["speed(rod.B)", "t", "2*theta", "kinetic()"]
+    about = dict.fromkeys(("joints", "forces", "motions", "locks", "limits"), ())
+    assert [unit_of(text, (), about) for text in units] == ["m/s", "s", "", "J"]

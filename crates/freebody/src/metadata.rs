@@ -1,19 +1,30 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
 use crate::bound_values::BoundValues;
+use crate::builder::readings::{units, units_of_force, units_of_joint, ACTING, FUNCTIONS, LIMIT, MOTION};
+use crate::compile::coupling_card;
 use crate::dynamics::{Count, Source};
-use crate::joints::{Joint as _, Kind};
-use crate::mechanism::{Drive, DriveKind, FrictionSource, Joint, Level, Mechanism, Part};
+use crate::joints::{Card, Joint as _, Kind};
+use crate::mechanism::{Drive, DriveKind, FrictionSource, Gap, Group, Joint, Level, Mechanism, Part};
 use crate::mode::Mode;
 use serde_json::{json, Map, Value};
 
-/// The cards of all joints, forces and shapes.
+/// What the language has: the cards of joints, forces and shapes, and what can be read of a mechanism.
 pub fn cards() -> Value {
-    let joints: Vec<_> = Kind::ALL.iter().map(|k| k.card()).chain([crate::compile::coupling_card()]).collect();
-    let forces: Vec<_> = crate::forces::ALL.iter().map(|f| f.card()).collect();
-    let shapes: Vec<_> =
-        crate::shapes::SHAPES.iter().map(|(word, _, sizes)| json!({"type": word, "sizes": sizes})).collect();
-    json!({"joints": joints, "forces": forces, "shapes": shapes})
+    let joint = |card: Card| {
+        let readings = if card.word == coupling_card().word { units(MOTION, None) } else { units_of_joint(&card) };
+        json!({"card": card, "readings": readings})
+    };
+    let force = |card: Card| json!({"readings": units_of_force(&card), "card": card});
+    let shapes = crate::shapes::SHAPES.iter().map(|(word, _, sizes)| json!({"type": word, "sizes": sizes}));
+    let limit = |unit| units(LIMIT, unit);
+    json!({
+        "joints": Kind::ALL.iter().map(|k| k.card()).chain([coupling_card()]).map(joint).collect::<Vec<_>>(),
+        "forces": crate::forces::ALL.iter().map(|f| force(f.card())).collect::<Vec<_>>(),
+        "shapes": shapes.collect::<Vec<_>>(),
+        "functions": FUNCTIONS,
+        "readings": {"motion": units(MOTION, None), "contact": limit(Some("m")), "string": limit(Some("m")), "stop": limit(None)},
+    })
 }
 
 /// Bodies, parameters, coordinates, joints, forces, motions, events and notes.
@@ -29,8 +40,7 @@ pub fn metadata(m: &Mechanism) -> Value {
         "forces": (0..m.forces.len()).map(|f| force(m, &start, f)).collect::<Vec<_>>(),
         "motions": motions(m, &start),
         "locks": locks(m),
-        "limits": m.groups.iter().map(|g| json!({"name": g.name, "type": g.word, "engaged": g.engaged,
-            "first": m.bodies[g.ends[0]].name, "second": m.bodies[g.ends[1]].name})).collect::<Vec<_>>(),
+        "limits": m.groups.iter().map(|g| limit(m, g)).collect::<Vec<_>>(),
         "events": m.events.iter().map(|e| &e.name).collect::<Vec<_>>(),
         "freedom": count(m, &start),
         "notes": notes(m, &numbers),
@@ -111,14 +121,27 @@ fn joint(m: &Mechanism, start: &Mode, index: usize) -> Value {
         "engaged": start.has(m.part_of(index)),
         "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
         "reaction": j.rows.iter().map(|&r| card.rows[r].load.name).collect::<Vec<_>>(), "couple": j.couple,
+        "readings": units_of_joint(&card),
+    })
+}
+
+fn limit(m: &Mechanism, g: &Group) -> Value {
+    let unit = match &m.unilateral[g.constraints.start].gap {
+        Gap::Gauge(law) => m.gauge_unit(law),
+        Gap::ContactPair(_) | Gap::Cable(_) => Some("m"),
+    };
+    json!({
+        "name": g.name, "type": g.word, "engaged": g.engaged, "first": m.bodies[g.ends[0]].name,
+        "second": m.bodies[g.ends[1]].name, "dimension": unit.unwrap_or(""), "readings": units(LIMIT, unit),
     })
 }
 
 fn force(m: &Mechanism, start: &Mode, index: usize) -> Value {
     let f = &m.forces[index];
+    let gauge = f.gauge_forces.first().map_or(Some("m"), |pull| m.gauge_unit(&pull.gauge));
     json!({
         "name": f.name, "type": f.word, "conservative": f.is_conservative(), "cases": f.has_cases(),
-        "engaged": start.has(Part::Force(index)),
+        "engaged": start.has(Part::Force(index)), "readings": units(ACTING, gauge),
     })
 }
 
@@ -130,8 +153,11 @@ fn motions(m: &Mechanism, start: &Mode) -> Vec<Value> {
     };
     let motions = m.drives.iter().enumerate().filter(|(_, d)| d.is_motion());
     let entry = |(i, d): (usize, &Drive)| {
-        let engaged = start.has(Part::Drive(i));
-        json!({"name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none(), "engaged": engaged})
+        let readings = units(MOTION, m.gauge_unit(d.by.as_ref().unwrap_or(&d.of)));
+        json!({
+            "name": d.name, "level": level(d.level), "ideal": !d.feedback && d.by.is_none(),
+            "engaged": start.has(Part::Drive(i)), "readings": readings,
+        })
     };
     motions.map(entry).collect()
 }
@@ -141,7 +167,8 @@ fn locks(m: &Mechanism) -> Vec<Value> {
     let entry = |d: &Drive| {
         let bodies = m.bodies_of(&d.of);
         let body = |i: usize| &m.bodies[bodies.get(i).copied().unwrap_or(0)].name;
-        json!({"name": d.name, "first": body(1), "second": body(0), "turns": m.turns(&d.of)})
+        let readings = units(MOTION, m.gauge_unit(&d.of));
+        json!({"name": d.name, "first": body(1), "second": body(0), "turns": m.turns(&d.of), "readings": readings})
     };
     m.drives.iter().filter(|d| d.kind == DriveKind::Lock).map(entry).collect()
 }

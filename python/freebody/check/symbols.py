@@ -8,7 +8,8 @@ from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
-from freebody.model import meanings, syntax
+from freebody.core import cards
+from freebody.model import meanings
 from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
@@ -35,7 +36,7 @@ _PARTS: dict[str, tuple[str, ...]] = {
     "string": ("tension",),
     "stop": ("N",),
 }
-_FUNCTIONS = sorted(syntax.READINGS | {"rate", "accel"})
+_FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _SHORT = {"Fx": "x", "Fy": "y"}
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
@@ -245,9 +246,8 @@ class Letters:
         if joint is None or not joint["reaction"]:
             return []
         has_friction = any(j["name"] == name and j["with"].get("friction") for j in self.spec["joints"])
-        numbered = [f"F{i + 1}" for i in range(min(len(joint["reaction"]), 2))]
-        extra = {"M": joint["couple"], "tension": joint["type"] == "link", "friction": has_friction}
-        return ["Fx", "Fy", "F", "Fs", "Fn", *numbered, *(part for part, there in extra.items() if there)]
+        there = {"M": joint["couple"], "friction": has_friction}
+        return [part for part in joint["readings"] if there.get(part, True)]
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
         bodies = [b["name"] for b in self.about["bodies"]]

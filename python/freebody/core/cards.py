@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -65,7 +66,8 @@ class LoadCard:
 class Card:
     """A joint or a force as a person writes it. ``rows`` are the loads by which a joint holds, ``parts`` those of a force;
     ``has_friction`` tells whether a joint can have friction along its first coordinate; ``glyph`` and ``outline`` how it is drawn, by a
-    glyph of the set or by strokes at both its points, in sizes of symbols."""
+    glyph of the set or by strokes at both its points, in sizes of symbols; ``readings`` what an expression reads of it, with the
+    unit, None where that depends on the model."""
 
     type: str
     doc: str
@@ -74,6 +76,7 @@ class Card:
     rows: tuple[LoadCard, ...] = ()
     parts: tuple[LoadCard, ...] = ()
     has_friction: bool = False
+    readings: Mapping[str, str | None] = field(default_factory=dict)
     glyph: str = ""
     outline: tuple[tuple[tuple[float, float], ...], ...] = ()
 
@@ -102,6 +105,30 @@ class Card:
         return next((field.kind for field in self.fields if field.role in ("second", "both")), "")
 
 
+@dataclass(frozen=True)
+class Function:
+    """A function that reads the mechanism: what its arguments name (point, line, body or string), whether they may be left out,
+    the SI unit of its value."""
+
+    word: str
+    takes: tuple[str, ...]
+    optional: bool
+    unit: str
+    doc: str
+
+
+@cache
+def functions() -> dict[str, Function]:
+    """The functions that read the mechanism, by their words."""
+    return {each["word"]: Function(**(each | {"takes": tuple(each["takes"])})) for each in _declared()["functions"]}
+
+
+@cache
+def readings() -> dict[str, dict[str, str | None]]:
+    """What an expression reads of a motion, contact, string and stop, with the unit, None where that depends on the model."""
+    return _declared()["readings"]
+
+
 @cache
 def joints() -> dict[str, Card]:
     """The joints by their words, in the order of the core."""
@@ -115,14 +142,21 @@ def forces() -> dict[str, Card]:
 
 
 def _section(name: str) -> dict[str, Card]:
-    return {card["type"]: _card(card) for card in _core.cards()[name]}
+    return {each["card"]["type"]: _card(each["card"], each["readings"]) for each in _declared()[name]}
 
 
-def _card(data: dict[str, Any]) -> Card:
+@cache
+def _declared() -> dict[str, Any]:
+    return _core.cards()
+
+
+def _card(data: dict[str, Any], readings: dict[str, str | None]) -> Card:
     coordinates = (Coordinate(c["name"], c["dimension"] or "", c["turn"], c["line"], c["across"]) for c in data["coordinates"])
     rows, parts = (tuple(LoadCard(**load) for load in data[word]) for word in ("rows", "parts"))
     fields, outline = tuple(map(_field, data["fields"])), tuple(tuple(map(tuple, stroke)) for stroke in data["outline"])
-    return Card(data["type"], data["doc"], fields, tuple(coordinates), rows, parts, data["has_friction"], data["glyph"], outline)
+    return Card(
+        data["type"], data["doc"], fields, tuple(coordinates), rows, parts, data["has_friction"], readings, data["glyph"], outline
+    )
 
 
 def _field(data: dict[str, Any]) -> Field:

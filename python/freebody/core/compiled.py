@@ -10,7 +10,6 @@ from typing import Any
 from freebody import _core
 
 from .free_bodies import FreeBodies
-from .limits import dimensions
 from .motion import Trajectory
 from .solution import Solution, SymbolicAnswers
 from .state import Array, State
@@ -56,7 +55,7 @@ class CompiledModel:
     @cached_property
     def about(self) -> dict[str, Any]:
         """What the core says of the mechanism: bodies, coordinates, joints and so on."""
-        return dimensions(self.mechanism.describe(), self.spec)
+        return self.mechanism.describe()
 
     @property
     def name(self) -> str:

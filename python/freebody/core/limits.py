@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -58,17 +57,3 @@ def limits_of(stated: Sequence[Mapping[str, Any]], about: Mapping[str, Any]) -> 
             now["at"] and tuple(now["at"]),
         )
     return found
-
-
-def dimensions(about: dict[str, Any], spec: Mapping[str, Any]) -> dict[str, Any]:
-    """The core's words on a mechanism, where every limit knows whether its gap is in m or rad; empty: not known."""
-    units = {c["name"]: c["dimension"] for c in about["coordinates"] + about["closure_coordinates"]}
-    gaps = {stop["name"]: stop["gap"] for stop in spec.get("stops", [])}
-    for limit in about["limits"]:
-        named = {
-            unit
-            for name, unit in units.items()
-            if re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.(])", gaps.get(limit["name"], ""))
-        }
-        limit["dimension"] = "m" if limit["type"] != "stop" else named.pop() if len(named) == 1 else ""
-    return about

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from freebody.core import cards
@@ -22,12 +22,13 @@ EVERY_BODY = ("origin", "G")
 class Meanings:
     """All names. ``values`` holds parameters, coordinates and gauges with their kind and dimension (None: not known).
 
-    ``owners`` are joints, forces, motions, contacts, strings and stops, whose answers are read as ``name.Fx``; ``several``
+    ``owners`` are joints, forces, motions, contacts, strings and stops, whose ``readings`` are read as ``name.Fx``; ``several``
     holds those that are more than one item for the core. ``alias`` leads from points that only rename another to that one.
     """
 
     values: dict[str, tuple[str, Dimension | None]] = field(default_factory=dict)
     owners: dict[str, str] = field(default_factory=dict)
+    readings: dict[str, Mapping[str, str | None]] = field(default_factory=dict)
     several: dict[str, list[str]] = field(default_factory=dict)
     bodies: set[str] = field(default_factory=lambda: {"ground"})
     points: set[str] = field(default_factory=lambda: {"ground.O", "ground.origin"})
@@ -45,7 +46,8 @@ class Meanings:
             return None  # laws like `2 + t` mean 2 + t/s
         owner = name.rpartition(".")[0]
         if owner in self.owners:
-            return syntax.part(name)
+            found = self.readings[owner].get(name.rpartition(".")[2])
+            return None if found is None else unit(found).dimension
         raise self.unknown(name, scope)
 
     def unknown(self, name: str, scope: Scope) -> ModelProblem:
@@ -110,15 +112,15 @@ class _Declaring:
             self.body(name, body)
         self.marks("ground", m.ground, ("ground",))
         for name, joint in m.joints.items():
-            self.owner(name, "joint", ("joints", name))
+            self.owner(name, "joint", ("joints", name), cards.joints()[joint.type].readings)
             for coordinate, card in coordinate_names(name, joint):
                 path: Path = ("joints", name, "coordinates" if "coordinates" in joint.model_fields_set else "coordinate")
                 self.value(coordinate, path, "coordinate", unit(card.unit).dimension if card.unit else None)
             self.ends(name, joint)
         for name in m.gauges:
             self.value(name, ("gauges", name), "gauge", None)
-        for name in m.forces:
-            self.owner(name, "force", ("forces", name))
+        for name, force in m.forces.items():
+            self.owner(name, "force", ("forces", name), cards.forces()[force.type].readings)
         for name in m.motions:
             self.owner(name, "motion", ("motions", name))
         for name in m.contacts:
@@ -136,7 +138,7 @@ class _Declaring:
             self.check(name, ("events", name))
             found.events.add(full(name))
             for weld, _, _ in event.welds(name):
-                self.owner(weld, "joint", ("events", name))
+                self.owner(weld, "joint", ("events", name), cards.joints()["weld"].readings)
 
     def ends(self, name: str, joint: elements.Element) -> None:
         """What the ends of a guide and the one side of a joint come to."""
@@ -158,6 +160,7 @@ class _Declaring:
         full = self.full(name)
         self.found.several[full] = [f"{full}.{side}" for side in sides]
         self.found.owners |= dict.fromkeys(self.found.several[full], "stop")
+        self.found.readings |= dict.fromkeys(self.found.several[full], cards.readings()["stop"])
 
     def full(self, name: str) -> str:
         return self.scope.prefix + name
@@ -180,12 +183,13 @@ class _Declaring:
             )
         self.found.values.setdefault(self.full(name), (kind, dimension))
 
-    def owner(self, name: str, kind: str, path: Path) -> None:
+    def owner(self, name: str, kind: str, path: Path, readings: Mapping[str, str | None] | None = None) -> None:
         self.check(name, path)
         known = self.found.owners.get(self.full(name))
         if known is not None:
             self.scope.complain(path, f"the {kind} `{name}` has the name of a {known}", "give one of them another name", True)
         self.found.owners[self.full(name)] = kind
+        self.found.readings[self.full(name)] = cards.readings()[kind] if readings is None else readings
 
     def body(self, name: str, body: Body) -> None:
         self.check(name, ("bodies", name))

@@ -11,14 +11,14 @@ from functools import lru_cache
 from typing import Any
 
 from freebody import core
-from freebody.core import ExpressionError
+from freebody.core import ExpressionError, cards
 from freebody.symbolic.evaluate import value as value_of
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Span, Sym, walk
 
 from . import units
 from .errors import ModelProblem
 from .names import suggestion
-from .units import ANGLE, ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
+from .units import ANGLE, NUMBER_ONLY, TIME, Dimension
 
 Lookup = Callable[[str], "Dimension | None"]
 
@@ -100,33 +100,10 @@ def names(tree: Node) -> list[str]:
 # Functions of plain numbers, and functions whose arguments are all alike.
 _PLAIN_FUNCTIONS = {"exp", "ln", "sinh", "cosh", "tanh", "sin", "cos", "tan", "asin", "acos", "atan"}
 _ALIKE = {"min", "max", "hypot", "clamp", "abs"}
-_READINGS = {
-    "m": "x y distance along across centre_x centre_y",
-    "rad": "angle direction",
-    "m/s": "vx vy speed",
-    "rad/s": "omega",
-    "m/s^2": "ax ay",
-    "rad/s^2": "alpha",
-    "J": "kinetic potential energy friction_work",
-    "N": "tension",
-    "N*s": "momentum_x momentum_y",
-    "N*m*s": "angular_momentum",
-}
-_READS = {word: unit for unit, words in _READINGS.items() for word in words.split()}
-READINGS = frozenset(_READS)
-"""Functions that read places, motions and sums of the whole."""
-_PARTS = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "Fs": FORCE, "Fn": FORCE, "F1": FORCE, "F2": None, "tension": FORCE, "M": ENERGY}
-_PARTS |= {"N": FORCE, "T": FORCE, "gap": LENGTH, "slack": LENGTH, "slip": LENGTH.times(TIME, -1)}
-_PARTS |= {"power": ENERGY.times(TIME, -1), "work": ENERGY}
-FUNCTIONS = _PLAIN_FUNCTIONS | _ALIKE | set(_READS) | {"sqrt", "atan2", "sign", "step", "if", "rate", "accel"}
+FUNCTIONS = _PLAIN_FUNCTIONS | _ALIKE | set(cards.functions()) | {"sqrt", "atan2", "sign", "step", "if", "rate", "accel"}
 """All functions of the language; tables come on top."""
 COMPARISONS = {"<", "<=", ">", ">=", "==", "!="}
 CONSTANTS = {"pi", "t"}
-
-
-def part(name: str) -> Dimension | None:
-    """The dimension of ``joint.Fx``, ``force.power`` …; None when it is not known from the last word."""
-    return _PARTS.get(name.rpartition(".")[2])
 
 
 class Measure:
@@ -182,8 +159,8 @@ class Measure:
         return None if base is None else base.to_the(power)
 
     def _call(self, name: str, arguments: list[Node]) -> Dimension | None:
-        if name in _READS:
-            return units.unit(_READS[name]).dimension
+        if name in cards.functions():
+            return units.unit(cards.functions()[name].unit).dimension
         if self.tables(name):
             return [self.of(a) for a in arguments] and None
         if name not in FUNCTIONS:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from freebody.core import cards
 from freebody.symbolic.tree import Fn, Node, Sym, walk
 
 from . import syntax, units
@@ -18,11 +19,6 @@ from .units import Dimension
 from .values import Circle, Through
 
 Unit = str | Dimension | None
-# What the functions of places and strings take: a point, a line, a body or a string each; ? where it may be left out.
-_ARGUMENTS = {"along": "pl", "across": "pl", "distance": "pp", "direction": "pp", "kinetic": "b?", "angular_momentum": "p"}
-_ARGUMENTS |= dict.fromkeys(("x", "y", "vx", "vy", "speed", "ax", "ay"), "p") | dict.fromkeys(("angle", "omega", "alpha"), "b")
-_ARGUMENTS |= {"tension": "s"}
-_KINDS = {"p": "point", "l": "line", "b": "body", "s": "string"}
 
 
 class Writer:
@@ -137,21 +133,19 @@ class Writer:
 
     def _check_arguments(self, tree: Node) -> None:
         for call in walk(tree):
-            if isinstance(call, Fn) and call.name in _ARGUMENTS and call.name not in self.meanings.tables:
+            if isinstance(call, Fn) and call.name in cards.functions() and call.name not in self.meanings.tables:
                 self._check_call(call.name, call.args)
 
     def _check_call(self, name: str, arguments: Sequence[Node]) -> None:
-        wanted = _ARGUMENTS[name]
-        kinds = wanted.rstrip("?")
-        if len(arguments) != len(kinds) and not (wanted.endswith("?") and not arguments):
-            shown = ", ".join(_KINDS[k] for k in kinds)
-            raise ModelProblem(
-                f"`{name}` takes {len(kinds)} argument{'s'[: len(kinds) > 1]}, not {len(arguments)}", f"write `{name}({shown})`"
-            )
+        function = cards.functions()[name]
+        kinds = function.takes
+        if len(arguments) != len(kinds) and not (function.optional and not arguments):
+            count = f"{len(kinds) or 'no'} argument{'s'[: len(kinds) != 1]}"
+            raise ModelProblem(f"`{name}` takes {count}, not {len(arguments)}", f"write `{name}({', '.join(kinds)})`")
         for kind, argument in zip(kinds, arguments, strict=False):
             if not isinstance(argument, Sym):
-                raise ModelProblem(f"`{name}` reads a {_KINDS[kind]}, not a number", "write its name")
-            self._known(argument.name, _KINDS[kind])
+                raise ModelProblem(f"`{name}` reads a {kind}, not a number", "write its name")
+            self._known(argument.name, kind)
 
     def _in_full(self, text: str) -> str:
         return replace_names(text, self._full_token)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import Array
+from freebody.core import Array, cards
 from freebody.symbolic.symbols import GREEK
 
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
@@ -24,21 +24,6 @@ ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
-_CALLS_BY_UNIT = {
-    "m": "x y distance along across centre_x centre_y",
-    "m/s": "speed vx vy",
-    "m/s^2": "ax ay",
-    "rad": "angle direction",
-    "rad/s": "omega",
-    "rad/s^2": "alpha",
-    "J": "kinetic potential energy friction_work",
-    "N": "tension",
-    "N*s": "momentum_x momentum_y",
-    "N*m*s": "angular_momentum",
-}
-_UNIT_OF_CALL = {call: unit for unit, calls in _CALLS_BY_UNIT.items() for call in calls.split()}
-_UNIT_OF_PART = {"Fx": "N", "Fy": "N", "F": "N", "Fs": "N", "Fn": "N", "tension": "N", "M": "N*m", "power": "W", "work": "J",
-                 "N": "N", "T": "N", "gap": "m", "slip": "m/s"}  # fmt: skip
 
 
 def quote(name: str) -> str:
@@ -316,8 +301,8 @@ def _energy_column(name: str) -> Column:
     return Column(text, sign, "J", "energy")
 
 
-def unit_of(text: str, columns: Sequence[Column] = ()) -> str:
-    """The SI unit of a simple expression (a column, one call, one reaction); empty where it takes more to tell."""
+def unit_of(text: str, columns: Sequence[Column], about: Mapping[str, Any]) -> str:
+    """The SI unit of a simple expression (a column, one call, one reading of a part); empty where it takes more to tell."""
     text = text.strip()
     for column in columns:
         if column.name == text:
@@ -325,7 +310,8 @@ def unit_of(text: str, columns: Sequence[Column] = ()) -> str:
     if text == "t":
         return "s"
     if call := re.fullmatch(r"(\w+)\([^()]*\)", text):
-        return _UNIT_OF_CALL.get(call[1], "")
-    if part := re.fullmatch(r"(?:'[^']*'|[\w.\[\]]+)\.(\w+)", text):
-        return _UNIT_OF_PART.get(part[1], "")
-    return ""
+        function = cards.functions().get(call[1])
+        return function.unit if function else ""
+    owner, dot, word = text.rpartition(".")
+    parts = (part for section in ("joints", "forces", "motions", "locks", "limits") for part in about[section] if dot)
+    return next((part["readings"].get(word) or "" for part in parts if quote(part["name"]) == owner), "")

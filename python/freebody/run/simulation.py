@@ -203,9 +203,13 @@ class Run:
         """The quantities that the model asks for, by label."""
         return {item.label: self.reported(item) for item in self.source.report}
 
+    def unit_of(self, text: str) -> str:
+        """The SI unit of a simple expression; empty where it takes more to tell."""
+        return unit_of(text, self.columns, self.about)
+
     def reported(self, item: ReportItem) -> Reported:
         """One such quantity."""
-        si = unit_of(item.value, self.columns)
+        si = self.unit_of(item.value)
         if item.how != "at":
             when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
             return Reported.of(item, value, when, f"{si}*s" if si and item.how == "integral" else si)

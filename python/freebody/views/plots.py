@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from freebody.run.records import Array, quote, unit_of
+from freebody.run.records import Array, quote
 from freebody.views.style import DASHES, GROUND, IMPACT, axes, colour, quiet
 
 if TYPE_CHECKING:
@@ -41,15 +41,15 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
     ax = axes(ax)
     run, breaks = broken(run)
     shown = list(names) or run.coordinates
-    units = list(dict.fromkeys(unit_of(name, run.columns) for name in shown))
+    units = list(dict.fromkeys(run.unit_of(name) for name in shown))
     if len(units) > 2:
         raise ValueError(f"{len(units)} units do not fit on one plot: {', '.join(unit or 'none' for unit in units)}")
     sides = [ax, *([_right_axis(ax)] if len(units) == 2 else [])]
     for i, name in enumerate(shown):
-        k = units.index(unit_of(name, run.columns))
+        k = units.index(run.unit_of(name))
         sides[k].plot(breaks(run.t), breaks(run[name], np.nan), color=colour(i), ls=DASHES[k], label=label(run, name))
     for side, unit in zip(sides, units, strict=True):
-        own = [name for name in shown if unit_of(name, run.columns) == unit]
+        own = [name for name in shown if run.unit_of(name) == unit]
         side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else quantity(unit), unit))
     _mark_events(run, ax)
     ax.set(xlabel="t  [s]", xlim=(run.t[0], run.t[-1]))
@@ -73,7 +73,7 @@ def _against(run: Run, x: str, y: str, ax: Axes | None) -> Axes:
     ax = axes(ax, (5.2, 4.4))
     ax.plot(run[x], run[y], color=colour(0))
     _ends(ax, run[x], run[y])
-    ax.set(xlabel=with_unit(label(run, x), unit_of(x, run.columns)), ylabel=with_unit(label(run, y), unit_of(y, run.columns)))
+    ax.set(xlabel=with_unit(label(run, x), run.unit_of(x)), ylabel=with_unit(label(run, y), run.unit_of(y)))
     _legend(ax)
     return ax
 
@@ -86,7 +86,7 @@ def polar(run: Run, angle: str, radius: str, ax: Axes | None = None) -> Axes:
         figure.clear()
         ax = figure.add_subplot(projection="polar")
     ax.plot(run[angle], run[radius], color=colour(0))
-    ax.set_title(f"{with_unit(label(run, radius), unit_of(radius, run.columns))} over {label(run, angle)}", pad=18)
+    ax.set_title(f"{with_unit(label(run, radius), run.unit_of(radius))} over {label(run, angle)}", pad=18)
     return ax
 
 
@@ -205,7 +205,7 @@ def overlay(a: Run, b: Run, names: Sequence[str], ax: Axes | None = None) -> Axe
     for i, name in enumerate(names):
         ax.plot(breaks(a.t), breaks(a[name], np.nan), color=colour(i), label=f"{label(a, name)}, first")
         ax.plot(others(b.t), others(b[name], np.nan), color=colour(i), ls="--", label="second")
-    units = list(dict.fromkeys(unit_of(name, a.columns) for name in names))
+    units = list(dict.fromkeys(a.unit_of(name) for name in names))
     ax.set(xlabel="t  [s]", ylabel=with_unit(label(a, names[0]) if len(names) == 1 else "", ", ".join(units)))
     _legend(ax)
     return ax

@@ -3,6 +3,7 @@
 mod fields;
 mod names;
 mod places;
+pub mod readings;
 
 pub use fields::Fields;
 pub use names::{chosen, distance, unknown, Names, Reach, Scope};

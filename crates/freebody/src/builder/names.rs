@@ -1,8 +1,9 @@
 //! What the names in a model mean.
 
+use super::readings::{of_joint, ACTING, FUNCTIONS, LIMIT, MOTION};
 use crate::error::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
-use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Joint as _, Kind};
 use crate::mechanism::Marker;
 use std::collections::HashMap;
@@ -68,36 +69,6 @@ pub fn distance(p: usize, q: usize) -> ModelExpr {
     (dx.powi(2) + dy.powi(2)).sqrt()
 }
 
-const READINGS: &[(&str, usize)] = &[
-    ("kinetic", 0),
-    ("potential", 0),
-    ("energy", 0),
-    ("momentum_x", 0),
-    ("momentum_y", 0),
-    ("angular_momentum", 1),
-    ("centre_x", 0),
-    ("centre_y", 0),
-    ("friction_work", 0),
-];
-
-/// Functions of places and bodies: name, what may read them.
-const MEASURES: &[(&str, Reach)] = &[
-    ("x", Reach::Configuration),
-    ("y", Reach::Configuration),
-    ("angle", Reach::Configuration),
-    ("distance", Reach::Configuration),
-    ("direction", Reach::Configuration),
-    ("along", Reach::Configuration),
-    ("across", Reach::Configuration),
-    ("vx", Reach::Motion),
-    ("vy", Reach::Motion),
-    ("speed", Reach::Motion),
-    ("omega", Reach::Motion),
-    ("ax", Reach::Instant),
-    ("ay", Reach::Instant),
-    ("alpha", Reach::Instant),
-];
-
 impl Scope<'_> {
     /// Parses and resolves a number-valued expression.
     pub fn law(&mut self, text: &str) -> Result<ModelExpr, ExprError> {
@@ -147,47 +118,21 @@ impl Scope<'_> {
     fn reading(&self, name: &str) -> Option<Result<ModelExpr, Message>> {
         let (owner, part) = name.rsplit_once('.')?;
         let n = self.names;
-        let reading = if let (Some(&(joint, _)), "friction") = (n.joints.get(owner), part) {
-            Reading::JointFriction(joint)
-        } else if let Some(&(joint, kind)) = n.joints.get(owner) {
-            let axis =
-                match (part, kind) {
-                    ("Fx", _) => Axis::X,
-                    ("Fy", _) => Axis::Y,
-                    ("M", _) => Axis::Couple,
-                    ("F", _) => Axis::Size,
-                    ("Fs", _) => Axis::Along,
-                    ("Fn", _) => Axis::Across,
-                    ("tension", Kind::Link) => Axis::Tension,
-                    ("F1" | "F2", _) if kind.card().rows.len() >= row_number(part) => Axis::Row(row_number(part) - 1),
-                    _ => return Some(Err(parts(
-                        owner,
-                        "Fx, Fy, M, F, Fs, Fn, friction, for each of its constraints F1, F2 (and tension for a link)",
-                    ))),
-                };
-            Reading::Reaction(joint, axis)
+        let (number, answers) = if let Some(&(joint, kind)) = n.joints.get(owner) {
+            (joint, of_joint(&kind.card()).into_iter().map(|(answer, _)| answer).collect())
         } else if let Some(&drive) = n.drives.get(owner) {
-            match part {
-                "force" | "F" => Reading::Drive(drive),
-                "power" => Reading::DrivePower(drive),
-                "work" => Reading::DriveWork(drive),
-                _ => return Some(Err(parts(owner, "force, power and work"))),
-            }
+            (drive, MOTION.to_vec())
         } else if let Some(&force) = n.forces.get(owner) {
-            match part {
-                "value" => Reading::Force(force),
-                "power" => Reading::ForcePower(force),
-                "work" => Reading::ForceWork(force),
-                _ => return Some(Err(parts(owner, "value, power and work"))),
-            }
-        } else if let Some(&group) = n.groups.get(owner) {
-            match bound(part) {
-                Some(bound) => Reading::Contact(group, bound),
-                None => return Some(Err(parts(owner, "gap, F, N, T, Fx, Fy, x, y, slip (and tension for a string)"))),
-            }
+            (force, ACTING.to_vec())
         } else {
-            return None;
+            (*n.groups.get(owner)?, LIMIT.to_vec())
         };
+        let Some(answer) = answers.iter().find(|answer| answer.word == part) else {
+            let known: Vec<_> = answers.iter().map(|answer| answer.word).collect();
+            let hint = format!("it has {}", known.join(", "));
+            return Some(Err(Message::new(format!("`{owner}` has no such part"), hint)));
+        };
+        let reading = (answer.read)(number);
         if self.reach < Reach::Instant {
             return Some(Err(Message::new(
                 format!("`{name}` is an answer; it cannot be read here"),
@@ -197,14 +142,14 @@ impl Scope<'_> {
         Some(Ok(ModelExpr::variable(ModelVariable::Reading(reading))))
     }
 
-    fn place(&self, argument: &Ast) -> Result<usize, ExprError> {
+    pub(super) fn place(&self, argument: &Ast) -> Result<usize, ExprError> {
         match &argument.kind {
             AstKind::Name(name) => self.site(name).map_err(|m| m.at(&argument.span)),
             _ => Err(Message::new("a point is needed here", "write `body.point`").at(&argument.span)),
         }
     }
 
-    fn body(&self, argument: &Ast) -> Result<usize, ExprError> {
+    pub(super) fn body(&self, argument: &Ast) -> Result<usize, ExprError> {
         let AstKind::Name(name) = &argument.kind else {
             return Err(Message::new("a body is needed here", "write its name").at(&argument.span));
         };
@@ -213,7 +158,7 @@ impl Scope<'_> {
     }
 
     /// The place of a site along or across a line: its offset in the line's own axes.
-    fn offset(&self, site: usize, line: &Ast, across: bool) -> Result<ModelExpr, ExprError> {
+    pub(super) fn offset(&self, site: usize, line: &Ast, across: bool) -> Result<ModelExpr, ExprError> {
         let AstKind::Name(name) = &line.kind else {
             return Err(
                 Message::new("a named line is needed here", "give the line a name under `lines`").at(&line.span)
@@ -229,48 +174,28 @@ impl Scope<'_> {
         Ok(if across { dy * cos - dx * sin } else { dx * cos + dy * sin })
     }
 
-    fn measure(&mut self, name: &str, a: &[Ast]) -> Result<ModelExpr, ExprError> {
-        let variable = ModelExpr::variable;
-        let rate = |e: ModelExpr| e.rate().expect("a place has a rate");
-        let accel = |e: ModelExpr| e.accel().expect("a place has an acceleration");
-        Ok(match name {
-            "x" => variable(ModelVariable::X(self.place(&a[0])?)),
-            "y" => variable(ModelVariable::Y(self.place(&a[0])?)),
-            "angle" => variable(ModelVariable::Angle(self.body(&a[0])?)),
-            "distance" => distance(self.place(&a[0])?, self.place(&a[1])?),
-            "direction" => {
-                let (p, q) = (self.place(&a[0])?, self.place(&a[1])?);
-                (variable(ModelVariable::Y(q)) - variable(ModelVariable::Y(p)))
-                    .atan2(variable(ModelVariable::X(q)) - variable(ModelVariable::X(p)))
-            }
-            "along" | "across" => self.offset(self.place(&a[0])?, &a[1], name == "across")?,
-            "vx" => rate(variable(ModelVariable::X(self.place(&a[0])?))),
-            "vy" => rate(variable(ModelVariable::Y(self.place(&a[0])?))),
-            "speed" => {
-                let site = self.place(&a[0])?;
-                let (x, y) = (rate(variable(ModelVariable::X(site))), rate(variable(ModelVariable::Y(site))));
-                (x.powi(2) + y.powi(2)).sqrt()
-            }
-            "omega" => rate(variable(ModelVariable::Angle(self.body(&a[0])?))),
-            "ax" => accel(variable(ModelVariable::X(self.place(&a[0])?))),
-            "ay" => accel(variable(ModelVariable::Y(self.place(&a[0])?))),
-            _ => accel(variable(ModelVariable::Angle(self.body(&a[0])?))),
-        })
+    /// x of a point.
+    pub(super) fn x(&self, point: &Ast) -> Result<ModelExpr, ExprError> {
+        Ok(ModelExpr::variable(ModelVariable::X(self.place(point)?)))
     }
-
-    fn whole(&self, name: &str, a: &[Ast]) -> Result<ModelExpr, ExprError> {
-        let read = |r| ModelExpr::variable(ModelVariable::Reading(r));
-        Ok(match name {
-            "kinetic" => read(Reading::Kinetic(a.first().map(|b| self.body(b)).transpose()?)),
-            "potential" => read(Reading::Potential),
-            "energy" => read(Reading::Kinetic(None)) + read(Reading::Potential),
-            "momentum_x" => read(Reading::Momentum(Axis::X)),
-            "momentum_y" => read(Reading::Momentum(Axis::Y)),
-            "centre_x" => read(Reading::Centre(Axis::X)),
-            "centre_y" => read(Reading::Centre(Axis::Y)),
-            "friction_work" => read(Reading::FrictionWork),
-            _ => read(Reading::AngularMomentum(self.place(&a[0])?)),
-        })
+    /// y of a point.
+    pub(super) fn y(&self, point: &Ast) -> Result<ModelExpr, ExprError> {
+        Ok(ModelExpr::variable(ModelVariable::Y(self.place(point)?)))
+    }
+    /// Angle of a body.
+    pub(super) fn angle(&self, body: &Ast) -> Result<ModelExpr, ExprError> {
+        Ok(ModelExpr::variable(ModelVariable::Angle(self.body(body)?)))
+    }
+    /// Tension of a link or string.
+    pub(super) fn tension(&self, owner: &Ast) -> Result<ModelExpr, ExprError> {
+        let AstKind::Name(name) = &owner.kind else {
+            return Err(Message::new("a link or a string is needed here", "write its name").at(&owner.span));
+        };
+        let found = self.reading(&format!("{name}.tension")).unwrap_or_else(|| Err(self.nothing(name)));
+        found.map_err(|m| m.at(&owner.span))
+    }
+    fn nothing(&self, name: &str) -> Message {
+        unknown("name", name, self.known().map(str::to_string).collect::<Vec<_>>().iter())
     }
 }
 
@@ -304,7 +229,7 @@ impl expr::Scope<ModelVariable> for Scope<'_> {
                 "use parameters only",
             ));
         }
-        Err(unknown("name", name, self.known().map(str::to_string).collect::<Vec<_>>().iter()))
+        Err(self.nothing(name))
     }
 
     fn call(&mut self, name: &str, arguments: &[Ast]) -> Option<Result<ModelExpr, ExprError>> {
@@ -325,34 +250,13 @@ impl expr::Scope<ModelVariable> for Scope<'_> {
                 .at(&span)
             })
         };
-        if let Some(&(_, reach)) = MEASURES.iter().find(|(word, _)| *word == name) {
-            let count: &[usize] =
-                if matches!(name, "distance" | "direction" | "along" | "across") { &[2] } else { &[1] };
-            return Some(match wanted(count).or_else(|| too_far(reach)) {
-                Some(error) => Err(error),
-                None => self.measure(name, arguments),
-            });
-        }
-        if name == "tension" {
-            let mut of = |argument: &Ast| match &argument.kind {
-                AstKind::Name(owner) => {
-                    expr::Scope::name(self, &format!("{owner}.tension")).map_err(|m| m.at(&argument.span))
-                }
-                _ => Err(Message::new("a link or a string is needed here", "write its name").at(&argument.span)),
-            };
-            return Some(match (wanted(&[1]), arguments) {
-                (None, [argument]) => of(argument),
-                (error, _) => Err(error.expect("it has no argument, or several")),
-            });
-        }
-        if let Some(&(_, count)) = READINGS.iter().find(|(word, _)| *word == name) {
-            let count: &[usize] = if name == "kinetic" { &[0, 1] } else { &[count] };
-            return Some(match wanted(count).or_else(|| too_far(Reach::Instant)) {
-                Some(error) => Err(error),
-                None => self.whole(name, arguments),
-            });
-        }
-        None
+        let function = FUNCTIONS.iter().find(|function| function.word == name)?;
+        let counts = [if function.optional { 0 } else { function.takes.len() }, function.takes.len()];
+        let counts = if function.optional { &counts[..] } else { &counts[1..] };
+        Some(match wanted(counts).or_else(|| too_far(function.reach)) {
+            Some(error) => Err(error),
+            None => (function.read)(self, arguments),
+        })
     }
 
     fn table(&self, name: &str) -> Option<usize> {
@@ -360,39 +264,14 @@ impl expr::Scope<ModelVariable> for Scope<'_> {
     }
 
     fn functions(&self) -> Vec<String> {
-        let words = MEASURES.iter().map(|m| m.0).chain(READINGS.iter().map(|r| r.0)).chain(["tension"]);
-        words.map(str::to_string).chain(self.names.tables.keys().cloned()).collect()
+        let words = FUNCTIONS.iter().map(|function| function.word.to_string());
+        words.chain(self.names.tables.keys().cloned()).collect()
     }
 
     fn discontinuity(&mut self) -> usize {
         *self.switches += 1;
         *self.switches - 1
     }
-}
-
-/// What a word after the name of a contact, stop or string stands for.
-fn bound(part: &str) -> Option<ContactQuantity> {
-    Some(match part {
-        "gap" | "slack" => ContactQuantity::Gap,
-        "N" | "tension" => ContactQuantity::Force,
-        "T" => ContactQuantity::Friction,
-        "F" => ContactQuantity::OnFirst(Axis::Size),
-        "Fx" => ContactQuantity::OnFirst(Axis::X),
-        "Fy" => ContactQuantity::OnFirst(Axis::Y),
-        "x" => ContactQuantity::Place(Axis::X),
-        "y" => ContactQuantity::Place(Axis::Y),
-        "slip" => ContactQuantity::Slip,
-        _ => return None,
-    })
-}
-
-/// 2 for `F2`.
-fn row_number(part: &str) -> usize {
-    part[1..].parse().unwrap_or(usize::MAX)
-}
-
-fn parts(owner: &str, known: &str) -> Message {
-    Message::new(format!("`{owner}` has no such part"), format!("it has {known}"))
 }
 
 /// The message for a name that nothing bears.

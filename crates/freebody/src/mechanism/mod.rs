@@ -362,6 +362,23 @@ impl Mechanism {
         bodies.dedup();
         bodies
     }
+    /// The unit of a gauge, m or rad, where all that it reads has this one.
+    pub fn gauge_unit(&self, law: &ModelExpr) -> Option<&str> {
+        let unit = |leaf: &ModelVariable| match leaf {
+            ModelVariable::X(_) | ModelVariable::Y(_) => "m",
+            ModelVariable::Angle(_) => "rad",
+            ModelVariable::Coordinate(joint, k) => self.joints[*joint].coordinates[*k].dimension,
+            ModelVariable::Parameter(i) => self.parameters[*i].unit.as_str(),
+            _ => "",
+        };
+        let mut units: Vec<&str> = law.variables().map(unit).filter(|unit| !unit.is_empty()).collect();
+        units.sort_unstable();
+        units.dedup();
+        match units[..] {
+            [unit @ ("m" | "rad")] => Some(unit),
+            _ => None,
+        }
+    }
     /// Whether all that a law reads of the configuration are turns of bodies: what acts along it is a couple.
     pub fn turns(&self, law: &ModelExpr) -> bool {
         let mut read = law.variables().filter(|variable| !self.variable_bodies(variable).is_empty()).peekable();

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.run.records import Array, Column, plain, quote, unit_of
+from freebody.run.records import Array, Column, plain, quote
 from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps
 
@@ -106,7 +106,7 @@ def _asked(run: Run) -> list[dict[str, Any]]:
     """The reported quantities that are not plotted yet, over the whole run; one that reads an indeterminate reaction is left out."""
     plotted = {"t", *(column.name for column in run.columns), *(f"{quote(joint)}.F" for joint in run.reactions)}
     texts = [text for text in dict.fromkeys(item.value for item in run.source.report) if text not in plotted]
-    units = {text: unit_of(text, run.columns) for text in texts}
+    units = {text: run.unit_of(text) for text in texts}
     values = dict(zip(texts, run.motion.evaluate(texts, run.t).T, strict=True)) if texts else {}
     made = []
     for unit in dict.fromkeys(units.values()):

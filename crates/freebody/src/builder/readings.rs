@@ -1,0 +1,287 @@
+//! Everything that an expression can read of a mechanism: one entry each, with its word, its unit and what it stands for.
+
+use super::names::{distance, Reach, Scope};
+use crate::expr::{Ast, ExprError};
+use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
+use crate::joints::{Card, FieldKind};
+use serde::Serialize;
+use serde_json::{json, Map, Value};
+
+type Found = Result<ModelExpr, ExprError>;
+
+/// What a function reads; all its arguments are names.
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Argument {
+    /// `body.point`.
+    Point,
+    /// `body.line`.
+    Line,
+    /// A body.
+    Body,
+    /// A string, or a link.
+    String,
+}
+
+/// A function, like `distance(P, Q)`.
+#[derive(Serialize)]
+pub struct Function {
+    /// Its word.
+    pub word: &'static str,
+    /// What it reads.
+    pub takes: &'static [Argument],
+    /// Whether that may be left out.
+    pub optional: bool,
+    /// Unit of its value, SI.
+    pub unit: &'static str,
+    /// One phrase.
+    pub doc: &'static str,
+    /// What must be known before it can be read.
+    #[serde(skip)]
+    pub reach: Reach,
+    /// Its value.
+    #[serde(skip)]
+    pub read: fn(&Scope, &[Ast]) -> Found,
+}
+
+const fn of(
+    word: &'static str,
+    takes: &'static [Argument],
+    unit: &'static str,
+    reach: Reach,
+    read: fn(&Scope, &[Ast]) -> Found,
+    doc: &'static str,
+) -> Function {
+    Function { word, takes, optional: false, unit, doc, reach, read }
+}
+
+/// Of the whole mechanism, or of a body where that has a meaning.
+const fn whole(
+    word: &'static str,
+    unit: &'static str,
+    read: fn(&Scope, &[Ast]) -> Found,
+    doc: &'static str,
+) -> Function {
+    of(word, &[], unit, Reach::Instant, read, doc)
+}
+
+use Argument::{Body, Line, Point};
+use Reach::{Configuration, Instant, Motion};
+
+/// All functions that read a mechanism.
+pub const FUNCTIONS: &[Function] = &[
+    of("x", &[Point], "m", Configuration, |s, a| s.x(&a[0]), "x of a point"),
+    of("y", &[Point], "m", Configuration, |s, a| s.y(&a[0]), "y of a point"),
+    of("angle", &[Body], "rad", Configuration, |s, a| s.angle(&a[0]), "angle of a body from the fixed x axis"),
+    of(
+        "distance",
+        &[Point, Point],
+        "m",
+        Configuration,
+        |s, a| Ok(distance(s.place(&a[0])?, s.place(&a[1])?)),
+        "distance of two points",
+    ),
+    of(
+        "direction",
+        &[Point, Point],
+        "rad",
+        Configuration,
+        |s, a| Ok((s.y(&a[1])? - s.y(&a[0])?).atan2(s.x(&a[1])? - s.x(&a[0])?)),
+        "angle of the line from one point to another from the fixed x axis",
+    ),
+    of(
+        "along",
+        &[Point, Line],
+        "m",
+        Configuration,
+        |s, a| s.offset(s.place(&a[0])?, &a[1], false),
+        "place of a point along a line, from that line's point",
+    ),
+    of(
+        "across",
+        &[Point, Line],
+        "m",
+        Configuration,
+        |s, a| s.offset(s.place(&a[0])?, &a[1], true),
+        "distance of a point from a line, positive on its left",
+    ),
+    of("vx", &[Point], "m/s", Motion, |s, a| Ok(rate(s.x(&a[0])?)), "velocity of a point along x"),
+    of("vy", &[Point], "m/s", Motion, |s, a| Ok(rate(s.y(&a[0])?)), "velocity of a point along y"),
+    of(
+        "speed",
+        &[Point],
+        "m/s",
+        Motion,
+        |s, a| Ok((rate(s.x(&a[0])?).powi(2) + rate(s.y(&a[0])?).powi(2)).sqrt()),
+        "size of the velocity of a point",
+    ),
+    of("omega", &[Body], "rad/s", Motion, |s, a| Ok(rate(s.angle(&a[0])?)), "angular velocity of a body"),
+    of("ax", &[Point], "m/s^2", Instant, |s, a| Ok(accel(s.x(&a[0])?)), "acceleration of a point along x"),
+    of("ay", &[Point], "m/s^2", Instant, |s, a| Ok(accel(s.y(&a[0])?)), "acceleration of a point along y"),
+    of("alpha", &[Body], "rad/s^2", Instant, |s, a| Ok(accel(s.angle(&a[0])?)), "angular acceleration of a body"),
+    Function {
+        takes: &[Body],
+        optional: true,
+        ..whole(
+            "kinetic",
+            "J",
+            |s, a| Ok(read(Reading::Kinetic(a.first().map(|b| s.body(b)).transpose()?))),
+            "kinetic energy of a body, or of all",
+        )
+    },
+    whole(
+        "potential",
+        "J",
+        |_, _| Ok(read(Reading::Potential)),
+        "potential energy of gravity and of all forces that have one",
+    ),
+    whole(
+        "energy",
+        "J",
+        |_, _| Ok(read(Reading::Kinetic(None)) + read(Reading::Potential)),
+        "kinetic and potential energy together",
+    ),
+    whole("momentum_x", "N*s", |_, _| Ok(read(Reading::Momentum(Axis::X))), "momentum of all bodies along x"),
+    whole("momentum_y", "N*s", |_, _| Ok(read(Reading::Momentum(Axis::Y))), "momentum of all bodies along y"),
+    Function {
+        takes: &[Point],
+        ..whole(
+            "angular_momentum",
+            "N*m*s",
+            |s, a| Ok(read(Reading::AngularMomentum(s.place(&a[0])?))),
+            "angular momentum of all bodies about the place where a point is now",
+        )
+    },
+    whole("centre_x", "m", |_, _| Ok(read(Reading::Centre(Axis::X))), "x of the mass centre of all bodies"),
+    whole("centre_y", "m", |_, _| Ok(read(Reading::Centre(Axis::Y))), "y of the mass centre of all bodies"),
+    whole("friction_work", "J", |_, _| Ok(read(Reading::FrictionWork)), "work of all friction since the start"),
+    Function {
+        takes: &[Argument::String],
+        ..whole("tension", "N", |s, a| s.tension(&a[0]), "tension of a string or a link")
+    },
+];
+
+fn read(reading: Reading) -> ModelExpr {
+    ModelExpr::variable(ModelVariable::Reading(reading))
+}
+
+fn rate(place: ModelExpr) -> ModelExpr {
+    place.rate().expect("a place has a rate")
+}
+
+fn accel(place: ModelExpr) -> ModelExpr {
+    place.accel().expect("a place has an acceleration")
+}
+
+/// The unit of what is read of a part of the model.
+#[derive(Clone, Copy)]
+pub enum Unit {
+    /// This one.
+    Is(&'static str),
+    /// That of the gauge on which the part acts.
+    Gauge,
+    /// That of a force along the gauge: N along a length, N·m along an angle.
+    Load,
+}
+
+impl Unit {
+    /// The unit, by that of the gauge; none where that is not known.
+    pub fn by(self, gauge: Option<&str>) -> Option<&'static str> {
+        match (self, gauge) {
+            (Unit::Is(unit), _) => Some(unit),
+            (Unit::Gauge, Some("m")) => Some("m"),
+            (Unit::Gauge, Some("rad")) => Some("rad"),
+            (Unit::Load, Some("m")) => Some("N"),
+            (Unit::Load, Some("rad")) => Some("N*m"),
+            _ => None,
+        }
+    }
+}
+
+/// A word behind the name of a part of the model, like `pivot.Fx`.
+#[derive(Clone, Copy)]
+pub struct Answer {
+    /// Its word.
+    pub word: &'static str,
+    /// The unit of its value.
+    pub unit: Unit,
+    /// What it reads of the part of a number.
+    pub read: fn(usize) -> Reading,
+}
+
+const fn answer(word: &'static str, unit: Unit, read: fn(usize) -> Reading) -> Answer {
+    Answer { word, unit, read }
+}
+
+const FORCE: Unit = Unit::Is("N");
+
+/// Of a joint, on its second body; beside those of its rows.
+const JOINT: &[Answer] = &[
+    answer("Fx", FORCE, |j| Reading::Reaction(j, Axis::X)),
+    answer("Fy", FORCE, |j| Reading::Reaction(j, Axis::Y)),
+    answer("M", Unit::Is("N*m"), |j| Reading::Reaction(j, Axis::Couple)),
+    answer("F", FORCE, |j| Reading::Reaction(j, Axis::Size)),
+    answer("Fs", FORCE, |j| Reading::Reaction(j, Axis::Along)),
+    answer("Fn", FORCE, |j| Reading::Reaction(j, Axis::Across)),
+];
+/// Of the rows of a joint, in order.
+const ROWS: [Answer; 2] = [
+    answer("F1", Unit::Load, |j| Reading::Reaction(j, Axis::Row(0))),
+    answer("F2", Unit::Load, |j| Reading::Reaction(j, Axis::Row(1))),
+];
+const TENSION: Answer = answer("tension", FORCE, |j| Reading::Reaction(j, Axis::Tension));
+const FRICTION: Answer = answer("friction", Unit::Load, Reading::JointFriction);
+/// Of a prescribed motion or a coupling.
+pub const MOTION: &[Answer] = &[
+    answer("force", Unit::Load, Reading::Drive),
+    answer("F", Unit::Load, Reading::Drive),
+    answer("power", Unit::Is("W"), Reading::DrivePower),
+    answer("work", Unit::Is("J"), Reading::DriveWork),
+];
+/// Of a force of the model.
+pub const ACTING: &[Answer] = &[
+    answer("value", Unit::Load, Reading::Force),
+    answer("power", Unit::Is("W"), Reading::ForcePower),
+    answer("work", Unit::Is("J"), Reading::ForceWork),
+];
+/// Of a contact, stop or string.
+pub const LIMIT: &[Answer] = &[
+    answer("gap", Unit::Gauge, |g| Reading::Contact(g, ContactQuantity::Gap)),
+    answer("slack", Unit::Gauge, |g| Reading::Contact(g, ContactQuantity::Gap)),
+    answer("F", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Size))),
+    answer("N", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force)),
+    answer("tension", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force)),
+    answer("T", FORCE, |g| Reading::Contact(g, ContactQuantity::Friction)),
+    answer("Fx", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::X))),
+    answer("Fy", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Y))),
+    answer("x", Unit::Is("m"), |g| Reading::Contact(g, ContactQuantity::Place(Axis::X))),
+    answer("y", Unit::Is("m"), |g| Reading::Contact(g, ContactQuantity::Place(Axis::Y))),
+    answer("slip", Unit::Is("m/s"), |g| Reading::Contact(g, ContactQuantity::Slip)),
+];
+
+/// What can be read of a joint, with the unit of what it acts along: those of every joint, one for each row, a tension where it pulls.
+pub fn of_joint(card: &Card) -> Vec<(Answer, Option<&'static str>)> {
+    let gauge = |turns: bool| Some(if turns { "rad" } else { "m" });
+    let mut found: Vec<_> = JOINT.iter().map(|&each| (each, None)).collect();
+    found.extend(ROWS.into_iter().zip(&card.rows).map(|(each, row)| (each, gauge(row.load.couple))));
+    found.extend(card.rows.iter().any(|row| row.load.pulls).then_some((TENSION, None)));
+    found.push((FRICTION, gauge(card.coordinates.first().is_some_and(|c| c.turn))));
+    found
+}
+
+/// The words with their units, as data; null where the unit is not known.
+pub fn units(answers: &[Answer], gauge: Option<&str>) -> Value {
+    answers.iter().map(|a| (a.word.to_string(), json!(a.unit.by(gauge)))).collect::<Map<_, _>>().into()
+}
+
+/// Those of a joint.
+pub fn units_of_joint(card: &Card) -> Value {
+    of_joint(card).iter().map(|(a, gauge)| (a.word.to_string(), json!(a.unit.by(*gauge)))).collect::<Map<_, _>>().into()
+}
+
+/// Those of a force as far as its kind tells: what acts along any gauge has no unit of its own.
+pub fn units_of_force(card: &Card) -> Value {
+    let any = card.fields.iter().any(|field| matches!(field.kind, FieldKind::Gauge));
+    let gauge = if card.parts[0].couple { "rad" } else { "m" };
+    units(ACTING, (!any).then_some(gauge))
+}
