@@ -25,14 +25,14 @@ REFUSED = {"inconsistent_velocities", "painleve_indeterminate", "painleve_incons
 
 
 @cache
-def visited(seed):
+def visited(seed: str) -> list[SymbolicState] | str:
     """The states of a random model; or why there is none."""
     mechanism = drawn(int(seed))
     try:
         mechanism.solve()
     except fb.MotionError as error:
         assert error.kind in REFUSED, error
-        return error.kind
+        return error.kind.value
     first = SymbolicState(mechanism.source(), mechanism.start()[0])
     return [first, *(SymbolicState(first.source, state) for state in others(first.source, first.state)[::RATES])]
 
