@@ -1,4 +1,4 @@
-"""Writes the tables of docs/*.md that come from the cards of the core: `.venv/bin/python docs/tables.py`.
+"""Writes the tables of docs/*.md that come from the cards of the core and from the list of topics: `.venv/bin/python docs/tables.py`.
 
 A table stands between `<!-- joints -->` and `<!-- /joints -->`; the word says which.
 """
@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from freebody.core import cards
+from freebody.equations.topics import TOPICS, described
 
 DOCS = Path(__file__).parent
 WRITTEN = {"point": "P", "points": "[P, Q]", "line": "LINE", "circle": "{centre, radius}", "curve": "CURVE", "numbers": "[a, b]"}
@@ -26,6 +27,11 @@ def joints() -> str:
 def forces() -> str:
     """What a person writes for every force."""
     return _table(("type", "fields"), ((_word(card), _fields(card)) for card in cards.forces().values()))
+
+
+def topics() -> str:
+    """What every topic derives, and its options."""
+    return _table(("form", "what it derives", "options"), ((f"`{name}`", *described(name)) for name in TOPICS))
 
 
 def _word(card: cards.Card) -> str:
@@ -51,7 +57,7 @@ def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     return "".join([made[0], "|---" * len(heads) + "|\n", *made[1:]])
 
 
-TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in (joints, forces)}
+TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in (joints, forces, topics)}
 
 
 def written(text: str) -> str:

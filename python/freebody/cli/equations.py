@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,31 +16,32 @@ if TYPE_CHECKING:
     from freebody.model import Mechanism
 
 
-class Form(str, Enum):
-    """Forms of the equations of motion, and further derivations."""
+SOLVED = "solved"
 
-    minimal = "minimal"
-    brute = "brute"
-    constraints = "constraints"
-    solved = "solved"
-    lagrange = "lagrange"
-    linear = "linear"
-    frame = "frame"
-    particle = "particle"
-    moment = "moment"
-    elimination = "elimination"
-    impact = "impact"
-    out_of_plane = "out_of_plane"
+
+def listed(asked: bool) -> None:
+    """Prints the forms and the topics, and ends."""
+    if asked:
+        from freebody.equations.derivation.derive import FORMS
+        from freebody.equations.topics import TOPICS, described
+
+        typer.echo("\n".join([*FORMS, SOLVED]))
+        for name in TOPICS:
+            what, options = described(name)
+            typer.echo("\n    ".join(filter(None, (name, what, options and f"Options: {options}"))))
+        raise typer.Exit
 
 
 def equations(
     model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
     form: Annotated[
-        Form,
+        str,
         typer.Option(
-            help="Free of reactions, three balances a body, all constraints; solved symbolically; or a further derivation."
+            metavar="FORM",
+            help="minimal: free of reactions; brute: three balances a body; constraints; solved symbolically; or a topic, see --forms.",
         ),
-    ] = Form.minimal,
+    ] = "minimal",
+    forms: Annotated[bool, typer.Option("--forms", help="List all forms and topics.", is_eager=True, callback=listed)] = False,
     want: Annotated[
         list[str] | None,
         typer.Option(
@@ -52,7 +52,7 @@ def equations(
     fixed: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", metavar="NAME=VALUE", help="A symbol as a number, or an option of a derivation, point=rod.B; repeatable."
+            "--set", metavar="NAME=VALUE", help="A symbol as a number, or an option of a topic, point=rod.B; repeatable."
         ),
     ] = None,
     limits: Annotated[
@@ -65,15 +65,15 @@ def equations(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json.")] = None,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
-    if limits and form is not Form.solved:
-        raise UserError(f"--limit is not for --form {form.value}", "take --form solved")
+    if limits and form != SOLVED:
+        raise UserError(f"--limit is not for --form {form}", "take --form solved")
     wanted = [name.strip() for each in want or () for name in each.split(",")]
-    if form is not Form.solved and len(wanted) > 1:
+    if form != SOLVED and len(wanted) > 1:
         raise UserError("several unknowns are wanted", "ask for one, or take --form solved")
-    if form is Form.solved:
+    if form == SOLVED:
         found = solved(opened(model), wanted, at_rest, pairs(fixed), pairs(limits))
     else:
-        found = derived(opened(model), form.value, wanted[0] if wanted else None, at_rest, pairs(fixed))
+        found = derived(opened(model), form, wanted[0] if wanted else None, at_rest, pairs(fixed))
     asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json)) if given]
     if len(asked) > 1:
         raise UserError("several ways to print are asked for", "take one of --latex, --markdown, --json")
@@ -88,13 +88,16 @@ def equations(
 
 
 def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str]) -> Equations | Document:
-    """The equations in a form, or a further derivation."""
-    from freebody.equations.topics import TOPICS, topic
+    """The equations in a form, or the document of a topic."""
+    from freebody.equations.derivation.derive import FORMS
+    from freebody.equations.topics import TOPICS, described, topic
 
     if form in TOPICS:
         if want or at_rest:
-            raise UserError(f"--for and --at-rest are not for --form {form}", f"it takes options by --set: {TOPICS[form].doc}")
+            raise UserError(f"--for and --at-rest are not for --form {form}", f"by --set it takes {described(form)[1] or 'no options'}")
         return topic(mechanism, form, **fixed)
+    if form not in FORMS:
+        raise UserError(f"there is no form {form!r}", f"there are {', '.join((*FORMS, SOLVED, *TOPICS))}")
     try:
         return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed)
     except KeyError as error:

@@ -1,5 +1,6 @@
 """What the topics say, against the numbers of the core at random states, and against each other."""
 
+from inspect import signature
 from itertools import pairwise
 from unicodedata import normalize
 
@@ -11,15 +12,13 @@ from typer.testing import CliRunner
 
 import freebody as fb
 from freebody.cli import app
-from freebody.cli.equations import Form
 from freebody.core import State
 from freebody.document.blocks import Equation
 from freebody.equations import Sym, evaluate, symbols
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.derivation.derive import FORMS
 from freebody.equations.linearization import linearised, numbers
-from freebody.equations.topics import TOPICS, NotHere, topic
+from freebody.equations.topics import TOPICS, NotHere, described, topic
 from freebody.equations.topics.common import moving_names, place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
@@ -152,6 +151,20 @@ def test_moments_about_a_moving_point(name: str) -> None:
     assert wrong
 
 
+@pytest.mark.parametrize("name", [*TREES, *LOOPS])
+def test_balances_about_the_mass_centre(name: str) -> None:
+    """Where the mass centre is, and both sides of every balance, against the core's mass centre and all that acts from outside."""
+    for subject in random_subjects(system(name), 1):
+        centre, bodies = subject.free.centre(*subject.free.bodies), subject.free.bodies
+        blocks = [b for b in topic(system(name), "mass_centre", subject.state).blocks if isinstance(b, Equation)]
+        assert_allclose([value(subject, b.right) for b in blocks if not b.label], centre, atol=1e-9)
+        acting = subject.free.acting(*bodies, about=centre)
+        for block, true in zip((b for b in blocks if b.label), acting, strict=True):
+            sides = value(subject, block.left), value(subject, block.right)
+            assert sides[0] == pytest.approx(sides[1], rel=1e-8, abs=1e-8)
+            assert abs(sides[1]) == pytest.approx(abs(true), rel=1e-8, abs=1e-8)
+
+
 @pytest.mark.parametrize("name", ["19.3.10", "19.3.17", "S19.20", "19.3.16"])
 def test_elimination(name: str) -> None:
     """The equations that are left hold at the core's states, with the constants that the momenta have there."""
@@ -211,13 +224,19 @@ def test_unknown_words_are_named() -> None:
         topic(system("19.3.15"), "frame", point="rod.Z")
 
 
-def test_the_command_line_has_all_forms_and_topics() -> None:
-    assert [form.value for form in Form] == [*FORMS, "solved", *TOPICS]
-    done = CliRunner().invoke(
-        app, ["equations", str(SYSTEMS / "S19.17" / "model.yaml"), "--form", "frame", "--set", "point=collar.G"]
-    )
-    assert done.exit_code == 0, done.output
-    assert "Coriolis" in done.output
+def test_the_command_line_lists_every_topic_with_its_options() -> None:
+    said = " ".join(CliRunner().invoke(app, ["equations", "--forms"]).output.split())
+    for name, make in TOPICS.items():
+        assert f"{name} {described(name)[0]}" in said
+        options = [each for each in signature(make).parameters.values() if each.kind is each.KEYWORD_ONLY]
+        assert all(f"`{each.name}`" in described(name)[1] for each in options), name
+
+
+def test_the_command_line_makes_a_topic() -> None:
+    asked = ["equations", str(SYSTEMS / "S19.17" / "model.yaml"), "--form"]
+    done = CliRunner().invoke(app, [*asked, "frame", "--set", "point=collar.G"])
+    assert done.exit_code == 0 and "Coriolis" in done.output, done.output
+    assert CliRunner().invoke(app, [*asked, "hamilton"]).exit_code == 2
 
 
 def test_prescribed_rates_are_put_into_what_a_frame_gives() -> None:

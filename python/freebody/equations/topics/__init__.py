@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from inspect import signature
+from inspect import Parameter, getdoc, signature
 from typing import TYPE_CHECKING, Any
 
 from freebody.document.document import Document
@@ -14,6 +13,7 @@ from freebody.equations.topics.frame import frame
 from freebody.equations.topics.impact import impact
 from freebody.equations.topics.lagrange import lagrange
 from freebody.equations.topics.linear import linear
+from freebody.equations.topics.mass_centre import mass_centre
 from freebody.equations.topics.moment import moment
 from freebody.equations.topics.out_of_plane import out_of_plane
 from freebody.equations.topics.particle import particle
@@ -22,31 +22,19 @@ if TYPE_CHECKING:
     from freebody.core import State
     from freebody.model.builder import Builder
 
-__all__ = ["TOPICS", "NotHere", "Topic", "topic"]
+__all__ = ["TOPICS", "NotHere", "described", "topic"]
 
-
-@dataclass(frozen=True)
-class Topic:
-    """A derivation: ``make(mechanism, state, **options)`` gives its document; ``doc`` says in a line what it is."""
-
-    make: Callable[..., Document]
-    doc: str
-
-
-TOPICS: Mapping[str, Topic] = {
-    "lagrange": Topic(lagrange, "Lagrange's equations, and how each is made of balance equations"),
-    "linear": Topic(linear, "small perturbations from an equilibrium: matrices, eigenvalues, stability; options: coordinates"),
-    "frame": Topic(frame, "a point through a moving body: transport, relative, Coriolis; options: point, body"),
-    "particle": Topic(particle, "a particle along i, j and in polar coordinates; options: body, about"),
-    "moment": Topic(moment, "moments about a fixed or moving point, each with its right-hand side; options: about, bodies"),
-    "elimination": Topic(elimination, "fewer equations by conserved momenta"),
-    "impact": Topic(
-        impact,
-        "an impact in the run, or of a point at rest: impulses, what is absent and why, momentum, restitution; options: number, of, at, or point, direction, impulse",
-    ),
-    "out_of_plane": Topic(out_of_plane, "what the plane exerts; options: gravity"),
+TOPICS: Mapping[str, Callable[..., Document]] = {
+    make.__name__: make for make in (lagrange, linear, frame, particle, moment, mass_centre, elimination, impact, out_of_plane)
 }
-"""By name, as in ``freebody equations MODEL --form NAME``."""
+"""By name, as in ``freebody equations MODEL --form NAME``: what makes the document of a mechanism at a state. Its keywords are the
+options; its docstring says what it derives, then in a second paragraph the options."""
+
+
+def described(name: str) -> tuple[str, str]:
+    """What a topic derives, and its options, in words."""
+    what, options, *_ = [" ".join(part.replace("``", "`").split()) for part in (getdoc(TOPICS[name]) or "").split("\n\n")] + [""]
+    return what, options.partition(" Raises")[0]
 
 
 def topic(mechanism: Builder, name: str, state: State | None = None, **options: Any) -> Document:
@@ -54,9 +42,8 @@ def topic(mechanism: Builder, name: str, state: State | None = None, **options: 
     there is not; ``NotHere`` (one of these) where the mechanism has nothing for it."""
     if name not in TOPICS:
         raise ValueError(f"topic {name!r} is unknown; there are {', '.join(TOPICS)}")
-    taken = [p for p in signature(TOPICS[name].make).parameters.values() if p.kind in (p.KEYWORD_ONLY, p.VAR_KEYWORD)]
-    if not any(p.kind is p.VAR_KEYWORD for p in taken):
-        for option in options.keys() - {p.name for p in taken}:
-            known = ", ".join(p.name for p in taken) or "none"
-            raise ValueError(f"{name} has no option {option!r}; its options: {known}")
-    return TOPICS[name].make(mechanism, mechanism.start()[0] if state is None else state, **options)
+    parameters = signature(TOPICS[name]).parameters.values()
+    known = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]
+    if (unknown := [*options.keys() - known]) and all(each.kind is not Parameter.VAR_KEYWORD for each in parameters):
+        raise ValueError(f"{name} has no option {unknown[0]!r}; its options: {', '.join(known) or 'none'}")
+    return TOPICS[name](mechanism, mechanism.start()[0] if state is None else state, **options)

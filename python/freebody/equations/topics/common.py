@@ -89,6 +89,14 @@ def place_of(subject: SymbolicState, point: str) -> Arrow:
     return subject.balances([{"ask": "equation", "bodies": [], "about": {"point": point}}])[0].place
 
 
+def group_of(subject: SymbolicState, bodies: Sequence[str] | str) -> list[str]:
+    """Bodies by name, or one of them."""
+    group = [bodies] if isinstance(bodies, str) else list(bodies)
+    for name in group:
+        known(name, subject.free.bodies, "body")
+    return group
+
+
 def known(name: str, names: Collection[str], what: str) -> None:
     """Raises ``ValueError`` for a name that is none of these."""
     if name not in names:

@@ -57,7 +57,7 @@ def eliminated(subject: SymbolicState) -> Eliminated:
 
 
 def elimination(mechanism: Builder, state: State) -> Document:
-    """Conserved momenta of coordinates, their rates by them, and what equations are left: often one, in one coordinate."""
+    """Coordinates of which only the rates matter, eliminated by their conserved momenta; often one equation is left."""
     subject = subject_of(mechanism, state)
     found = eliminated(subject)
     names = list(found.momenta)

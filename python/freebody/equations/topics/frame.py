@@ -25,9 +25,9 @@ _WORDS = ("v", "v_transport", "v_relative", "a", "a_transport", "a_relative", "a
 
 
 def frame(mechanism: Builder, state: State, *, point: str | None = None, body: str | None = None) -> Document:
-    """Velocity and acceleration of a ``point`` through a moving ``body``, each part named, and by direct differentiation.
+    """A point seen from a moving body: transport, relative and Coriolis parts, and the same by direct differentiation.
 
-    Without a choice it is the first mass centre that has a Coriolis acceleration through a body. Raises ``ValueError``."""
+    ``point`` and ``body``, by default the first mass centre that has a Coriolis acceleration through a body."""
     subject = subject_of(mechanism, state)
     bodies = [motion.body for motion in subject.motions]
     if body is not None:

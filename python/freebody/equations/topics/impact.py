@@ -45,11 +45,12 @@ def impact(
     impulse: Any = None,
     frame: str | None = None,
 ) -> Document:
-    """The impact of a ``number`` (from 1) in the run of a model: a contact, a string that becomes taut, a stop, what catches; ``of``
-    counts only those of one of these by name, ``at`` only those from a time on; the run tells where it is.
+    """An impact of the run, or an impulse applied to the model at rest: impulses on each body, which forces give none, impulse and
+    momentum, restitution, friction that slides or sticks, rates after it and impulses of joints.
 
-    With a ``point`` the model stands still as at its start, and is struck there: along a ``direction`` (an angle from the x axis of
-    the ``frame``, ``fixed`` or ``body``), by an ``impulse`` (N·s, for the numbers). Raises ``NotHere`` where there is no blow."""
+    ``number``, from 1, ``of`` a contact, string or stop, ``at`` a time to count from; or the ``point`` at which an impulse is
+    applied, its ``direction``, an angle from the x axis of the ``frame``, ``fixed`` or ``body``, and the ``impulse`` in N·s, for
+    the numbers. Raises ``NotHere`` where there is no impact."""
     how = {"direction": direction, "impulse": impulse, "frame": frame}
     strike = {name: value for name, value in how.items() if value is not None}
     if point is None:

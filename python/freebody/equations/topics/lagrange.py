@@ -113,7 +113,7 @@ def _factors(own: Coefficients, theirs: Sequence[Coefficients], accelerations: S
 
 
 def lagrange(mechanism: Builder, state: State) -> Document:
-    """Energies, Lagrange's equations with generalised forces, and how each is made of balance equations."""
+    """Energies, Lagrange's equations with generalized forces, and of which balance equations each is made."""
     subject = subject_of(mechanism, state)
     kinetic, potential, found = equations(subject)
     left, right = energies(subject)

@@ -40,11 +40,11 @@ _STANDS = 1e-9
 
 
 def linear(mechanism: Builder, state: State, **at: Any) -> Document:
-    """Linear equations about an equilibrium: that of the state, or near it, coordinates and parameters being as given
-    (``theta="180 deg"``); where that is none, the one that Newton's method finds from there.
+    """M ẍ + C ẋ + K x = 0 of small perturbations from an equilibrium, those that loops and contacts leave free, with the
+    characteristic polynomial, eigenvalues, frequencies, and when it is stable.
 
-    With them the characteristic polynomial, the eigenvalues, the frequencies, and when it is stable, as far as they are short.
-    Where loops, motions or contacts hold, of the departures that they leave free. Raises ``NotHere`` where no equilibrium is found."""
+    coordinates and parameters, ``theta=180 deg``; where these are no equilibrium, Newton's method looks for one from there.
+    Raises ``NotHere`` where none is found."""
     chosen = given(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
     names = [c["name"] for c in mechanism.source().about["coordinates"]]

@@ -13,6 +13,7 @@ from freebody.equations.topics.common import (
     NotHere,
     cross,
     document,
+    group_of,
     known,
     moving_names,
     place_of,
@@ -32,16 +33,14 @@ Pair = tuple[Tree, Tree]
 
 
 def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies: Sequence[str] | str = ()) -> Document:
-    """The balance of moments of some ``bodies`` (all by default) ``about`` a point, by default the first that moves: Σ M about it
-    by accelerations, and by the rate of angular momentum about it, with what a moving point adds."""
+    """Moments about a fixed or a moving point: by accelerations, by dH/dt, and what a moving point adds, v × L.
+
+    ``about`` a point, by default the first that moves, and ``bodies``, all by default."""
     subject = subject_of(mechanism, state)
-    group = [bodies] if isinstance(bodies, str) else list(bodies)
-    for name in group:
-        known(name, subject.free.bodies, "body")
     if about is not None:
         known(about, subject.points, "point")
     point = about or _first_moving(subject)
-    return document(subject, f"moments about {point}", _blocks(subject, group, point))
+    return document(subject, f"moments about {point}", _blocks(subject, group_of(subject, bodies), point))
 
 
 def _first_moving(subject: SymbolicState) -> str:

@@ -19,8 +19,9 @@ _ACROSS = "g_z"
 
 
 def out_of_plane(mechanism: Builder, state: State, *, gravity: Any = None) -> Document:
-    """The force of the plane, normal to it. ``gravity``: its part into the plane, m/s² (``"9.81 m/s^2"``), where the model is one
-    on a table or a slope; without it the model's own gravity is all there is."""
+    """Forces normal to the plane: what it exerts on the bodies.
+
+    ``gravity`` into the plane, ``9.81 m/s^2``, of a model on a table or a slope."""
     subject = subject_of(mechanism, state)
     masses = [(motion.body, motion.mass) for motion in subject.motions if not is_zero(motion.mass)]
     made: list[Block] = [Heading("Balance normal to the plane")]

@@ -22,8 +22,9 @@ _R, _PHI = "r", "phi"
 
 
 def particle(mechanism: Builder, state: State, *, body: str | None = None, about: str = f"{GROUND}.O") -> Document:
-    """Newton's law for a ``body`` (the first particle by default), its components along i, j and along e_r, e_φ ``about`` a
-    fixed point."""
+    """Newton's law of a particle or a mass centre along i, j, and along e_r, e_φ about a fixed point.
+
+    ``body``, by default the first particle, and ``about``, a point of the ground."""
     subject = subject_of(mechanism, state)
     motions = subject.motions
     if body is None:
