@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from rearranged import number
 
-from freebody.check.language.statements import Equation, addends, letters
+from freebody.check.language.statements import Equation, letters
 from freebody.check.vocabulary import Vocabulary
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, walk
 
 Random = np.random.Generator
 Slip = Callable[[Random, Equation, Vocabulary], Equation | None]

@@ -8,9 +8,9 @@ from dataclasses import replace as with_
 import numpy as np
 from other_letters import Other
 
-from freebody.check.language.statements import Equation, addends, letters
+from freebody.check.language.statements import Equation, letters
 from freebody.check.vocabulary import Vocabulary
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, exchange, substitute, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, addends, exchange, substitute, walk
 
 Random = np.random.Generator
 _LONG = 40  # terms; brackets of more are not multiplied out

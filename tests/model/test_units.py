@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from freebody.model import syntax, units
 from freebody.model.errors import ModelProblem
-from freebody.model.units import Dimension
+from freebody.symbolic.dimensions import Dimension
 
 TABLE = {
     "400 mm": (0.4, "m"),

@@ -91,7 +91,9 @@ class Checker:
         try:
             return self._run, evaluate(name, {})
         except ModelProblem:
-            raise ModelProblem(f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`") from None
+            raise ModelProblem(
+                f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
+            ) from None
 
 
 def _in_figures(case: Case) -> Verdict | None:

@@ -118,7 +118,9 @@ class FittedEdits:
         if found is not None:
             number = recognised(found)
             if number == Num(-1.0):
-                new = required.node.of if isinstance(required.node, Negative) else Negative(required.node, span=required.node.span)
+                new = (
+                    required.node.of if isinstance(required.node, Negative) else Negative(required.node, span=required.node.span)
+                )
                 yield Edit("sign", required.node, new, exchange(equation, required.node, new))
             elif number is not None and number != Num(1.0):
                 new = multiplied(required.node, number)

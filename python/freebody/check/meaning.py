@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from freebody.model.errors import ModelProblem
-from freebody.model.units import Dimension
+from freebody.symbolic.dimensions import Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Sym, walk

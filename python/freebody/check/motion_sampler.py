@@ -13,8 +13,8 @@ import numpy as np
 from freebody.core import ModelError, MotionError, State
 from freebody.model.errors import ModelProblem
 from freebody.model.start import evaluate, initial_state
-from freebody.model.units import Dimension
 from freebody.run.records import Array
+from freebody.symbolic.dimensions import Dimension
 
 from .constrained_sampling import Loop
 from .families import ALL, Family, NoMotion, Sample, Samples

@@ -56,4 +56,6 @@ class _Rules:
                 return f"({self.of(left)}*{self.show(right)} + {self.show(left)}*{self.of(right)})"
             case Quotient(top, bottom):
                 return f"({self.of(top)}/{self.show(bottom)} - {self.show(top)}*{self.of(bottom)}/{self.show(bottom)}^2)"
-        raise ModelProblem(f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a letter for it, or write it out")
+        raise ModelProblem(
+            f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a letter for it, or write it out"
+        )

@@ -12,7 +12,7 @@ import numpy as np
 
 from freebody.core import CompiledModel, MotionError, State
 from freebody.model.start import Start, initial_state
-from freebody.model.units import Dimension
+from freebody.symbolic.dimensions import Dimension
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder

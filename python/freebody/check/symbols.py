@@ -12,8 +12,8 @@ from freebody.core import cards
 from freebody.model import meanings
 from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest, replace_names, spell
-from freebody.model.units import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.model.writer import Writer
+from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Sym, walk

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freebody.model.errors import ModelProblem
-from freebody.model.units import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
 
 from .rates import derivative
 

@@ -174,7 +174,9 @@ def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) ->
     if inside and min(correction.size for correction in inside) < least:
         return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
     true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
-    return Verdict(Kind.DIMENSIONS, text, reason, mends=tuple(correction for found in fixes.values() for correction in found), true=true)
+    return Verdict(
+        Kind.DIMENSIONS, text, reason, mends=tuple(correction for found in fixes.values() for correction in found), true=true
+    )
 
 
 def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, ...]:
@@ -182,7 +184,9 @@ def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, 
     other = replace(case, meaning=case.meaning.in_figures())
     if not all(other.meaning.fits(equation) for equation in equations):
         return ()
-    return tuple(correction for equation in equations if not _holds(other, equation) for correction in corrections(other, equation))
+    return tuple(
+        correction for equation in equations if not _holds(other, equation) for correction in corrections(other, equation)
+    )
 
 
 def _holds(case: Case, equation: Equation) -> bool:
@@ -220,14 +224,18 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     fixes = tuple(corrections(case, equation))
     if small := linearised(case, equation):
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
-    if not any(correction.is_slip and len(correction.edits) == 1 for correction in fixes) and (assumed := assumption(case, equation)):
+    if not any(correction.is_slip and len(correction.edits) == 1 for correction in fixes) and (
+        assumed := assumption(case, equation)
+    ):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         words, near = small
         fixes = tuple(replace(correction, given=words) for correction in corrections(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
-    return Verdict(Kind.WRONG, text, "wrong, and no single or double edit corrects it", evidence=seen, true=nearest(case, equation))
+    return Verdict(
+        Kind.WRONG, text, "wrong, and no single or double edit corrects it", evidence=seen, true=nearest(case, equation)
+    )
 
 
 def _looked_at_again(case: Case, equation: Equation) -> float:

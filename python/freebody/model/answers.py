@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from freebody.run.records import BEFORE, ReportItem
+from freebody.symbolic.dimensions import Dimension
 
 from . import start, units
 from .errors import ModelProblem, Path
 from .names import suggestion
 from .schema import EXTREMES, Question
-from .units import Dimension
 from .writer import Number, Writer
 
 _STATISTIC = re.compile(rf"\s*({'|'.join(EXTREMES)})\s+of\s+(.+)", re.DOTALL)

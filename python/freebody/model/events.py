@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from freebody.core import cards
+from freebody.symbolic.dimensions import TIME
 
 from . import syntax
 from .arithmetic import text
@@ -13,7 +14,6 @@ from .errors import ModelProblem, Path
 from .names import suggestion
 from .scope import Folder, Scope
 from .switches import Deeds, Event, listed
-from .units import TIME
 from .writer import Writer
 
 Spec = dict[str, Any]

@@ -9,6 +9,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from freebody.core import CompiledModel, ModelError, cards
+from freebody.symbolic.dimensions import TIME
 
 from . import elements, meanings, scope, units
 from .answers import AnswerWriter, Asked, Run
@@ -21,7 +22,6 @@ from .outlines import Outlines
 from .schema import Model, Motion
 from .scope import Folder, Places, Scope
 from .start import Start, StartWriter
-from .units import TIME
 from .writer import Writer
 
 Spec = dict[str, Any]

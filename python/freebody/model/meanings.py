@@ -6,13 +6,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from freebody.core import cards
+from freebody.symbolic.dimensions import Dimension
 
 from . import elements, guides, syntax
 from .errors import ModelProblem, Path
 from .names import TOKEN, fault, suggestion, unquote
 from .schema import Body
 from .scope import Scope, coordinate_names
-from .units import Dimension, unit
+from .units import unit
 
 SHAPE_POINTS = dict.fromkeys(("particle", "disk", "ring", "rectangle"), ("centre",)) | {"rod": ("start", "centre", "end")}
 EVERY_BODY = ("origin", "G")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
+from freebody.symbolic.dimensions import Dimension
+
 from . import syntax, units
 from .errors import Consequence, ModelProblem
 from .names import fault, suggestion
-from .units import Dimension
 
 Number = float | int | str
 
@@ -64,7 +65,9 @@ class Parameters:
         """The value of a whole number, for repetitions and indices. Raises ``ModelProblem``."""
         value = self.number(text)
         if not abs(value) <= 1e9 or value != round(value):
-            raise ModelProblem(f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers")
+            raise ModelProblem(
+                f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers"
+            )
         return round(value)
 
     def measured(self, text: Number) -> tuple[float, Dimension | None]:

@@ -9,13 +9,13 @@ from typing import Any, Protocol
 from pydantic import ValidationError
 
 from freebody.core import cards
+from freebody.symbolic.dimensions import Dimension
 
 from . import elements, reading
 from .errors import Consequence, ModelFileError, ModelProblem, Path, Problem, Where, path_text
 from .expand import Expansion, repeats
 from .parameters import Parameters
 from .schema import Model
-from .units import Dimension
 
 MAX_DEPTH = 16
 

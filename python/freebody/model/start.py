@@ -8,12 +8,13 @@ from typing import Any, TypedDict
 
 from numpy.typing import NDArray
 
+from freebody.symbolic.dimensions import TIME, Dimension
+
 from . import syntax, units
 from .errors import ModelProblem, Path
 from .meanings import Meanings
 from .names import suggestion
 from .schema import Initial
-from .units import TIME, Dimension
 from .writer import Number, Writer
 
 _SIGNS = {"positive": 1, "negative": -1}

@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
 from freebody import core
 from freebody.core import ExpressionError, cards
+from freebody.symbolic.dimensions import ALIKE, TIME, Dimension, Known, Rules, Shape
 from freebody.symbolic.evaluate import value as value_of
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Span, Sym, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Span, Sym, Unit, walk
 
 from . import units
 from .errors import ModelProblem
 from .names import suggestion
-from .units import ANGLE, NUMBER_ONLY, TIME, Dimension
 
-Lookup = Callable[[str], "Dimension | None"]
+Lookup = Callable[[str], Known]
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ class Expression:
 
     text: str
     tree: Node
-    numbers: Mapping[Span, Dimension | None]
+    numbers: Mapping[Span, Known]
 
     def show(self, tree: Node) -> str:
         """A part as it is written."""
@@ -97,119 +96,68 @@ def names(tree: Node) -> list[str]:
 
 # -- dimensions ----------------------------------------------------------------------------------
 
-# Functions of plain numbers, and functions whose arguments are all alike.
-_PLAIN_FUNCTIONS = {"exp", "ln", "sinh", "cosh", "tanh", "sin", "cos", "tan", "asin", "acos", "atan"}
-_ALIKE = {"min", "max", "hypot", "clamp", "abs"}
-FUNCTIONS = _PLAIN_FUNCTIONS | _ALIKE | set(cards.functions()) | {"sqrt", "atan2", "sign", "step", "if", "rate", "accel"}
+FUNCTIONS = {
+    *ALIKE,
+    *cards.functions(),
+    *["exp", "ln", "sinh", "cosh", "tanh", "sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "if", "rate", "accel"],
+}
 """All functions of the language; tables come on top."""
 COMPARISONS = {"<", "<=", ">", ">=", "==", "!="}
 CONSTANTS = {"pi", "t"}
 
 
-class Measure:
+class Measure(Rules):
     """The dimension of an expression. Bare numbers, and names that ``lookup`` gives as None, fit anywhere."""
 
     def __init__(self, expression: Expression, lookup: Lookup, tables: Callable[[str], bool] = lambda _: False) -> None:
         self.expression, self.lookup, self.tables = expression, lookup, tables
 
-    def of(self, tree: Node) -> Dimension | None:
-        """The dimension of a tree; None when it fits anywhere. Raises ``ModelProblem``."""
-        match tree:
-            case Num():
-                return self.expression.numbers[tree.span]
-            case Sym("pi"):
-                return None
-            case Sym(name):
-                return self.lookup(name)
-            case Negative(inner) | Fn("not", (inner,)):
-                return self.of(inner)
-            case Add(terms):
-                return self._same(terms)
-            case Mul((left, right)):
-                return _product(self.of(left), self.of(right), 1, right)
-            case Quotient(left, right):
-                return _product(self.of(left), self.of(right), -1, right)
-            case Pow(base, exponent):
-                return self._power(self.of(base), exponent)
-            case Fn(name, (left, right)) if name in COMPARISONS:
-                return self._same((left, right)) and None
-            case Fn("and" | "or", parts):
-                return [self.of(part) for part in parts] and None
-            case Fn(name, arguments):
-                return self._call(name, list(arguments))
-        raise AssertionError(tree)
+    def leaf(self, node: Num | Sym | Unit) -> Known:
+        if isinstance(node, Num):
+            return self.expression.numbers[node.span]
+        return None if node == Sym("pi") else self.lookup(node.name)
 
-    def _same(self, terms: Sequence[Node]) -> Dimension | None:
-        total = self.of(terms[0])
-        for term in terms[1:]:
-            total = self._alike(total, self.of(term), terms[0], term)
-        return total
+    def times(self, left: Shape, right: Shape, node: Node, power: int = 1) -> Shape:
+        """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides, a root and π do not (``m2/3``, ``a*sqrt(2)``)."""
+        plain = right is None and (_is_root_or_pi(node) or (power == -1 and _whole_number(node)))
+        return left if plain else super().times(left, right, node, power)
 
-    def _power(self, base: Dimension | None, exponent: Node) -> Dimension | None:
-        self._must_be_number(self.of(exponent), exponent, "an exponent")
-        try:
-            power = Fraction(evaluate(exponent, _no_name)).limit_denominator(12)
-        except (ModelProblem, ArithmeticError, ValueError):
-            if base is not None and not base.is_number:
-                raise ModelProblem(
-                    f"the exponent in `{self.expression.text}` must be a number, because its base is {base.words()}",
-                    "write the number itself",
-                ) from None
-            return base
-        return None if base is None else base.to_the(power)
+    def power(self, node: Pow) -> Shape:
+        self.must_be_number(node.exponent, node)
+        found, base = super().power(node), self.of(node.base)
+        if found is None and base is not None:
+            what = f"the exponent in `{self.expression.text}` must be a number, because its base is {base.words()}"
+            raise ModelProblem(what, "write the number itself")
+        return found
 
-    def _call(self, name: str, arguments: list[Node]) -> Dimension | None:
+    def call(self, node: Fn) -> Known:
+        name = node.name
         if name in cards.functions():
             return units.unit(cards.functions()[name].unit).dimension
-        if self.tables(name):
-            return [self.of(a) for a in arguments] and None
+        if name in COMPARISONS:
+            return self.agreed(node.args) and None
+        if name in ("and", "or", "not") or self.tables(name):
+            return [self.of(part) for part in node.args] and None
         if name not in FUNCTIONS:
             raise ModelProblem(f"no function is called `{name}`", suggestion(name, FUNCTIONS - set("xy")))
-        found = [self.of(a) for a in arguments]
-        first = found[0] if found else None
-        if name in ("rate", "accel"):
-            return None if first is None else first.times(TIME, -1 if name == "rate" else -2)
-        if name == "sqrt":
-            return None if first is None else first.to_the(Fraction(1, 2))
-        if name in _PLAIN_FUNCTIONS:
-            for dimension, argument in zip(found, arguments, strict=True):
-                self._must_be_number(dimension, argument, f"the argument of `{name}`")
-            return ANGLE if name.startswith("a") else NUMBER_ONLY
-        return self._mixed(name, found, arguments)
-
-    def _mixed(self, name: str, found: list[Dimension | None], arguments: list[Node]) -> Dimension | None:
         if name == "if":
-            found, arguments = found[1:], arguments[1:]
-        total = found[0] if found else None
-        for dimension, argument in zip(found[1:], arguments[1:], strict=True):
-            total = self._alike(total, dimension, arguments[0], argument)
-        if name == "atan2":
-            return ANGLE
-        return NUMBER_ONLY if name in ("sign", "step") else total
+            self.agreed(node.args[:1])
+            return self.agreed(node.args[1:])
+        if name in ("rate", "accel"):
+            inside = self.agreed(node.args[:1])
+            return None if inside is None else inside.times(TIME, -1 if name == "rate" else -2)
+        return super().call(node)
 
-    def _must_be_number(self, dimension: Dimension | None, tree: Node, what: str) -> None:
-        if dimension is not None and not dimension.is_number:
-            hint = "check the units of the parameters"
-            raise ModelProblem(
-                f"{what} must be an angle or a plain number; `{self.expression.show(tree)}` is {dimension.words()}", hint
-            )
+    def unlike(self, term: Node, its: Dimension, other: Node, others: Dimension) -> ModelProblem:
+        in_order = sorted(((term, its), (other, others)), key=lambda pair: pair[0].span)
+        both = " and ".join(f"`{self.expression.show(node)}` is {dimension.words()}" for node, dimension in in_order)
+        what = f"in `{self.expression.text}`, {both}: they cannot be added or compared"
+        return ModelProblem(what, "check the units of the parameters")
 
-    def _alike(self, a: Dimension | None, b: Dimension | None, left: Node, right: Node) -> Dimension | None:
-        if a is None or b is None:
-            return a if b is None else b
-        if a.fits(b):
-            return a
-        both = f"`{self.expression.show(left)}` is {a.words()} and `{self.expression.show(right)}` is {b.words()}"
-        raise ModelProblem(
-            f"in `{self.expression.text}`, {both}: they cannot be added or compared", "check the units of the parameters"
-        )
-
-
-def _product(a: Dimension | None, b: Dimension | None, power: int, right: Node) -> Dimension | None:
-    """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides, a root and π do not (``m2/3``, ``a*sqrt(2)``)."""
-    if b is None and (_is_root_or_pi(right) or (power == -1 and _whole_number(right))):
-        return a
-    return None if a is None or b is None else a.times(b, power)
+    def no_number(self, node: Node, its: Dimension, within: Fn | Pow) -> ModelProblem:
+        what = f"the argument of `{within.name}`" if isinstance(within, Fn) else "an exponent"
+        wrong = f"`{self.expression.show(node)}` is {its.words()}"
+        return ModelProblem(f"{what} must be an angle or a plain number; {wrong}", "check the units of the parameters")
 
 
 def _whole_number(tree: Node) -> bool:
@@ -223,10 +171,6 @@ def _is_root_or_pi(tree: Node) -> bool:
         case Fn("sqrt", (argument,)):
             return _whole_number(argument)
     return False
-
-
-def _no_name(name: str) -> float:
-    raise ModelProblem(f"`{name}` is no number")
 
 
 # -- values --------------------------------------------------------------------------------------

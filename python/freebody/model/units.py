@@ -12,85 +12,13 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from freebody.symbolic.dimensions import ANGLE, ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
+
 from .errors import ModelProblem
 from .names import NUMBER, TOKEN, nearest
 
 if TYPE_CHECKING:
     import pint
-
-
-class Dimension(NamedTuple):
-    """Powers of length, mass and time; ``angle`` only remembers that radians are meant."""
-
-    length: Fraction | int = 0
-    mass: Fraction | int = 0
-    time: Fraction | int = 0
-    angle: Fraction | int = 0
-
-    def times(self, other: Dimension, power: Fraction | int = 1) -> Dimension:
-        """The dimension of a product with a power of the other."""
-        return Dimension(*(a + power * b for a, b in zip(self, other, strict=True)))
-
-    def to_the(self, power: Fraction | int) -> Dimension:
-        """The dimension of a power."""
-        return Dimension(*(power * a for a in self))
-
-    def fits(self, other: Dimension) -> bool:
-        """Whether a sum of the two has a meaning; angles are numbers."""
-        return self[:3] == other[:3]
-
-    @property
-    def is_number(self) -> bool:
-        """Whether it is a plain number or an angle."""
-        return self.fits(NUMBER_ONLY)
-
-    def unit(self) -> str:
-        """Its SI unit as text, e.g. ``N/m``; empty for a plain number."""
-        plain = self._replace(angle=0)
-        if (known := _UNITS.get(plain)) is not None:
-            return (
-                f"rad{known}"
-                if self.angle == 1 and known in ("", "/s", "/s^2")
-                else known.replace("/s", "1/s", known.startswith("/"))
-            )
-        return _product(self)
-
-    def words(self) -> str:
-        """What it is, e.g. ``a force per length (N/m)``."""
-        name = _NAMES.get(self._replace(angle=0))
-        if self.is_number:
-            return "an angle (rad)" if self.angle else "a plain number"
-        return f"{name} ({self.unit()})" if name else f"in {self.unit()}"
-
-
-NUMBER_ONLY = Dimension()
-ANGLE = Dimension(angle=1)
-LENGTH, MASS, TIME = Dimension(1), Dimension(0, 1), Dimension(0, 0, 1)
-FORCE, ENERGY = Dimension(1, 1, -2), Dimension(2, 1, -2)
-
-_KNOWN = [
-    (NUMBER_ONLY, "", "a plain number"),
-    (LENGTH, "m", "a length"),
-    (MASS, "kg", "a mass"),
-    (TIME, "s", "a time"),
-    (FORCE, "N", "a force"),
-    (ENERGY, "N*m", "a torque or an energy"),
-    (Dimension(2, 1, -3), "W", "a power"),
-    (Dimension(0, 1, -2), "N/m", "a force per length"),
-    (Dimension(0, 1, -1), "N*s/m", "a force per speed"),
-    (Dimension(2, 1, -1), "N*m*s", "an angular momentum or a couple per turning rate"),
-    (Dimension(1, 1, -1), "N*s", "a momentum"),
-    (Dimension(2, 1), "kg*m^2", "a moment of inertia"),
-    (Dimension(2), "m^2", "an area"),
-    (Dimension(3), "m^3", "a volume"),
-    (Dimension(1, 0, -1), "m/s", "a speed"),
-    (Dimension(1, 0, -2), "m/s^2", "an acceleration"),
-    (Dimension(0, 0, -1), "/s", "a rate"),
-    (Dimension(0, 0, -2), "/s^2", "an angular acceleration"),
-    (Dimension(-1, 1, -2), "Pa", "a pressure"),
-]
-_UNITS = {dimension: text for dimension, text, _ in _KNOWN}
-_NAMES = {dimension: name for dimension, _, name in _KNOWN}
 
 
 class Unit(NamedTuple):
@@ -297,15 +225,6 @@ def _pieces(text: str) -> list[str] | None:
         pieces.append(found[1])
         at = found.end()
     return pieces
-
-
-def _product(dimension: Dimension) -> str:
-    powers = [(w, p) for w, p in zip(("m", "kg", "s"), dimension, strict=False) if p]
-    shown = [w if abs(p) == 1 else f"{w}^{abs(p)}" for w, p in powers]
-    over = [s for s, (_, p) in zip(shown, powers, strict=True) if p < 0]
-    above = [s for s, (_, p) in zip(shown, powers, strict=True) if p > 0]
-    below = "" if not over else f"/{over[0]}" if len(over) == 1 else f"/({'*'.join(over)})"
-    return ("*".join(above) or "1") + below
 
 
 class _Reader:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from freebody.core import cards
+from freebody.symbolic.dimensions import Dimension
 from freebody.symbolic.tree import Fn, Node, Sym, walk
 
 from . import syntax, units
@@ -15,7 +16,6 @@ from .meanings import Meanings
 from .names import TOKEN, replace_names, spell, suggestion, unquote
 from .scope import Scope
 from .switches import SurfaceShape
-from .units import Dimension
 from .values import Circle, Through
 
 Unit = str | Dimension | None

@@ -249,6 +249,27 @@ def substitute(tree: N, expressions: Mapping[Sym, Node]) -> N:
     return tree
 
 
+def addends(node: Node, expand: bool = False) -> list[tuple[int, Node]]:
+    """The signed terms of a sum, those of sums in it among them, zeros left out; ``expand`` multiplies brackets out."""
+    match node:
+        case Num(value=0):
+            return []
+        case Add(terms=inside):
+            return [found for term in inside for found in addends(term, expand)]
+        case Negative(of=of):
+            return [(-sign, term) for sign, term in addends(of, expand)]
+        case Quotient(top=top, bottom=bottom) if expand:
+            return [(sign, Quotient(term, bottom, span=term.span)) for sign, term in addends(top, expand)]
+        case Cross(left=a, right=b) | Dot(left=a, right=b) if expand:
+            return [(s * r, type(node)(x, y, span=node.span)) for s, x in addends(a, expand) for r, y in addends(b, expand)]
+        case Mul(factors=factors) if expand:
+            out: list[tuple[int, tuple[Node, ...]]] = [(1, ())]
+            for factor in factors:
+                out = [(s * r, (*done, term)) for s, done in out for r, term in addends(factor, expand)]
+            return [(sign, Mul(done, span=node.span)) for sign, done in out]
+    return [(1, node)]
+
+
 def canonical(tree: Node) -> Tree:
     """What a person wrote in numbers, sums, products and rational powers; vectors, matrices and units are none of these."""
     match tree:

@@ -4,21 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from freebody.symbolic.tree import (
-    Add,
-    Cross,
-    Dot,
-    Mul,
-    N,
-    Negative,
-    Node,
-    Num,
-    Quotient,
-    Sym,
-    exchange,
-    substitute,
-    walk,
-)
+from freebody.symbolic.tree import Mul, N, Node, Num, Quotient, Sym, addends, exchange, substitute, walk
 
 
 @dataclass(frozen=True)
@@ -115,24 +101,3 @@ def terms(equation: Equation, expand: bool = False) -> list[Term]:
     """
     left = [Term(sign, node, "left") for sign, node in addends(equation.left, expand)]
     return left + [Term(-sign, node, "right") for sign, node in addends(equation.right, expand)]
-
-
-def addends(node: Node, expand: bool = False) -> list[tuple[int, Node]]:
-    """The signed terms of a side, zeros left out."""
-    match node:
-        case Num(value=0):
-            return []
-        case Add(terms=inside):
-            return [found for term in inside for found in addends(term, expand)]
-        case Negative(of=of):
-            return [(-sign, term) for sign, term in addends(of, expand)]
-        case Quotient(top=top, bottom=bottom) if expand:
-            return [(sign, Quotient(term, bottom, span=term.span)) for sign, term in addends(top, expand)]
-        case Cross(left=a, right=b) | Dot(left=a, right=b) if expand:
-            return [(s * r, type(node)(x, y, span=node.span)) for s, x in addends(a, expand) for r, y in addends(b, expand)]
-        case Mul(factors=factors) if expand:
-            out: list[tuple[int, tuple[Node, ...]]] = [(1, ())]
-            for factor in factors:
-                out = [(s * r, (*done, term)) for s, done in out for r, term in addends(factor, expand)]
-            return [(sign, Mul(done, span=node.span)) for sign, done in out]
-    return [(1, node)]
