@@ -210,10 +210,10 @@ class Moving:
 
     def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
         """A labelled drawing of the mechanism at the start."""
-        from freebody.views.draw import LAYERS, drawing
+        from freebody.views.draw import drawing
 
         state, notes = self.start()
-        return drawing(self.source(notes), state, ax, LAYERS if layers is None else layers)
+        return drawing(self.source(notes), state, ax, layers)
 
     def diagram(
         self: Builder,

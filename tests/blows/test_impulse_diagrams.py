@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from freebody.cli import app
 from freebody.views.diagram.arrows import Arrow
 from freebody.views.diagram.impulses import impulse_diagram
-from freebody.views.diagram.layout import extent
+from freebody.views.labels import extent
 
 every_model = every(ALL, "name", share=2)
 

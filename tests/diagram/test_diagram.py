@@ -11,10 +11,10 @@ from typer.testing import CliRunner
 from freebody.cli import app
 from freebody.model import Mechanism
 from freebody.views.diagram.gallery import write_gallery
-from freebody.views.diagram.layout import Label, Obstacles, placed
 from freebody.views.diagram.names import letter
 from freebody.views.diagram.paper import round_below
 from freebody.views.diagram.rows import MARGIN
+from freebody.views.labels import Label, Obstacles, placed
 
 GUN = "systems/S19.17/model.yaml"
 TRACK = r"N_{\text{track}}"

@@ -16,7 +16,7 @@ from freebody.core import FreeBodies
 from freebody.equations import Letter, Letters, Sym, latex
 from freebody.solve.symbols import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
-from freebody.views.diagram.layout import AIR, extent
+from freebody.views.labels import AIR, extent
 from freebody.views.shapes import dense
 
 LONG_LETTERS = {"GEN-CAR/driveshaft": 95}  # mm; "pinion bearing" and "axle" at the two ends of the car, and three more between

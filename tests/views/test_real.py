@@ -10,11 +10,10 @@ from matplotlib.axes import Axes
 
 from freebody.model import Mechanism
 from freebody.run.simulation import Run
-from freebody.views import plots
-from freebody.views.labels import Label, place_labels
+from freebody.views import plots, shapes
+from freebody.views.labels import Label, Obstacles, placed
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html
-from freebody.views.style import axes
 
 matplotlib.use("Agg")
 
@@ -60,12 +59,15 @@ def test_the_drawing_shows_the_whole_mechanism(mechanism):
 
 
 def test_a_label_keeps_off_narrow_places_between_lines():
-    ax = axes(None)
-    ax.set(xlim=(0, 8), ylim=(0, 6))
-    along = np.linspace(0, 8, 400)
-    lines = [np.stack([along, np.full(400, y)], axis=1) for y in (2.84, 3.16)]
-    place_labels(ax, [Label("C", np.array([4.0, 3.0]))], np.vstack(lines))
-    assert abs(ax.texts[0].get_position()[1] - 3.0) > 0.16
+    lines = shapes.dense([np.array([[-200.0, y], [200.0, y]]) for y in (-6.0, 6.0)])
+    [label] = placed([Label("C", np.zeros((1, 2)))], Obstacles.of((lines, 8.0)))
+    assert abs(label.centre[1]) > 6.0 + label.half[1]
+
+
+def test_a_label_stays_within_the_frame():
+    frame = np.array([[0.0, 0.0], [100.0, 50.0]])
+    for label in placed([Label("a long label", np.array([[98.0, 49.0]]))], Obstacles.of((frame, 1.0)), frame):
+        assert (label.centre - label.half >= frame[0]).all() and (label.centre + label.half <= frame[1]).all()
 
 
 def test_what_rounding_left_of_a_couple_is_not_shown():

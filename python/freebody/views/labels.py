@@ -1,78 +1,152 @@
-"""Labels that keep off each other and off the drawing: greedy placement on the finished axes."""
+"""Labels on paper that keep off each other: a few places to choose from for each, the cheapest set found by going over all
+labels again and again. All lengths in pt; the same input gives the same places."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.run.records import Array
-from freebody.views.style import INK
+from freebody.core import Array
+from freebody.views.style import INK, quiet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-_DIRECTIONS = np.linspace(0, 2 * np.pi, 16, endpoint=False) + np.pi / 4
-_DISTANCES = (9.0, 18.0, 30.0, 46.0, 66.0)  # px at 100 dpi
-_AIR = 4.0  # px at 100 dpi of free room that a label likes around it
+AIR = 2.0  # pt about a label
+_FINE = 4  # text is measured on a grid this much finer than a point
+_DIRECTIONS = np.linspace(0, 2 * np.pi, 16, endpoint=False)
+_DISTANCES = (3.0, 7.0, 13.0, 22.0, 34.0, 48.0)
+_LED = 14.0  # pt from which a thin line leads to what is labelled
+_ALONG = np.linspace(0.1, 1.0, 8)  # of a leader, where it is looked at
+_CROSSED = 1e3  # what a leader through a label costs
+_OUTSIDE = 60.0  # what a pt beyond the frame costs
+_SWEEPS = 6
 
 
 @dataclass(frozen=True)
 class Label:
-    """A text to be put near an anchor (2,) in data coordinates."""
+    """A text (mathtext, or plain) wanted near one of some anchors (k, 2), of which an earlier one is better."""
 
     text: str
-    anchor: Array
-    colour: str = INK
+    anchors: Array
     size: float = 9.0
+    colour: str = INK
     bold: bool = False
 
 
-def place_labels(ax: Axes, labels: Sequence[Label], ink: Array) -> None:
-    """Put every label at the best free place near its anchor; ``ink`` (k, 2) are drawn places to keep off, in data."""
-    figure = ax.figure
-    figure.canvas.draw()
-    drawn = ax.transData.transform(ink)
-    frame = ax.get_window_extent()
-    taken: list[Array] = []
-    for label in labels:
-        x, y = label.anchor
-        text = ax.text(x, y, label.text, color=label.colour, fontsize=label.size, ha="center", va="center",
-                       fontweight="bold" if label.bold else "normal", zorder=5)  # fmt: skip
-        extent = text.get_window_extent()
-        half = np.array([extent.width, extent.height]) / 2 + 1.5
-        anchor = ax.transData.transform(label.anchor)
-        centre, distance = _best(anchor, half, drawn, taken, (frame.x0, frame.x1, frame.y0, frame.y1), figure.dpi / 100)
-        taken.append(np.array([centre - half, centre + half]))
-        text.set_position(tuple(ax.transData.inverted().transform(centre)))
-        if distance > 24 * figure.dpi / 100:
-            _leader(ax, anchor, centre, half, label.colour)
+@dataclass(frozen=True)
+class Placed:
+    """A label with its place: centre, half extents, and a leader (2, 2) from its anchor where it is far from it."""
+
+    label: Label
+    centre: Array
+    half: Array
+    leader: Array | None = None
 
 
-def _best(
-    anchor: Array, half: Array, drawn: Array, taken: Sequence[Array], frame: tuple[float, float, float, float], scale: float
-) -> tuple[Array, float]:
-    """The cheapest centre for a box of half sizes, in pixels, and how far it is from the anchor."""
-    choices = []
-    for distance in _DISTANCES:
-        for angle in _DIRECTIONS:
-            way = np.array([np.cos(angle), np.sin(angle)])
-            centre = anchor + way * (distance * scale + np.abs(way) @ half * 0.9)
-            low, high = centre - half, centre + half
-            overlap = sum(np.prod(np.clip(np.minimum(high, b) - np.maximum(low, a), 0, None)) for a, b in taken)
-            covered, close = (np.all((drawn > low - room) & (drawn < high + room), axis=1).sum() for room in (0.0, _AIR * scale))
-            outside = np.clip([frame[0] - low[0], high[0] - frame[1], frame[2] - low[1], high[1] - frame[3]], 0, None).sum()
-            cost = 40 * overlap + 20 * covered + 5 * close + 60 * outside + distance
-            choices.append((cost, distance * scale, centre))
-    _, distance, centre = min(choices, key=lambda choice: choice[0])
-    return centre, distance
+@dataclass(frozen=True)
+class Obstacles:
+    """Drawn places (k, 2) and how bad it is to write over each (k,)."""
+
+    places: Array
+    weights: Array
+
+    @classmethod
+    def of(cls, *layers: tuple[Array, float]) -> Obstacles:
+        """Layers of places with a weight each."""
+        return cls(np.vstack([places for places, _ in layers]), np.concatenate([np.full(len(p), w) for p, w in layers]))
 
 
-def _leader(ax: Axes, anchor: Array, centre: Array, half: Array, colour: str) -> None:
-    """A thin line from the anchor to the edge of the label."""
-    way = centre - anchor
-    stop = centre - way * min(1.0, float(np.min(half / np.maximum(np.abs(way), 1e-9))))
-    ends = ax.transData.inverted().transform([anchor, stop])
-    ax.plot(*ends.T, color=colour, lw=0.7, alpha=0.7, zorder=4)
+@dataclass(frozen=True)
+class _Choice:
+    """Where a label of some half extents may go: centres (k, 2), leaders (k, 2, 2), NaN where none is needed, and places (k, n, 2)
+    along them; what each costs (k,) without the other labels."""
+
+    half: Array
+    centres: Array
+    leaders: Array
+    along: Array
+    cost: Array
+
+
+def placed(labels: Sequence[Label], obstacles: Obstacles, frame: Array | None = None) -> list[Placed]:
+    """Places for all labels, which should stay within a ``frame``, its lower left and upper right corner, if there is one."""
+    choices = [_choice(label, obstacles, frame) for label in labels]
+    chosen = [-1] * len(labels)
+    order = sorted(range(len(labels)), key=lambda i: -float(np.prod(choices[i].half)))
+    for _ in range(_SWEEPS):
+        before = list(chosen)
+        for i in order:
+            mine, cost = choices[i], choices[i].cost.copy()
+            for j, at in enumerate(chosen):
+                if j != i and at >= 0:
+                    other, centre = choices[j], choices[j].centres[at]
+                    shared = np.prod(np.clip(mine.half + other.half - np.abs(mine.centres - centre), 0, None), axis=1)
+                    cost += 1e3 * shared
+                    cost += _CROSSED * (np.abs(mine.along - centre) < other.half).all(axis=2).any(axis=1)
+                    cost += _CROSSED * (np.abs(mine.centres[:, None] - other.along[at]) < mine.half).all(axis=2).any(axis=1)
+            chosen[i] = int(np.argmin(cost))
+        if chosen == before:
+            break
+    found = [(label, c.centres[i], c.half, c.leaders[i]) for label, c, i in zip(labels, choices, chosen, strict=True)]
+    return [Placed(*place, None if np.isnan(leader).any() else leader) for *place, leader in found]
+
+
+def _choice(label: Label, obstacles: Obstacles, frame: Array | None) -> _Choice:
+    """Places all about each anchor. They cost by their distance, by the rank of their anchor and by what they cover."""
+    half = extent(label.text, label.size, label.bold) / 2 + AIR
+    ways = np.column_stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)])
+    reach = np.minimum(np.min(half / np.maximum(np.abs(ways), 1e-9), axis=1), np.hypot(*half))
+    away = np.add.outer(np.array(_DISTANCES) - AIR, reach)[..., None] * ways
+    centres = (label.anchors[:, None, None] + away).reshape(-1, 2)
+    anchors = np.repeat(label.anchors, away.shape[0] * away.shape[1], axis=0)
+    near = np.add.outer(2.5 * np.arange(len(label.anchors)), np.repeat(_DISTANCES, len(ways))).ravel()
+
+    reached = (np.abs(obstacles.places - centres.mean(axis=0)) < half + np.ptp(centres, axis=0)).all(axis=1)
+    (x, y), weights = obstacles.places[reached].T, obstacles.weights[reached]
+    over = (np.abs(np.subtract.outer(centres[:, 0], x)) < half[0]) & (np.abs(np.subtract.outer(centres[:, 1], y)) < half[1])
+    cost = over @ weights + near
+    if frame is not None:
+        cost += _OUTSIDE * np.clip([frame[0] - centres + half, centres + half - frame[1]], 0, None).sum(axis=(0, 2))
+
+    to = centres - anchors
+    edges = centres - to * np.minimum(1.0, np.min(half / np.maximum(np.abs(to), 1e-9), axis=1))[:, None]
+    leaders = np.stack([anchors, edges], axis=1)
+    leaders[np.hypot(*(edges - anchors).T) <= _LED] = np.nan
+    along = leaders[:, :1] + _ALONG[:, None] * (leaders[:, 1:] - leaders[:, :1])
+    return _Choice(half, centres, leaders, along, cost)
+
+
+def write(ax: Axes, labels: Sequence[Placed], to_data: Callable[[Array], Array]) -> None:
+    """Labels and their leaders on axes; ``to_data`` takes places (…, 2) on paper to those of the axes."""
+    for each in labels:
+        label = each.label
+        if each.leader is not None:
+            ax.plot(*to_data(each.leader).T, color=label.colour, lw=0.5, zorder=4.5)
+        ax.text(*to_data(each.centre), label.text, fontsize=label.size, color=label.colour, ha="center", va="center",
+                fontweight="bold" if label.bold else "normal", zorder=6, label="label")  # fmt: skip
+
+
+@lru_cache(maxsize=4096)
+def extent(text: str, size: float, bold: bool = False) -> Array:
+    """Width and height of a text as it will be printed, (2,)."""
+    with quiet():
+        drawn = _sheet().text(0, 0, text, fontsize=size, fontweight="bold" if bold else "normal")
+        box = drawn.get_window_extent()
+        drawn.remove()
+    return np.array([box.width, box.height]) / _FINE
+
+
+@lru_cache(maxsize=1)
+def _sheet() -> Figure:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(dpi=72 * _FINE)
+    FigureCanvasAgg(figure)
+    return figure

@@ -60,6 +60,18 @@ class Scene:
         left = np.array([a[1] - b[1], b[0] - a[0]]) / length
         return [a + line[:, :1] * (b - a) + line[:, 1:] * left for line in pair.lines]
 
+    def lines(self, frame: int = 0) -> list[Array]:
+        """Everything that is drawn at a time, as polylines in the fixed axes; of a small solid mass, the inside as well."""
+        found = [line for pair in self.pairs for line in self.pair_lines(pair, frame)]
+        found += [cord.path[frame] for cord in self.cords if cord.shown[frame]]
+        for i, figure in enumerate(self.figures):
+            for stroke in (s for s in figure.strokes if s.is_there(frame)):
+                points = self.place(i, stroke.points, frame)
+                line = np.vstack([points, points[:1]]) if stroke.closed else points
+                middle = line.mean(axis=0)
+                found += [middle + part * (line - middle) for part in ((1.0, 0.7, 0.4) if stroke.style == "mass" else (1.0,))]
+        return found
+
     def points(self) -> dict[str, tuple[int, tuple[float, float]]]:
         """Named points: figure and place in its frame."""
         return {name: (i, at) for i, figure in enumerate(self.figures) for name, at in figure.points.items()}
@@ -67,10 +79,7 @@ class Scene:
     def bounds(self) -> tuple[float, float, float, float]:
         """x from, x to, y from, y to: a box about everything that is drawn at any time."""
         frames = np.unique(np.linspace(0, len(self.t) - 1, 80).astype(int))
-        seen = [self.place(i, s.points, k) for k in frames for i, f in enumerate(self.figures) for s in f.strokes]
-        seen += [line for k in frames for pair in self.pairs for line in self.pair_lines(pair, k)]
-        seen += [cord.path[k] for k in frames for cord in self.cords if cord.shown[k]]
-        everything = np.vstack(seen or [np.zeros((1, 2))])
+        everything = np.vstack([line for k in frames for line in self.lines(k)] or [np.zeros((1, 2))])
         (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
         return float(x0), float(x1), float(y0), float(y1)
 
@@ -109,7 +118,9 @@ class Scene:
                 for c in self.cords
             ],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
-            "flashes": [{"t": marker.t, "rays": marker.rays(self.spark).round(digits).tolist()} for marker in self.impact_markers],
+            "flashes": [
+                {"t": marker.t, "rays": marker.rays(self.spark).round(digits).tolist()} for marker in self.impact_markers
+            ],
             "lasting": LASTING,
         }
 

@@ -179,7 +179,9 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow
                 start = gap + turn * _OPEN / 2
                 line = shapes.arc(place, radius, start, start + turn * (2 * np.pi - _OPEN))
                 covered = (
-                    5.0 * _near(line[::2], others, 3.5) + 1.0 * _near(line[::2], obstacles, 2.5) + 12.0 * _near(line[-2:], others, 7.0)
+                    5.0 * _near(line[::2], others, 3.5)
+                    + 1.0 * _near(line[::2], obstacles, 2.5)
+                    + 12.0 * _near(line[-2:], others, 7.0)
                 )
                 cost = covered + 5.0 * rank + 0.6 * radius
                 if best is None or cost < best[0]:

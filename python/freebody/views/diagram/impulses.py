@@ -72,7 +72,9 @@ def impulse_diagram(
     touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
     builder = DiagramBuilder(source, impact.state, touched, touched, _Jumps(ImpulseNaming.of(impact)), scaled, effective, column)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(f"impulse diagrams of {source.name}", tuple(_with_absent(builder.cut(group), impact) for group in chosen), free)
+    return Diagram(
+        f"impulse diagrams of {source.name}", tuple(_with_absent(builder.cut(group), impact) for group in chosen), free
+    )
 
 
 def _still(body: Body) -> Body:

@@ -14,7 +14,7 @@ from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.names import letter
-from freebody.views.draw import UNTOLD
+from freebody.views.draw import UNNAMED
 
 _EM = 10.0  # pt, of a formula below a diagram
 _LEAST = 12.0  # em of a line
@@ -109,7 +109,7 @@ class Laws:
     def _end(self, point: str) -> str:
         """The letter of a point; of a particle it is that of its body."""
         body, _, last = point.rpartition(".")
-        if last not in UNTOLD:
+        if last not in UNNAMED:
             return letter(last)
         return letter(body if self.free.bodies[body].particle else f"{body}_{last}")
 

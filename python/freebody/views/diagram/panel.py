@@ -11,8 +11,8 @@ import numpy as np
 from freebody.run.records import Array
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import Arrow, Mark, lines
-from freebody.views.diagram.layout import Label, Obstacles, Placed, placed
 from freebody.views.diagram.scenery import Scenery
+from freebody.views.labels import Label, Obstacles, Placed, placed
 from freebody.views.shapes import dense
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK

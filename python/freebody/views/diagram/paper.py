@@ -11,6 +11,7 @@ from freebody.run.records import Array
 from freebody.views.diagram.arrows import CoupleArrow
 from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone
 from freebody.views.diagram.rows import LINE, MARGIN, NOTE, TITLE, Laid, Row, laid
+from freebody.views.labels import write
 from freebody.views.render import patch
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK, PAPER, quiet
@@ -93,17 +94,9 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
             ax.plot(*(tag.at + shift), "o", ms=2.6, color=INK, zorder=4)
     for mark in panel.marks:
         _arrow(ax, mark.line + shift, tone(mark.action), 1.3 if isinstance(mark, CoupleArrow) else 1.6, 9.0)
-    for label in panel.labels:
-        if label.leader is not None:
-            ax.plot(*(label.leader + shift).T, color=label.label.colour, lw=0.5, zorder=4.5)
-        _write(ax, label.label.text, label.centre + shift, label.label.size, label.label.colour, label.label.bold)
+    write(ax, panel.labels, lambda at: at + shift)
     if panel.axes is not None:
         _axes(ax, panel.axes + shift)
-
-
-def _write(ax: Axes, text: str, at: Array, size: float, colour: str, bold: bool = False) -> None:
-    weight = "bold" if bold else "normal"
-    ax.text(*at, text, fontsize=size, color=colour, fontweight=weight, ha="center", va="center", zorder=6, label="label")
 
 
 def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> None:
@@ -122,7 +115,8 @@ def _length(line: Array) -> float:
 def _axes(ax: Axes, corner: Array) -> None:
     for way, text in ((np.array([1.0, 0.0]), "$x$"), (np.array([0.0, 1.0]), "$y$")):
         _arrow(ax, np.array([corner, corner + AXES * way]), GREY, 1.0, 7.0)
-        _write(ax, text, corner + (AXES + 7.0) * way, 9.0, GREY)
+        at = corner + (AXES + 7.0) * way
+        ax.text(*at, text, fontsize=9.0, color=GREY, ha="center", va="center", zorder=6, label="label")
 
 
 def _scale(ax: Axes, per_newton: float, unit: str, corner: Array) -> None:

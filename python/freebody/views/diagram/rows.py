@@ -10,8 +10,8 @@ from textwrap import wrap
 import numpy as np
 
 from freebody.run.records import Array
-from freebody.views.diagram.layout import extent
 from freebody.views.diagram.panel import Panel
+from freebody.views.labels import extent
 
 COLUMN = 453.0  # pt, 160 mm: the text of a page
 MARGIN, HEAD, LINE = 8.0, 20.0, 13.0

@@ -16,7 +16,7 @@ from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.dimension_lines import DimensionLine, dimension_lines
-from freebody.views.draw import UNTOLD
+from freebody.views.draw import UNNAMED
 from freebody.views.scene import Scene, drawn
 from freebody.views.sketch import Sketch, sketch_of_state
 from freebody.views.style import GROUND as GREY
@@ -244,7 +244,7 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
     for name, (body, _) in sketch.at.items():
         last, place = name.rpartition(".")[2], scale * sketch.place(name)
         seen = any(np.hypot(*(tag.at - place)) < 1.0 for tag in tags)
-        if body in group and last not in UNTOLD and not seen:
+        if body in group and last not in UNNAMED and not seen:
             tags.append(Tag(letter(last), place))
     particles = {body["name"] for body in sketch.spec["bodies"] if body["particle"]}
     if len(group) == 1 and not particles & set(group):
