@@ -34,6 +34,38 @@ def topics() -> str:
     return _table(("form", "what it derives", "options"), ((f"`{name}`", *described(name)) for name in TOPICS))
 
 
+def functions() -> str:
+    """What can be read by a function."""
+    rows = []
+    for function in cards.functions().values():
+        arguments = ("PQ"[i] if kind == "point" else kind.upper() for i, kind in enumerate(function.takes))
+        shown = f"`{function.word}({', '.join(arguments)})`" + f", `{function.word}()`" * function.optional
+        rows.append((function.reach, shown, function.doc, function.unit))
+    return _table(("reads a", "function", "value", "unit"), rows)
+
+
+def readings() -> str:
+    """What can be read of a part of the model by a word behind its name."""
+    owners = {"joint": "JOINT", "motion": "MOTION", "force": "FORCE", "limit": "contact, string, stop"}
+    rows = ((owners[kind], "; ".join(f"`.{word}` {doc}" for word, doc in words)) for kind, words in cards.phrases().items())
+    return _table(("of", "word"), rows)
+
+
+def methods() -> str:
+    """The integrators."""
+    rows = (
+        (
+            f"`{m.name}`",
+            str(m.order),
+            "fixed, `step`" if m.fixed_step else "adaptive",
+            "conservative trees" * m.symplectic,
+            m.citation,
+        )
+        for m in cards.methods().values()
+    )
+    return _table(("method", "order", "step", "only", "source"), rows)
+
+
 def _word(card: cards.Card) -> str:
     return f"`{card.type}`: {card.doc[0].lower()}{card.doc[1:].rstrip('.')}"
 
@@ -57,7 +89,7 @@ def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     return "".join([made[0], "|---" * len(heads) + "|\n", *made[1:]])
 
 
-TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in (joints, forces, topics)}
+TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in (joints, forces, functions, readings, methods, topics)}
 
 
 def written(text: str) -> str:

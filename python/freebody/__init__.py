@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 _HOMES = {
     "ExpressionError": "core",
     "Indeterminate": "core",
-    "Instant": "instant",
+    "Instant": "solve.instant",
     "Mechanism": "model",
     "ModelError": "core",
     "ModelFileError": "model",
     "MotionError": "core",
-    "Run": "run",
-    "compare": "compare",
+    "Run": "run.simulation",
+    "compare": "run.compare",
 }
 
 __all__ = [

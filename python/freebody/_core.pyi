@@ -15,7 +15,7 @@ def parse(text: str) -> dict[str, Any]:
     """The syntax tree of an expression (see crates/freebody/src/expr/ast.rs). Raises ExpressionError."""
 
 def cards() -> dict[str, Any]:
-    """``{"joints": [card], "forces": [card], "shapes": [card]}``.
+    """``{"joints": [card], "forces": [card], "shapes": [card], "functions", "readings", "phrases", "methods"}``.
 
     card = ``{"type", "doc", "fields": [{"name", "kind", "dimension", "default", "doc"}], "coordinates": [{"name", "dimension"}]}``.
     ``kind`` is one of point, points, line, circle, curve, body, number, numbers, law (an expression of time and
@@ -66,7 +66,7 @@ class Mechanism:
         self,
         state: State,
         until: float,
-        method: str = "dop853",
+        method: str = ...,
         rtol: float = 1e-9,
         step: float | None = None,
         max_step: float | None = None,

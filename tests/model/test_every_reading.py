@@ -78,3 +78,16 @@ def test_readings_grow_as_their_units_say():
         dimension = units.unit(unit).dimension
         factor = math.prod(float(scale) ** float(power) for scale, power in zip(SCALES, dimension[:3], strict=True))
         assert then[text] == pytest.approx(factor * now[text], rel=1e-9, abs=1e-9 * factor, nan_ok=True), f"{text} in {unit}"
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_curvature_is_that_of_the_curve_however_one_moves_on_it(sense):
+    """y″/(1 + y′²)^(3/2) of y = 0.4 x² + 0.1 x, to the left as one goes to the right."""
+    m = fb.Mechanism(gravity=9.81)
+    m.ground.curve("bowl", x="s", y="0.4*s^2 + 0.1*s")
+    m.body("ball", shape="particle", mass=1)
+    m.curved_slot(along="ground.bowl", point="ball.centre", coordinate="s")
+    m.initial(s=0.3, rates={"s": 2 * sense})
+    run = m.simulate(0.1)
+    expected = sense * 0.8 / (1 + (0.8 * run["s"] + 0.1) ** 2) ** 1.5
+    assert run["curvature(ball.centre)"] == pytest.approx(expected, rel=1e-9)

@@ -158,7 +158,7 @@ impl Mechanism {
         array(py, freebody::hybrid::mass_matrix(&m, p, q), [m.freedom(), m.freedom()])
     }
 
-    #[pyo3(signature = (state, until, method="dop853", rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop", after=None))]
+    #[pyo3(signature = (state, until, method=freebody::motion::METHODS[0].name, rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop", after=None))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,

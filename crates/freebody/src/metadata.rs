@@ -1,15 +1,16 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
 use crate::bound_values::BoundValues;
-use crate::builder::readings::{units, units_of_force, units_of_joint, ACTING, FUNCTIONS, LIMIT, MOTION};
+use crate::builder::readings::{phrases, units, units_of_force, units_of_joint, ACTING, FUNCTIONS, LIMIT, MOTION};
 use crate::compile::coupling_card;
 use crate::dynamics::{Count, Source};
 use crate::joints::{Card, Joint as _, Kind};
 use crate::mechanism::{Drive, DriveKind, FrictionSource, Gap, Group, Joint, Level, Mechanism, Part};
 use crate::mode::Mode;
+use crate::motion::{Method, METHODS};
 use serde_json::{json, Map, Value};
 
-/// What the language has: the cards of joints, forces and shapes, and what can be read of a mechanism.
+/// What the language has: the cards of joints, forces and shapes, what can be read of a mechanism, and the integrators.
 pub fn cards() -> Value {
     let joint = |card: Card| {
         let readings = if card.word == coupling_card().word { units(MOTION, None) } else { units_of_joint(&card) };
@@ -18,12 +19,20 @@ pub fn cards() -> Value {
     let force = |card: Card| json!({"readings": units_of_force(&card), "card": card});
     let shapes = crate::shapes::SHAPES.iter().map(|(word, _, sizes)| json!({"type": word, "sizes": sizes}));
     let limit = |unit| units(LIMIT, unit);
+    let method = |m: &Method| {
+        json!({
+            "name": m.name, "order": m.order, "fixed_step": m.estimate_order.is_none(), "symplectic": m.symplectic,
+            "citation": m.citation,
+        })
+    };
     json!({
         "joints": Kind::ALL.iter().map(|k| k.card()).chain([coupling_card()]).map(joint).collect::<Vec<_>>(),
         "forces": crate::forces::ALL.iter().map(|f| force(f.card())).collect::<Vec<_>>(),
         "shapes": shapes.collect::<Vec<_>>(),
         "functions": FUNCTIONS,
         "readings": {"motion": units(MOTION, None), "contact": limit(Some("m")), "string": limit(Some("m")), "stop": limit(None)},
+        "phrases": phrases(),
+        "methods": METHODS.map(method),
     })
 }
 

@@ -108,19 +108,42 @@ class Card:
 @dataclass(frozen=True)
 class Function:
     """A function that reads the mechanism: what its arguments name (point, line, body or string), whether they may be left out,
-    the SI unit of its value."""
+    the SI unit of its value; ``reach``: whether it reads a configuration, a motion or an instant."""
 
     word: str
     takes: tuple[str, ...]
     optional: bool
     unit: str
     doc: str
+    reach: str
+
+
+@dataclass(frozen=True)
+class Method:
+    """An integrator: its order; ``fixed_step``: it needs a step; ``symplectic``: it needs a conservative tree."""
+
+    name: str
+    order: int
+    fixed_step: bool
+    symplectic: bool
+    citation: str
+
+
+@cache
+def methods() -> dict[str, Method]:
+    """The integrators by their names; the first is the default."""
+    return {each["name"]: Method(**each) for each in _declared()["methods"]}
 
 
 @cache
 def functions() -> dict[str, Function]:
     """The functions that read the mechanism, by their words."""
     return {each["word"]: Function(**(each | {"takes": tuple(each["takes"])})) for each in _declared()["functions"]}
+
+
+def phrases() -> dict[str, list[tuple[str, str]]]:
+    """What an expression reads of a joint, motion, force, and of a contact, string or stop (``limit``): words, each with a phrase."""
+    return _declared()["phrases"]
 
 
 @cache

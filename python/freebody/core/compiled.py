@@ -9,6 +9,7 @@ from typing import Any
 
 from freebody import _core
 
+from .cards import methods
 from .free_bodies import FreeBodies
 from .motion import Trajectory
 from .solution import Solution, SymbolicAnswers
@@ -24,7 +25,7 @@ class Settings:
     of impacts and of friction that jams."""
 
     until: float
-    method: str = "dop853"
+    method: str = next(iter(methods()))
     rtol: float = 1e-9
     step: float | None = None
     max_step: float | None = None

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from freebody.core import cards
 from freebody.run.records import BEFORE, ReportItem
 from freebody.symbolic.dimensions import Dimension
 
@@ -46,7 +47,7 @@ class Run:
     """Settings of a run, None where the model does not say; before parameters are known some may be expressions of them."""
 
     until: Number | None = None
-    method: str = "dop853"
+    method: str = next(iter(cards.methods()))
     rtol: Number = 1e-9
     every: Number | None = None
     max_step: Number | None = None
@@ -80,8 +81,9 @@ class AnswerWriter:
         units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
         given = {n: getattr(run, n) for n in units_of if getattr(run, n) is not None}
         found: dict[str, Any] = {n: self.write.number(("run", n), v, units_of[n], f"`{n}`") for n, v in given.items()}
-        if run.method == "rk4" and run.step is None:
-            self.write.scope.complain(("run", "method"), "`rk4` needs a fixed step", "add `step: 1 ms`, or choose `dop853`")
+        if cards.methods()[run.method].fixed_step and run.step is None:
+            hint = f"add `step: 1 ms`, or choose `{Run.method}`"
+            self.write.scope.complain(("run", "method"), f"`{run.method}` needs a fixed step", hint)
         return Run(method=run.method, impacts=run.impacts, painleve=run.painleve, **found)
 
     def report(self) -> list[Asked]:

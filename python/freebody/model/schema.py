@@ -10,6 +10,8 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field, model_validator
 
+from freebody.core import cards
+
 from .elements import Force, Joint
 from .switches import Contact, Event, Stop, String
 from .values import (
@@ -211,7 +213,7 @@ class Run(Section):
     """How far and how the motion is computed."""
 
     until: Time = Field(None, description="Time of the end.")
-    method: Literal["dop853", "tsit5", "radau", "gauss6", "rk4"] = "dop853"
+    method: Literal[tuple(cards.methods())] = next(iter(cards.methods()))
     rtol: Number = Field(1e-9, description="Relative tolerance.")
     every: Time = Field(None, description="Time between rows of the output.")
     max_step: Time = Field(None, description="Longest step.")

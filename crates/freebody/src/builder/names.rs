@@ -6,6 +6,7 @@ use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message}
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Joint as _, Kind};
 use crate::mechanism::Marker;
+use serde::Serialize;
 use std::collections::HashMap;
 
 /// All names of a model.
@@ -38,7 +39,8 @@ pub struct Names {
 }
 
 /// How much an expression may read; each level includes those before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Reach {
     /// Parameters.
     Numbers,

@@ -37,7 +37,6 @@ pub struct Function {
     /// One phrase.
     pub doc: &'static str,
     /// What must be known before it can be read.
-    #[serde(skip)]
     pub reach: Reach,
     /// Its value.
     #[serde(skip)]
@@ -119,6 +118,18 @@ pub const FUNCTIONS: &[Function] = &[
     of("ax", &[Point], "m/s^2", Instant, |s, a| Ok(accel(s.x(&a[0])?)), "acceleration of a point along x"),
     of("ay", &[Point], "m/s^2", Instant, |s, a| Ok(accel(s.y(&a[0])?)), "acceleration of a point along y"),
     of("alpha", &[Body], "rad/s^2", Instant, |s, a| Ok(accel(s.angle(&a[0])?)), "angular acceleration of a body"),
+    of(
+        "curvature",
+        &[Point],
+        "1/m",
+        Instant,
+        |s, a| {
+            let (x, y) = (s.x(&a[0])?, s.y(&a[0])?);
+            let (vx, vy) = (rate(x.clone()), rate(y.clone()));
+            Ok((vx.clone() * accel(y) - vy.clone() * accel(x)) / vx.hypot(vy).powi(3))
+        },
+        "curvature of the path of a point, positive where it turns to the left; none at rest",
+    ),
     Function {
         takes: &[Body],
         optional: true,
@@ -207,56 +218,74 @@ pub struct Answer {
     pub unit: Unit,
     /// What it reads of the part of a number.
     pub read: fn(usize) -> Reading,
+    /// One phrase.
+    pub doc: &'static str,
 }
 
-const fn answer(word: &'static str, unit: Unit, read: fn(usize) -> Reading) -> Answer {
-    Answer { word, unit, read }
+const fn answer(word: &'static str, unit: Unit, read: fn(usize) -> Reading, doc: &'static str) -> Answer {
+    Answer { word, unit, read, doc }
 }
 
 const FORCE: Unit = Unit::Is("N");
 
 /// Of a joint, on its second body; beside those of its rows.
 const JOINT: &[Answer] = &[
-    answer("Fx", FORCE, |j| Reading::Reaction(j, Axis::X)),
-    answer("Fy", FORCE, |j| Reading::Reaction(j, Axis::Y)),
-    answer("M", Unit::Is("N*m"), |j| Reading::Reaction(j, Axis::Couple)),
-    answer("F", FORCE, |j| Reading::Reaction(j, Axis::Size)),
-    answer("Fs", FORCE, |j| Reading::Reaction(j, Axis::Along)),
-    answer("Fn", FORCE, |j| Reading::Reaction(j, Axis::Across)),
+    answer("Fx", FORCE, |j| Reading::Reaction(j, Axis::X), "force on its second body along x"),
+    answer("Fy", FORCE, |j| Reading::Reaction(j, Axis::Y), "force on it along y"),
+    answer("M", Unit::Is("N*m"), |j| Reading::Reaction(j, Axis::Couple), "couple on it about the joint's point"),
+    answer("F", FORCE, |j| Reading::Reaction(j, Axis::Size), "size of the force"),
+    answer("Fs", FORCE, |j| Reading::Reaction(j, Axis::Along), "force along the first body's line"),
+    answer("Fn", FORCE, |j| Reading::Reaction(j, Axis::Across), "force across it, to its left"),
 ];
 /// Of the rows of a joint, in order.
 const ROWS: [Answer; 2] = [
-    answer("F1", Unit::Load, |j| Reading::Reaction(j, Axis::Row(0))),
-    answer("F2", Unit::Load, |j| Reading::Reaction(j, Axis::Row(1))),
+    answer(
+        "F1",
+        Unit::Load,
+        |j| Reading::Reaction(j, Axis::Row(0)),
+        "force of the first constraint: of a roller, of teeth",
+    ),
+    answer("F2", Unit::Load, |j| Reading::Reaction(j, Axis::Row(1)), "force of the second constraint"),
 ];
-const TENSION: Answer = answer("tension", FORCE, |j| Reading::Reaction(j, Axis::Tension));
-const FRICTION: Answer = answer("friction", Unit::Load, Reading::JointFriction);
+const TENSION: Answer = answer("tension", FORCE, |j| Reading::Reaction(j, Axis::Tension), "tension, of what pulls");
+const FRICTION: Answer =
+    answer("friction", Unit::Load, Reading::JointFriction, "friction in the sense of the first coordinate");
 /// Of a prescribed motion or a coupling.
 pub const MOTION: &[Answer] = &[
-    answer("force", Unit::Load, Reading::Drive),
-    answer("F", Unit::Load, Reading::Drive),
-    answer("power", Unit::Is("W"), Reading::DrivePower),
-    answer("work", Unit::Is("J"), Reading::DriveWork),
+    answer("force", Unit::Load, Reading::Drive, "force or couple in the sense of its gauge"),
+    answer("F", Unit::Load, Reading::Drive, "the same"),
+    answer("power", Unit::Is("W"), Reading::DrivePower, "its power"),
+    answer("work", Unit::Is("J"), Reading::DriveWork, "its work since the start"),
 ];
 /// Of a force of the model.
 pub const ACTING: &[Answer] = &[
-    answer("value", Unit::Load, Reading::Force),
-    answer("power", Unit::Is("W"), Reading::ForcePower),
-    answer("work", Unit::Is("J"), Reading::ForceWork),
+    answer("value", Unit::Load, Reading::Force, "its value"),
+    answer("power", Unit::Is("W"), Reading::ForcePower, "its power"),
+    answer("work", Unit::Is("J"), Reading::ForceWork, "its work since the start"),
 ];
 /// Of a contact, stop or string.
 pub const LIMIT: &[Answer] = &[
-    answer("gap", Unit::Gauge, |g| Reading::Contact(g, ContactQuantity::Gap)),
-    answer("slack", Unit::Gauge, |g| Reading::Contact(g, ContactQuantity::Gap)),
-    answer("F", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Size))),
-    answer("N", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force)),
-    answer("tension", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force)),
-    answer("T", FORCE, |g| Reading::Contact(g, ContactQuantity::Friction)),
-    answer("Fx", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::X))),
-    answer("Fy", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Y))),
-    answer("x", Unit::Is("m"), |g| Reading::Contact(g, ContactQuantity::Place(Axis::X))),
-    answer("y", Unit::Is("m"), |g| Reading::Contact(g, ContactQuantity::Place(Axis::Y))),
-    answer("slip", Unit::Is("m/s"), |g| Reading::Contact(g, ContactQuantity::Slip)),
+    answer(
+        "gap",
+        Unit::Gauge,
+        |g| Reading::Contact(g, ContactQuantity::Gap),
+        "least distance, or what is left of the way",
+    ),
+    answer("slack", Unit::Gauge, |g| Reading::Contact(g, ContactQuantity::Gap), "what is slack"),
+    answer("F", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Size)), "size of the force"),
+    answer("N", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force), "normal force, or force of the stop"),
+    answer("tension", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force), "tension"),
+    answer("T", FORCE, |g| Reading::Contact(g, ContactQuantity::Friction), "friction along the tangent"),
+    answer("Fx", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::X)), "force on the first body along x"),
+    answer("Fy", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Y)), "force on the first body along y"),
+    answer(
+        "x",
+        Unit::Is("m"),
+        |g| Reading::Contact(g, ContactQuantity::Place(Axis::X)),
+        "x of where the normal forces act",
+    ),
+    answer("y", Unit::Is("m"), |g| Reading::Contact(g, ContactQuantity::Place(Axis::Y)), "y of that place"),
+    answer("slip", Unit::Is("m/s"), |g| Reading::Contact(g, ContactQuantity::Slip), "speed of sliding"),
 ];
 
 /// What can be read of a joint, with the unit of what it acts along: those of every joint, one for each row, a tension where it pulls.
@@ -267,6 +296,16 @@ pub fn of_joint(card: &Card) -> Vec<(Answer, Option<&'static str>)> {
     found.extend(card.rows.iter().any(|row| row.load.pulls).then_some((TENSION, None)));
     found.push((FRICTION, gauge(card.coordinates.first().is_some_and(|c| c.turn))));
     found
+}
+
+/// The words by what they are read of, with a phrase each, as data.
+pub fn phrases() -> Value {
+    let joint = JOINT.iter().chain(&ROWS).chain([&TENSION, &FRICTION]);
+    let of = |answers: &mut dyn Iterator<Item = &Answer>| answers.map(|a| json!([a.word, a.doc])).collect::<Vec<_>>();
+    json!({
+        "joint": of(&mut joint.into_iter()), "motion": of(&mut MOTION.iter()), "force": of(&mut ACTING.iter()),
+        "limit": of(&mut LIMIT.iter()),
+    })
 }
 
 /// The words with their units, as data; null where the unit is not known.
