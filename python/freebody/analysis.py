@@ -130,7 +130,7 @@ class Moving:
         self: Builder, initial: Mapping[str, Any] | None, t: float, changes: Mapping[str, Any]
     ) -> tuple[list[FreeBodies], dict[str, Any]]:
         """The free bodies at a state and at others near by, and the named points."""
-        from freebody.equations.balances.perturbed_states import nearby
+        from freebody.solve.perturbed_states import nearby
 
         state, _ = self.start(initial, t, **changes)
         with self.core_errors():

@@ -10,8 +10,8 @@ from store import ANSWERED, every
 from test_smallest import MODELS, connected, null_space, states
 
 from freebody.equations.balances.minimal import minimal_form, regular
-from freebody.equations.balances.perturbed_states import nearby
 from freebody.equations.balances.system import problem
+from freebody.solve.perturbed_states import nearby
 
 KEPT_OUT = {
     "free four-bar": 2,

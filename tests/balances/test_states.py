@@ -7,8 +7,8 @@ import pytest
 
 import freebody as fb
 from freebody.core import FreeBodies
-from freebody.equations.balances.perturbed_states import nearby
 from freebody.equations.balances.smallest import smallest_set
+from freebody.solve.perturbed_states import nearby
 
 SYSTEMS = Path(__file__).parents[2] / "systems"
 

@@ -13,6 +13,8 @@ MAY_USE = {
     "core": set(),
     "symbolic": set(),
     "document": {"symbolic"},
+    "solve": CORE,
+    "impact": CORE | {"model", "solve"},
     "views": SOLVED | {"document"},
     "codegen": CORE | {"model", "solve", "equations"},
     "equations": SOLVED | {"document", "views", "codegen"},

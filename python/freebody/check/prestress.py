@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from freebody.core import CompiledModel, Load, State
-from freebody.run.records import Array, quote
+from freebody.core import Array, CompiledModel, Load, State, quote
 
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import CompiledModel, Limit, State
-from freebody.run.records import Array, quote
+from freebody.core import Array, CompiledModel, Limit, State, quote
 
 from .families import ALL, Family, Sample
 from .static_facts import StaticFacts

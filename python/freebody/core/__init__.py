@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from freebody._core import parse
 
-from .compiled import CompiledModel, Settings, Spec
+from .compiled import CompiledModel, Settings, Spec, quote
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .limits import Limit
@@ -45,5 +45,6 @@ __all__ = [
     "SymbolicAnswers",
     "Trajectory",
     "parse",
+    "quote",
     "there",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -17,6 +18,12 @@ from .state import Array, State
 
 Spec = dict[str, Any]
 """A model as the core reads it; crates/freebody/src/spec/ says what stands in it."""
+_PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
+
+
+def quote(name: str) -> str:
+    """The name as expressions read it: words that are not plain stand in quotes, ``'crank drive'.pin``."""
+    return ".".join(part if _PLAIN_WORD.fullmatch(part) else re.sub(r"^[^\[]+", r"'\g<0>'", part) for part in name.split("."))
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,6 @@ import numpy as np
 from freebody.core import State
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.document.document import Document
-from freebody.equations.balances.perturbed_states import nearby, others
 from freebody.equations.balances.system import NotUnknown
 from freebody.equations.derivation.balance_text import blocks
 from freebody.equations.derivation.data import Row, SymbolicState
@@ -26,6 +25,7 @@ from freebody.equations.sufficient_equations import Search, SufficientSet
 from freebody.equations.velocity_ratios import Ratios, driven, ratios
 from freebody.equations.velocity_ratios import blocks as of_ratios
 from freebody.solve.instant import Instant
+from freebody.solve.perturbed_states import nearby, others
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letters

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import TooLarge, solve
-from freebody.run.records import Array
 from freebody.symbolic.decimals import exact, exact_angle, is_measured, measured, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.simplify import shortest

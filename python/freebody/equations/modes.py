@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import Linearised, Matrix
-from freebody.run.records import Array
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import is_zero

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import State
-from freebody.equations.balances.system import alike
+from freebody.core import Array, State
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.parameter_definitions import definitions
-from freebody.run.records import Array
+from freebody.solve.perturbed_states import alike
 from freebody.symbolic.decimals import exact, shown, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import is_heavy
@@ -178,17 +177,3 @@ def _quantity(value: str, letters: list[str]) -> float:
 
 def _parameters(about: Mapping[str, Any], p: Any) -> dict[str, float]:
     return {each["name"]: float(x) for each, x in zip(about["parameters"], p, strict=True)}
-
-
-def given_quantity(value: Any, unit: str) -> float:
-    """A number in SI, or a quantity that fits the unit. Raises ``ValueError``."""
-    try:
-        return float(value)
-    except ValueError:
-        pass
-    from freebody.model import units
-
-    found, wanted = units.quantity(str(value)), units.unit(unit).dimension
-    if found is not None and not found.dimension.fits(wanted):
-        raise ValueError(f"{value!r} is {found.dimension.words()}, where {wanted.words()} is asked for")
-    return _quantity(str(value), [f"a number in {unit}"])

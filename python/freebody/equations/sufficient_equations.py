@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.core import FreeBodies
+from freebody.core import Array, FreeBodies
 from freebody.equations.balances.smallest import smallest_set
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.coordinates import stated as of_coordinates
@@ -18,7 +18,6 @@ from freebody.equations.linear import Linear
 from freebody.equations.linearization import independent
 from freebody.equations.solve import TooLarge
 from freebody.equations.substitutions import Substitutions
-from freebody.run.records import Array
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from freebody.core import Change, CompiledModel, FreeBodies, Impulses, Load, Snapshot, State, SymbolicAnswers
 from freebody.impact.impacts import Impulsive, NoImpact, Question
+from freebody.model.start import quantity
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -105,18 +106,17 @@ def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, imp
             "what is struck here stands still: give the start no rates, or let a run strike it"
         )
     state = replace(state, u=np.zeros_like(state.u))
-    from freebody.equations.substitutions import given_quantity
-
+    size = quantity("impulse", impulse, "N*s")
     taken = {c["name"] for kind in ("parameters", "coordinates") for c in mechanism.source().about[kind]}
     letter = next(name for name in _LETTERS if name not in taken)
     model = mechanism.copy()
-    model.parameter(letter, given_quantity(impulse, "N*s"))
+    model.parameter(letter, size)
     model.force(name=_NAME, at=point, value=letter, direction=direction, frame=frame)
     lowered = model.lowered()
     core = CompiledModel.of(_bare(lowered.spec))
     source = replace(mechanism.source(), mechanism=core.mechanism, spec=lowered.spec)
     p = dict(zip((each["name"] for each in mechanism.source().about["parameters"]), state.p, strict=True))
-    values = np.array([p.get(each["name"], given_quantity(impulse, "N*s")) for each in source.about["parameters"]])
+    values = np.array([p.get(each["name"], size) for each in source.about["parameters"]])
     return AppliedImpulse(mechanism.source(), source, replace(state, p=values), state, letter)
 
 

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from freebody.core import Body, Change, CompiledModel, FreeBodies, Load, State, SymbolicAnswers
-from freebody.run.records import Array
+from freebody.core import Array, Body, Change, CompiledModel, FreeBodies, Load, State, SymbolicAnswers
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run

@@ -143,6 +143,11 @@ def evaluate(number: Any, values: Mapping[str, float]) -> float:
     return _plain("the number", number, None, values)
 
 
+def quantity(name: str, number: Any, unit: str) -> float:
+    """A number in SI, or a quantity that fits a ``unit``; ``name`` says what it is of. Raises ``ModelProblem``."""
+    return _plain(name, number, units.unit(unit).dimension, {})
+
+
 def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[str, float]) -> float:
     if not isinstance(number, str):
         return float(number)

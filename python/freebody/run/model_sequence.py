@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import CompiledModel, MotionError, OutcomeKind, Settings, State
-from freebody.run.records import quote
+from freebody.core import CompiledModel, MotionError, OutcomeKind, Settings, State, quote
 from freebody.run.sampling import Times
 from freebody.run.simulation import Progress, Run, simulate
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import Array, cards
+from freebody.core import Array, cards, quote
 from freebody.symbolic.symbols import GREEK
 
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
@@ -23,12 +23,6 @@ BEFORE = "before "
 ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
-_PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
-
-
-def quote(name: str) -> str:
-    """The name as expressions read it: words that are not plain stand in quotes, ``'crank drive'.pin``."""
-    return ".".join(part if _PLAIN_WORD.fullmatch(part) else re.sub(r"^[^\[]+", r"'\g<0>'", part) for part in name.split("."))
 
 
 def plain(name: str) -> str:

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import MotionError, State
-from freebody.equations.balances.perturbed_states import Closing
 from freebody.solve.instant import Instant
+from freebody.solve.perturbed_states import Closing
 
 if TYPE_CHECKING:
-    from freebody.core import CompiledModel
-    from freebody.run.records import Array
+    from freebody.core import Array, CompiledModel
 
 _STEPS = 60
 _LONGEST = 0.2

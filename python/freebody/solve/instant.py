@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.core import CompiledModel, FreeBodies, Indeterminate, Limit, Motion, State
-from freebody.run.records import PARTS, Array, quote
+from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, Limit, Motion, State, quote
 from freebody.solve import rich_tables
 from freebody.solve.rich_tables import figure
 
@@ -95,7 +94,7 @@ class Reaction:
 
     def _part(self, i: int) -> Any:
         if not self.determined[..., i].all():
-            raise self._indeterminate(PARTS[i])
+            raise self._indeterminate(("Fx", "Fy", "M")[i])
         return self.values[..., i]
 
     def _along(self, i: int) -> Any:

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import GROUND
-from freebody.run.records import Array, quote
+from freebody.core import GROUND, Array, quote
 from freebody.views import shapes
 from freebody.views.sketch import Cord, Sketch
 

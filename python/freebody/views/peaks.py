@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.run.records import Array, Signal, Window, quote, refined
+from freebody.core import quote
+from freebody.run.records import Array, Signal, Window, refined
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run

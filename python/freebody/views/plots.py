@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from freebody.run.records import Array, quote
+from freebody.core import Array, quote
 from freebody.views.style import DASHES, GROUND, IMPACT, axes, colour, quiet
 
 if TYPE_CHECKING:

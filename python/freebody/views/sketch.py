@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import GROUND, Limit, MotionError, State, there
-from freebody.run.records import Array, quote
+from freebody.core import GROUND, Array, Limit, MotionError, State, quote, there
 from freebody.views import shapes
 
 if TYPE_CHECKING:

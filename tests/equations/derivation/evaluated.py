@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from freebody.equations.balances.perturbed_states import Closing
-from freebody.equations.balances.system import alike
 from freebody.equations.derivation.data import SymbolicState
+from freebody.solve.perturbed_states import Closing, alike
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Add, Sym, Tree
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.equations.balances.groups import Group, groups
-from freebody.equations.balances.system import DEPENDENT, Problem
+from freebody.equations.balances.system import Problem
 from freebody.equations.balances.virtual_motions import (
     NamedPoints,
     VirtualMotion,
@@ -18,7 +19,7 @@ from freebody.equations.balances.virtual_motions import (
     named_motions,
     pair_motions,
 )
-from freebody.run.records import Array
+from freebody.solve.perturbed_states import DEPENDENT
 
 ABSENT = 1e-9
 """Work of an unknown over that of its size in a motion, below which it drops out; it must do so at every state."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from freebody.core import FreeBodies
+from freebody.core import Array, FreeBodies
 from freebody.equations.balances.candidates import ABSENT
 from freebody.equations.balances.groups import Group, groups
 from freebody.equations.balances.system import Problem, problem
@@ -25,7 +25,6 @@ from freebody.equations.balances.virtual_motions import (
     mass_centre,
     named_motions,
 )
-from freebody.run.records import Array
 
 DISTINCT = 1e-6
 """Part of a momentum's values that is left when those found before are taken out, below which it follows from them."""

@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import Pair
+from freebody.core import Array, Pair
 from freebody.equations.balances.candidates import Candidate, has_letters
 from freebody.equations.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.equations.balances.system import Problem
-from freebody.run.records import Array
 from freebody.solve.rich_tables import figure
 
 NO_TURN = 1e-9

@@ -15,9 +15,10 @@ from itertools import combinations, islice
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.equations.balances.groups import Group
-from freebody.equations.balances.system import DEPENDENT, Problem
-from freebody.run.records import Array
+from freebody.equations.balances.system import Problem
+from freebody.solve.perturbed_states import DEPENDENT
 
 MOST = 100_000
 """Sets of unknowns kept in balances beyond which the smallest is not looked for."""

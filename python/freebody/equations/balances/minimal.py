@@ -14,8 +14,9 @@ from freebody.equations.balances.groups import groups
 from freebody.equations.balances.lower_bound import fewest, without_reactions
 from freebody.equations.balances.search import Supports, plainest, set_cost, unions, within
 from freebody.equations.balances.smallest import COUNT
-from freebody.equations.balances.system import DEPENDENT, Problem, problem
+from freebody.equations.balances.system import Problem, problem
 from freebody.equations.balances.virtual_motions import NamedPoints
+from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.rich_tables import PlainText
 
 

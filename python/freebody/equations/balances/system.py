@@ -7,11 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.core import GROUND, FreeBodies, Indeterminate, Load, Part
-from freebody.run.records import Array
-
-DEPENDENT = 1e-7
-"""Part of a column that is left when those before it are taken out, below which it is a combination of them."""
+from freebody.core import GROUND, Array, FreeBodies, Indeterminate, Load, Part
+from freebody.solve.perturbed_states import DEPENDENT, alike
 
 
 class NotUnknown(KeyError):
@@ -104,12 +101,6 @@ def problem(states: Sequence[FreeBodies], prefer: str | None = None, known_motio
     unknowns = (*loads, *accelerations)
     systems = tuple(_system(state, unknowns, origin, length, known_motion) for state in same)
     return Problem(tuple(first.bodies), unknowns, systems, origin, length)
-
-
-def alike(one: FreeBodies, other: FreeBodies) -> bool:
-    """Whether the same things act, and hold, in both."""
-    (first, second) = ([(load.symbol, load.unknown, load.follows is None) for load in free.loads] for free in (one, other))
-    return first == second and [row.name for row in one.rows] == [row.name for row in other.rows]
 
 
 def released(free: FreeBodies, name: str) -> FreeBodies:

@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import FreeBodies, Load, Pair
+from freebody.core import Array, FreeBodies, Load, Pair
 from freebody.equations.balances.system import Problem
-from freebody.run.records import Array
 
 SAME_PLACE = 1e-9
 """Distance over length of the mechanism below which two points are one."""

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
-from freebody.equations.balances.perturbed_states import nearby
 from freebody.equations.derivation.meaning import plain
 from freebody.equations.linear import Linear
+from freebody.solve.perturbed_states import nearby
 from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.collect import divided
 from freebody.symbolic.letters import Letter, Letters

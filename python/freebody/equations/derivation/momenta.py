@@ -10,11 +10,11 @@ import numpy as np
 from freebody.core import Load
 from freebody.document.blocks import Block, Equation, Paragraph, Written
 from freebody.equations.balances.conserved_momenta import ConservedMomentum, independent, lasting
-from freebody.equations.balances.perturbed_states import wandering
 from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.derivation.balance_text import size
 from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.meaning import joined
+from freebody.solve.perturbed_states import wandering
 from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import factored, quotient
 from freebody.symbolic.evaluate import evaluate

@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
-from freebody.equations.balances.system import DEPENDENT
 from freebody.equations.derivation.data import Arrow, Motion, SymbolicState
 from freebody.equations.derivation.directions import Directions, Link
 from freebody.equations.derivation.loop_closure import holding
 from freebody.equations.derivation.meaning import joined, plain
+from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.symbols import Symbols
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import superscript

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.core import MotionError, OutcomeKind
+from freebody.core import Array, MotionError, OutcomeKind
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
-from freebody.equations.balances.system import DEPENDENT
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.linear import Linear
-from freebody.run.records import Array
+from freebody.solve.perturbed_states import DEPENDENT
 from freebody.symbolic.collect import common_number, divided
 from freebody.symbolic.symbols import latex_name, unicode_name
 from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read

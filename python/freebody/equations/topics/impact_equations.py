@@ -19,7 +19,8 @@ from freebody.equations.derivation.data import Balance, Row, SymbolicState
 from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere, moving_names
 from freebody.impact.impacts import Impulsive, NoImpact
-from freebody.solve.symbols import ImpulseNaming, load_words
+from freebody.impact.symbols import ImpulseNaming
+from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter, Letters

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words, Written
 from freebody.document.document import Document
 from freebody.equations.derivation.balance_text import Stated
@@ -20,7 +21,6 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
-from freebody.run.records import Array
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.simplify import equal

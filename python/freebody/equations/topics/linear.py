@@ -11,7 +11,6 @@ import numpy as np
 from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
 from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
-from freebody.equations.balances.perturbed_states import nearby
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
 from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
@@ -21,6 +20,7 @@ from freebody.equations.topics.common import NotHere, document, subject_of
 from freebody.equations.topics.stability_text import character
 from freebody.solve.equilibrium import rest_near
 from freebody.solve.instant import Instant
+from freebody.solve.perturbed_states import nearby
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
-from freebody.equations.substitutions import given_quantity
 from freebody.equations.topics.common import document, subject_of
+from freebody.model.start import quantity
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
@@ -26,7 +26,7 @@ def out_of_plane(mechanism: Builder, state: State, *, gravity: Any = None) -> Do
     masses = [(motion.body, motion.mass) for motion in subject.motions if not is_zero(motion.mass)]
     made: list[Block] = [Heading("Balance normal to the plane")]
     made.append(Paragraph("Nothing moves out of the plane, so along k = i × j what acts on each body adds up to 0."))
-    made += _without(masses) if gravity is None else _with(masses, given_quantity(gravity, "m/s^2"))
+    made += _without(masses) if gravity is None else _with(masses, quantity("gravity", gravity, "m/s^2"))
     made += [Heading("Couples about axes in the plane"), Paragraph(_COUPLES)]
     return document(subject, "out of the plane", made, [Letter(_ACROSS, "constant", "m/s^2", "gravity into the plane")])
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from freebody.core import Body, FreeBodies
 from freebody.impact.impacts import Impulsive
-from freebody.solve.symbols import ImpulseNaming
+from freebody.impact.symbols import ImpulseNaming
 from freebody.views.diagram import Cut, Diagram, DiagramBuilder
 from freebody.views.diagram.names import Labels
 from freebody.views.diagram.picture import Picture

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.run.records import Array, Column, plain, quote
+from freebody.core import quote
+from freebody.run.records import Array, Column, plain
 from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps
 

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import CompiledModel, FreeBodies, Load, MotionError, OutcomeKind, Row, State
-from freebody.equations.balances.system import DEPENDENT, alike
-from freebody.run.records import Array
+from freebody.core import Array, CompiledModel, FreeBodies, Load, MotionError, OutcomeKind, Row, State
 
-if TYPE_CHECKING:
-    pass
-
+DEPENDENT = 1e-7
+"""Part of a row or column that is left when those before it are taken out, below which it is a combination of them."""
 SEED = 20
 OTHERS = 3
 TRIES = 12
@@ -81,6 +77,12 @@ def others(source: CompiledModel, state: State) -> list[State]:
             if held and alike(free, first) and _senses(free) == _senses(first) and np.isfinite(_places(free)).all():
                 found.append(other)
     return found
+
+
+def alike(one: FreeBodies, other: FreeBodies) -> bool:
+    """Whether the same things act, and hold, in both."""
+    (first, second) = ([(load.symbol, load.unknown, load.follows is None) for load in free.loads] for free in (one, other))
+    return first == second and [row.name for row in one.rows] == [row.name for row in other.rows]
 
 
 def _senses(free: FreeBodies) -> list[bool]:
