@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from freebody.model import syntax
 from freebody.model.errors import ModelProblem
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Quotient, walk
+from freebody.symbolic import differentiate
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import Fn, Node, Num, Sym, children, exchange, walk
+
+from .language.spelling import spell
 
 _NEXT = {"rate": "accel", "vx": "ax", "vy": "ay", "omega": "alpha"}
 _MOVING = {*_NEXT, "speed", "accel", "ax", "ay", "alpha"}
@@ -12,21 +16,22 @@ _MOVING = {*_NEXT, "speed", "accel", "ax", "ay", "alpha"}
 
 def derivative(text: str, dots: int) -> str:
     """The text differentiated so many times by time: ``rate(…)`` and ``accel(…)`` of a configuration; what holds rates
-    already, once, by the rules of sums and products. Raises ``ModelProblem`` where the model language has no such quantity."""
+    already, once, by the rules of the calculus. Raises ``ModelProblem`` where the model language has no such quantity."""
     if not dots:
         return text
     expression = syntax.parse(text)
     if not _moves(expression.tree):
-        return _of_configuration(text, dots)
+        if dots > 2:
+            raise ModelProblem(f"a derivative of order {dots} is not known to the model", "at most accelerations are")
+        return f"{('rate', 'accel')[dots - 1]}({text})"
     if dots > 1:
         raise ModelProblem(f"`{text}` holds rates; the derivative of its accelerations is not known to the model")
-    return _Rules(expression).of(expression.tree)
-
-
-def _of_configuration(text: str, dots: int) -> str:
-    if dots > 2:
-        raise ModelProblem(f"a derivative of order {dots} is not known to the model", "at most accelerations are")
-    return f"{('rate', 'accel')[dots - 1]}({text})"
+    tree, rates = _in_readings(expression)
+    try:
+        return spell(differentiate.derivative(tree, rates.__getitem__))
+    except StatementError as error:
+        what = f"the derivative of `{expression.show(Node(span=error.span))}` is not known"
+        raise ModelProblem(what, "declare a symbol for it, or write it out") from None
 
 
 def _moves(tree: Node) -> bool:
@@ -34,28 +39,19 @@ def _moves(tree: Node) -> bool:
     return any(isinstance(node, Fn) and node.name in _MOVING for node in walk(tree))
 
 
-class _Rules:
-    def __init__(self, expression: syntax.Expression) -> None:
-        self.expression = expression
-
-    def show(self, tree: Node) -> str:
-        return f"({self.expression.show(tree)})"
-
-    def of(self, tree: Node) -> str:
-        """The derivative of a tree, in brackets."""
-        match tree:
-            case _ if not _moves(tree):
-                return f"rate{self.show(tree)}"
-            case Negative(inner):
-                return f"(-{self.of(inner)})"
-            case Fn(name, (argument,)) if name in _NEXT:
-                return f"{_NEXT[name]}{self.show(argument)}"
-            case Add(terms):
-                return f"({' + '.join(map(self.of, terms))})"
-            case Mul((left, right)):
-                return f"({self.of(left)}*{self.show(right)} + {self.show(left)}*{self.of(right)})"
-            case Quotient(top, bottom):
-                return f"({self.of(top)}/{self.show(bottom)} - {self.show(top)}*{self.of(bottom)}/{self.show(bottom)}^2)"
-        raise ModelProblem(
-            f"the derivative of `{self.show(tree)[1:-1]}` is not known", "declare a letter for it, or write it out"
-        )
+def _in_readings(expression: syntax.Expression) -> tuple[Node, dict[Sym, Node]]:
+    """The tree with one symbol for each part that the model can differentiate, and what the derivatives of these are."""
+    tree, rates, waiting = expression.tree, {}, [expression.tree]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Fn) and node.name in _NEXT:
+            text = f"({expression.show(node.args[0])})"
+            reading, rate = Sym(node.name + text), Sym(_NEXT[node.name] + text)
+        elif not _moves(node) and not isinstance(node, Num):
+            text = f"({expression.show(node)})"
+            reading, rate = Sym(text), Sym("rate" + text)
+        else:
+            waiting += children(node)
+            continue
+        tree, rates[reading] = exchange(tree, node, reading), rate
+    return tree, rates

@@ -52,7 +52,7 @@ def _plain(node: Node, least: int) -> str:
 def _plain_inside(node: Node) -> str:
     match node:
         case Num(value=value, text=text):
-            return text or f"{value:.12g}"
+            return text or repr(float(value)).removesuffix(".0")
         case Unit(text=text):
             return text
         case Sym():
