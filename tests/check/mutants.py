@@ -10,6 +10,7 @@ from rearranged import number
 
 from freebody.check.language.statements import Equation, letters
 from freebody.check.vocabulary import Vocabulary
+from freebody.symbolic.dimensions import LENGTH, MASS
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, walk
 
 Random = np.random.Generator
@@ -127,7 +128,7 @@ def _extra_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation 
 
 
 def _arm(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    lengths = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.powers(n) == (1, 0, 0) and n in vocabulary.parameters]
+    lengths = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.dimension(n) == LENGTH and n in vocabulary.parameters]
     return _at(rng, e, lengths, lambda n: Quotient(n, number(2)))
 
 
@@ -148,7 +149,7 @@ def _angle(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
 
 def _mass(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     """m1 + m2 for m1."""
-    masses = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.powers(n) == (0, 1, 0) and n in vocabulary.parameters]
+    masses = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.dimension(n) == MASS and n in vocabulary.parameters]
     found = [n for n in masses if vocabulary.alike(n)]
     return _at(rng, e, found, lambda n: Add((n, _pick(rng, vocabulary.alike(n)))))  # type: ignore[arg-type]
 

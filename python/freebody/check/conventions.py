@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from itertools import combinations
 
+from freebody.symbolic.dimensions import LENGTH, MASS, Dimension
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Negative, Node, Num, Quotient, Sym, exchange, substitute, walk
 
 from .edits import Edit
@@ -14,7 +15,7 @@ from .language.statements import Equation, letters
 from .vocabulary import Vocabulary
 
 _OTHER = {"sin": "cos", "cos": "sin"}
-_SIZES = ((1, 0, 0), (0, 1, 0), (2, 1, 0))
+_SIZES = (LENGTH, MASS, Dimension(2, 1))
 """Dimensions of lengths, masses and moments of inertia, which have no sense."""
 _QUARTER = Quotient(Num(math.pi, "pi"), Num(2.0, "2"))
 

@@ -172,8 +172,8 @@ def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
 def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
     """A rate squared that should be a product of two, or an acceleration."""
     if n == 2 and isinstance(base, Sym) and base.dots == 1:
-        same = vocabulary.powers(base)
-        speeds = [n for n in vocabulary.others if same is not None and vocabulary.powers(n) == same]
+        same = vocabulary.dimension(base)
+        speeds = [n for n in vocabulary.others if same is not None and vocabulary.dimension(n) == same]
         yield from (("rates", Mul((base, other), span=base.span)) for other in (*vocabulary.alike(base), *speeds))
         yield "derivative", Sym(base.name, 2, span=base.span)
 

@@ -12,15 +12,17 @@ from typing import Any
 
 import numpy as np
 
+from freebody.symbolic.dimensions import NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.evaluate import sampled as evaluate
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .edits import Edit, depth
+from .language.dimensions import dimension
 from .language.statements import Equation, letters
 from .language.statements import terms as terms_of
 from .solve_for_term import RequiredTerm, required_terms
-from .vocabulary import Powers, Vocabulary, dimension
+from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _LIKELY = 60  # terms of which pairs with all others are tried
@@ -171,7 +173,7 @@ class FittedEdits:
             required = next(required_terms(equation, self.values), None)
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
-            nodes, rows = self._dictionary(equation, (0, 0, 0))
+            nodes, rows = self._dictionary(equation, NUMBER_ONLY)
             for i, j in _spanning(rows, required.missing):
                 sizes, *_ = np.linalg.lstsq(rows[[i, j]].T, required.missing, rcond=None)
                 numbers = [recognised(float(size)) for size in sizes]
@@ -187,7 +189,7 @@ class FittedEdits:
         for term in self._matching(equation, required.needed):
             yield Edit("other term", required.node, term, exchange(equation, required.node, term), 0.02 * depth(term))
 
-    def _matching(self, equation: Equation, wanted: Array, less: Powers = (0, 0, 0)) -> Iterator[Node]:
+    def _matching(self, equation: Equation, wanted: Array, less: Dimension = NUMBER_ONLY) -> Iterator[Node]:
         """Terms of the dictionary that are ``wanted`` but for a number; their dimension is that of the equation over ``less``."""
         scale = np.max(np.abs(wanted))
         if wanted.ndim == 2:
@@ -203,16 +205,16 @@ class FittedEdits:
 
     def _matching_vectors(self, equation: Equation, wanted: Array) -> Iterator[Node]:
         """Terms that are a number times a known vector."""
-        for vector, powers in self.vocabulary.vectors.items():
+        for vector, its in self.vocabulary.vectors.items():
             value = self.values[vector.key]
             along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
             off = np.abs(wanted - along[:, None] * value).max(axis=1)
             if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
-                yield from (Mul((term, vector)) for term in self._matching(equation, along, powers or (0, 0, 0)))
+                yield from (Mul((term, vector)) for term in self._matching(equation, along, its or NUMBER_ONLY))
 
-    def _dictionary(self, equation: Equation, less: Powers) -> tuple[list[Node], Array]:
+    def _dictionary(self, equation: Equation, less: Dimension) -> tuple[list[Node], Array]:
         whole = self._dimension(equation)
-        wanted = None if whole is None else (whole[0] - less[0], whole[1] - less[1], whole[2] - less[2])
+        wanted = None if whole is None else whole.times(less, -1)
         moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
         long = tuple(dict.fromkeys(n for n in _arguments(equation) if isinstance(n, Add) and len(n.terms) > 2))
         key = (wanted, moving, long)
@@ -238,17 +240,14 @@ class FittedEdits:
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
         return rows
 
-    def _dimension(self, equation: Equation) -> Powers | None:
+    def _dimension(self, equation: Equation) -> Known:
         """That of most terms of the equation, as one of them may be wrong."""
-        found = [
-            dimension(term.node, self.values, self.vocabulary, [n for n in letters(term.node) if n.key in self.values])
-            for term in terms_of(equation, expand=True)
-        ]
-        known = [powers for powers in found if powers is not None]
+        found = (dimension(term.node, self.vocabulary.dimensions) for term in terms_of(equation, expand=True))
+        known = [each for each in found if each is not None]
         return max(known, key=known.count) if known else None
 
     @cached_property
-    def _made(self) -> dict[tuple[Powers | None, tuple[Sym, ...], tuple[Node, ...]], tuple[list[Node], Array]]:
+    def _made(self) -> dict[tuple[Known, tuple[Sym, ...], tuple[Node, ...]], tuple[list[Node], Array]]:
         return {}
 
 

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from freebody.model.errors import ModelProblem
-from freebody.symbolic.dimensions import Dimension
+from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Sym, walk
@@ -22,7 +22,7 @@ from .language.statements import Equation, Program
 from .motion_sampler import MotionSampler
 from .symbols import Letters
 from .user_symbols import Meaning as One
-from .vocabulary import Powers, Vocabulary
+from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
 _BEYOND = re.compile(
@@ -112,14 +112,10 @@ class StatementLetters:
         known = dict.fromkeys([*self.used, *(Sym(name) for name in self.letters.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
-        plain = {n: self._powers(n) for n in (*parameters, *coordinates, *others)}
-        return Vocabulary(
-            {n: plain[n] for n in parameters},
-            {n: plain[n] for n in coordinates},
-            {n: plain[n] for n in others},
-            {n: _powers(self._one(n).dimension) for n in (*vectors, *self._units)},
-            frozenset(n for n in plain if (n in coordinates and plain[n] == (0, 0, 0)) or self._is_angle(n)),
-        )
+        groups = (parameters, coordinates, others, [*vectors, *self._units])
+        plain = [{n: self._dimension(n) for n in group} for group in groups]
+        angles = {n for n in (*parameters, *coordinates, *others) if self._one(n).dimension == ANGLE}
+        return Vocabulary(*plain, angular=frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY}))
 
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
@@ -137,14 +133,12 @@ class StatementLetters:
     def _one(self, letter: Sym) -> One:
         return self.letters.meanings[letter.name]
 
-    def _powers(self, letter: Sym) -> Powers | None:
-        """The dimension of a letter; a parameter that is a bare number has none."""
+    def _dimension(self, letter: Sym) -> Known:
+        """The dimension of a letter, radians aside; a parameter that is a bare number is one."""
         dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
-        return (0, 0, 0) if dimension is None and name in self.sampler.free_parameters else _powers(dimension)
-
-    def _is_angle(self, letter: Sym) -> bool:
-        dimension = self._one(letter).dimension
-        return dimension is not None and dimension.angle == 1 and _powers(dimension) == (0, 0, 0)
+        if dimension is None:
+            return NUMBER_ONLY if name in self.sampler.free_parameters else None
+        return dimension._replace(angle=0)
 
     @cached_property
     def _parameters(self) -> list[Sym]:
@@ -206,10 +200,3 @@ class StatementLetters:
 def _meant(texts: Iterable[str]) -> tuple[str, ...]:
     """Expressions of the model language, one name in one spelling: without brackets, tensions by what they are in."""
     return tuple(_TENSION.sub(r"\1.tension", _BRACKETS.sub(r"\1", text)) for text in texts)
-
-
-def _powers(dimension: Dimension | None) -> Powers | None:
-    if dimension is None:
-        return None
-    parts = (dimension.length, dimension.mass, dimension.time)
-    return (int(parts[0]), int(parts[1]), int(parts[2])) if all(p == int(p) for p in parts) else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from freebody.symbolic.dimensions import NUMBER_ONLY, Dimension, Known, Rules, Shape
+from freebody.symbolic.dimensions import NUMBER_ONLY, Dimension, Known, Rules, Shape, scalar
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Fn, Node, Num, Pow, Sym, Unit, addends
 
@@ -42,6 +42,15 @@ def check_dimensions(
             rules.agreed(term for side in (line.left, line.right) for _, term in addends(side))
     except StatementError as error:
         raise error.within(program.text) from None
+
+
+def dimension(node: Node, dimensions: Mapping[str, Dimension]) -> Known:
+    """The dimension of a term, by those of its symbols; None where one is not known, or it has none; radians aside."""
+    try:
+        found = scalar(_OfStatements(dimensions, False, True).of(node))
+        return None if found is None else found._replace(angle=0)
+    except StatementError:
+        return None
 
 
 class _OfStatements(Rules):
