@@ -8,86 +8,72 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
+import rich
 from rich import box
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from freebody.catalogue.answers import Answer, Asked
 from freebody.catalogue.system import System
 from freebody.check.verdict import Kind
+from freebody.solve.rich_tables import table
 
 if TYPE_CHECKING:
     from freebody.check.file import Judged
 
+_UNEXPECTED = " (not as expected)"
 
-def show_list(systems: Iterable[System], console: Console | None = None) -> None:
+
+def show_list(systems: Iterable[System]) -> None:
     """The systems with their titles."""
-    table = Table(box=box.SIMPLE_HEAD)
-    for head in ("system", "what it is", "models", "questions"):
-        table.add_column(head, justify="right" if head in ("models", "questions") else "left")
-    for system in systems:
-        table.add_row(system.id, Text(system.title), str(len(system.models)), str(len(system.questions())))
-    (console or Console()).print(table)
+    rows = [(system.id, system.title, len(system.models), len(system.questions())) for system in systems]
+    counts = ("models", "questions")
+    rich.print(table("", ("system", "what it is", *counts), rows, counts, edge=True))
 
 
-def show_asked(asked: Asked, console: Console | None = None) -> None:
+def show_asked(asked: Asked) -> None:
     """One question with its answers."""
-    console = console or Console()
-    table = Table(box=box.SIMPLE_HEAD, title=Text(asked.label, "bold"), title_justify="left")
-    table.add_column("")
-    table.add_column("freebody", justify="right")
-    table.add_column("unit")
-    table.add_column("digits", justify="right")
-    table.add_column("agrees with")
+    rows = []
     for answer in asked.answers:
-        style = "" if answer.ok else "bold red"
-        cells = [answer.label, answer.said or figures(answer.value), answer.unit, _digits(answer), _source(answer)]
-        table.add_row(*(Text(cell, style) for cell in cells))
-    console.print(table)
+        digits = "missing" if math.isnan(answer.digits) else f"{answer.digits:.1f}"
+        cells = (answer.label, answer.said or figures(answer.value), answer.unit, digits, _source(answer))
+        rows.append([Text(cell, "" if answer.ok else "bold red") for cell in cells])
+    rich.print(table(asked.label, ("", "freebody", "unit", "digits", "agrees with"), rows, ("freebody", "digits"), edge=True))
     if asked.failure:
-        console.print(Text(f"  failed: {asked.failure}\n", "bold red"))
+        rich.print(Text(f"  failed: {asked.failure}\n", "bold red"))
 
 
-def show_statements(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:
+def show_statements(system: System, judged: Iterable[Judged]) -> None:
     """The statements about a system, each with its verdict and what is behind it."""
-    table = Table(box=box.SIMPLE_HEAD, title=Text(_headed(system), "bold"), title_justify="left")
-    table.add_column("statement", no_wrap=True)
-    table.add_column("verdict", no_wrap=True)
-    table.add_column("what is stated, and what is behind the verdict", overflow="fold")
+    shown = Table(box=box.SIMPLE_HEAD, title=Text(f"{system.id}: {system.title}", "bold"), title_justify="left")
+    shown.add_column("statement", no_wrap=True)
+    shown.add_column("verdict", no_wrap=True)
+    shown.add_column("what is stated, and what is behind the verdict", overflow="fold")
     for one in judged:
         kind = one.verdict.kind
-        table.add_row(one.statement.id, Text(kind.short + _unexpected(one), kind.colour), _behind(one))
-    (console or Console()).print(table)
+        shown.add_row(one.statement.id, Text(kind.short + _UNEXPECTED * (one.as_expected is False), kind.colour), _behind(one))
+    rich.print(shown)
 
 
-def show_verdicts(system: System, judged: Iterable[Judged], console: Console | None = None) -> None:
+def show_verdicts(system: System, judged: Iterable[Judged]) -> None:
     """Which of the statements about a system are true, which are wrong."""
-    console, by_kind = console or Console(), dict[Kind, list[str]]()
+    by_kind: dict[Kind, list[str]] = {}
     for one in judged:
-        by_kind.setdefault(one.verdict.kind, []).append(one.statement.id + _unexpected(one))
-    console.print(Text("What is stated about it", "bold"))
+        by_kind.setdefault(one.verdict.kind, []).append(one.statement.id + _UNEXPECTED * (one.as_expected is False))
+    rich.print(Text("What is stated about it", "bold"))
     for kind, names in by_kind.items():
-        console.print(Text.assemble("  ", (f"{kind.short}: ", kind.colour), ", ".join(names)))
-    console.print(Text(f"  why: freebody systems {system.id} --statements\n"))
+        rich.print(Text.assemble("  ", (f"{kind.short}: ", kind.colour), ", ".join(names)))
+    rich.print(Text(f"  why: freebody systems {system.id} --statements\n"))
 
 
-def show_totals(judged: Iterable[Judged], console: Console | None = None) -> None:
+def show_totals(judged: Iterable[Judged]) -> None:
     """How many statements are true, how many are wrong, and whether all have the verdict that their file expects."""
     every = list(judged)
     counts = Counter(one.verdict.kind for one in every)
     stated = ", ".join(f"{counts[kind]} {kind.short}" for kind in Kind if counts[kind])
-    (console or Console()).print(Text(f"{len(every)} statements: {stated}", "bold"))
+    rich.print(Text(f"{len(every)} statements: {stated}", "bold"))
     if wrong := [one.statement.id for one in every if one.as_expected is False]:
-        (console or Console()).print(Text(f"not as expected: {', '.join(wrong)}", "bold red"))
-
-
-def _headed(system: System) -> str:
-    return f"{system.id}: {system.title}"
-
-
-def _unexpected(one: Judged) -> str:
-    return " (not as expected)" if one.as_expected is False else ""
+        rich.print(Text(f"not as expected: {', '.join(wrong)}", "bold red"))
 
 
 def _behind(one: Judged) -> Text:
@@ -98,18 +84,17 @@ def _behind(one: Judged) -> Text:
     return Text("\n").join(lines)
 
 
-def show_summary(results: dict[str, list[Asked]], console: Console | None = None) -> None:
+def show_summary(results: dict[str, list[Asked]]) -> None:
     """One line for every system."""
-    table = Table(box=box.SIMPLE_HEAD)
-    for head in ("system", "questions", "answers", "fewest digits", "seconds", ""):
-        table.add_column(head, justify="left" if head in ("system", "") else "right")
+    rows = []
     for identity, asked in results.items():
         answers = [answer for question in asked for answer in question.answers]
         fewest = min((answer.digits for answer in answers), default=math.nan)
         verdict = Text("ok", "green") if all(question.ok for question in asked) else Text("FAILED", "bold red")
         seconds = f"{sum(question.seconds for question in asked):.1f}"
-        table.add_row(identity, str(len(asked)), str(len(answers)), f"{fewest:.1f}", seconds, verdict)
-    (console or Console()).print(table)
+        rows.append((identity, len(asked), len(answers), f"{fewest:.1f}", seconds, verdict))
+    counts = ("questions", "answers", "fewest digits", "seconds")
+    rich.print(table("", ("system", *counts, ""), rows, counts, edge=True))
 
 
 def figures(value) -> str:
@@ -117,10 +102,6 @@ def figures(value) -> str:
     row = np.atleast_1d(np.asarray(value, float))
     shown = ", ".join(f"{x:.8g}" for x in row[:4])
     return shown if len(row) <= 4 else f"{shown}, … ({len(row)})"
-
-
-def _digits(answer: Answer) -> str:
-    return "missing" if math.isnan(answer.digits) else f"{answer.digits:.1f}"
 
 
 def _source(answer: Answer) -> str:

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
-from typing import Any
 
 from freebody.catalogue.system import System
 from freebody.check.file import Judged, judge
@@ -27,11 +26,6 @@ def statements(systems: Iterable[System]) -> Iterator[tuple[System, list[Judged]
         longest = sorted(stated, key=lambda system: -system.statements.stat().st_size)
         found = {system.id: pool.submit(_judged, system.statements) for system in longest}
         yield from ((system, found[system.id].result()) for system in stated)
-
-
-def statements_json(results: Iterable[tuple[System, list[Judged]]]) -> list[dict[str, Any]]:
-    """Every statement with its verdict and what is behind it, as plain data."""
-    return [{"system": system.id, **one.to_json()} for system, judged in results for one in judged]
 
 
 def _judged(path: Path) -> list[Judged]:

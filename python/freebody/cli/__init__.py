@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 import typer
 
@@ -14,13 +13,12 @@ from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.models import moment, obtained, opened, pairs, simulated
-from freebody.cli.user_errors import Guarded, UserError
+from freebody.cli.options import AsJson, Changes, Model, Until
+from freebody.cli.systems import systems
+from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
 
 if TYPE_CHECKING:
-    from freebody.catalogue import Asked, System
     from freebody.run.simulation import Run
-
-BAD_END = 3
 
 app = typer.Typer(
     cls=Guarded,
@@ -31,26 +29,8 @@ app = typer.Typer(
 )
 
 
-class Route(str, Enum):
-    """Ways to the accelerations and reactions."""
-
-    minimal = "minimal"
-    newton_euler = "newton_euler"
-    constraints = "constraints"
-    all = "all"
-
-
-class Axes(str, Enum):
-    """Directions of reaction components."""
-
-    fixed = "fixed"
-    joint = "joint"
-
-
-Model = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")]
-Changes = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")]
-Until = Annotated[str | None, typer.Option(metavar="TIME", help="End of the run, like 5 or '200 ms'.")]
+Route = Literal["minimal", "newton_euler", "constraints", "all"]
+Axes = Literal["fixed", "joint"]
 Method = Annotated[str | None, typer.Option(help="Integrator, like dop853; a wrong word lists them all.")]
 Rtol = Annotated[float | None, typer.Option(help="Relative tolerance.")]
 
@@ -75,7 +55,7 @@ def run(
     runs = [(stage, files_of(stage, i, output, page)) for i, stage in enumerate(legs(done), 1)]
     show.runs(runs, as_json)
     if not all(stage.outcome.ok for stage, _ in runs):
-        raise typer.Exit(BAD_END)
+        raise typer.Exit(NOT_TRUE)
 
 
 @app.command()
@@ -83,8 +63,8 @@ def solve(
     model: Model,
     at: Annotated[list[str] | None, typer.Option(metavar="NAME=VALUE", help="A coordinate, like 'theta=30 deg'.")] = None,
     changes: Changes = None,
-    route: Annotated[Route, typer.Option(help="How to solve; all compares the three.")] = Route.minimal,
-    axes: Annotated[Axes, typer.Option(help="Reactions along fixed axes or along and across each joint.")] = Axes.fixed,
+    route: Annotated[Route, typer.Option(help="How to solve; all compares the three.")] = "minimal",
+    axes: Annotated[Axes, typer.Option(help="Reactions along fixed axes or along and across each joint.")] = "fixed",
     balance: Annotated[bool, typer.Option("--balance", help="The residual of each body's momentum balance.")] = False,
     as_json: AsJson = False,
 ) -> None:
@@ -92,9 +72,9 @@ def solve(
     from freebody.cli import show
 
     mechanism, state = opened(model, changes), pairs(at)
-    routes = [each.value for each in Route if each is not Route.all] if route is Route.all else [route.value]
+    routes = [each for each in get_args(Route) if each != "all"] if route == "all" else [route]
     solved = [mechanism.solve(route=name, **state) for name in routes]
-    show.instants(solved, mechanism.opening(**state), axes is Axes.joint, balance, as_json)
+    show.instants(solved, mechanism.opening(**state), axes == "joint", balance, as_json)
 
 
 @app.command()
@@ -181,58 +161,7 @@ def compare(
     show.comparison(compared(obtained(a), obtained(b)), as_json)
 
 
-@app.command()
-def systems(
-    identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
-    everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
-    diagrams: Annotated[bool, typer.Option("--diagrams", help="Draw free-body diagrams, of all systems or of this one.")] = False,
-    stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
-    output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
-    as_json: AsJson = False,
-    in_letters: Annotated[
-        bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
-    ] = False,
-) -> None:
-    """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
-    from freebody import catalogue
-    from freebody.catalogue import show
-
-    try:
-        listed = catalogue.systems()
-    except ModuleNotFoundError as missing:
-        what = f"the catalogue checks its answers with other libraries, of which {missing.name} is missing"
-        raise UserError(what, "pip install 'freebody[catalogue]'") from None
-    if diagrams:
-        pictured(chosen(identity), output)
-        return
-    if stated:
-        from freebody.cli.statements import judged
-
-        judged(chosen(identity), as_json)
-        return
-    if identity is None and not everything:
-        if as_json:
-            typer.echo(json.dumps([{"id": system.id, "title": system.title} for system in listed], indent=1))
-        else:
-            show.show_list(listed)
-        return
-    if in_letters:
-        for system in chosen(identity):
-            derived(system)
-        return
-    results = {system.id: answered(system, as_json) for system in chosen(identity)}
-    if as_json:
-        typer.echo(catalogue.to_json(results))
-    elif everything:
-        show.show_summary(results)
-    else:
-        from freebody.cli.statements import verdicts
-
-        verdicts(chosen(identity))
-    if not all(asked.ok for questions in results.values() for asked in questions):
-        raise typer.Exit(BAD_END)
-
-
+app.command()(systems)
 app.command()(equations)
 app.command()(code)
 app.command()(check)
@@ -274,50 +203,3 @@ def files_of(done: Run, number: int, output: Path | None, page: Path | None) -> 
 
         written.append(write_report(done, numbered(page)))
     return written
-
-
-def chosen(identity: str | None) -> list[System]:
-    """The system of that name, or all."""
-    from freebody import catalogue
-
-    if identity is None:
-        return catalogue.systems()
-    try:
-        return [catalogue.find(identity)]
-    except KeyError as error:
-        raise UserError(error.args[0], "freebody systems lists them") from None
-
-
-def derived(system: System) -> None:
-    """Prints the equations of the models of a system in all forms; of one that cannot move as it is, why."""
-    from freebody.core import MotionError
-    from freebody.equations.derivation.derive import FORMS
-
-    for model in system.models:
-        try:
-            for form in FORMS:
-                typer.echo(opened(model).equations(form).text())
-        except MotionError as error:
-            typer.echo(f"{model.name}: {error.what}\n")
-
-
-def pictured(systems: list[System], page: Path) -> None:
-    """A page with the diagrams of all models of some systems."""
-    from freebody.cli import show
-    from freebody.views.diagram.gallery import write_gallery
-
-    models = ((f"{system.id}, {path.stem}: {system.title}", opened(path)) for system in systems for path in system.models)
-    show.written([write_gallery(models, page)])
-
-
-def answered(system: System, silent: bool) -> list[Asked]:
-    """The questions of a system with their answers, printed as they come unless silent."""
-    from freebody import catalogue
-    from freebody.catalogue import show
-
-    asked = []
-    for question in catalogue.run(system):
-        asked.append(question)
-        if not silent:
-            show.show_asked(question)
-    return asked

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from freebody.cli.models import opened
-from freebody.cli.user_errors import UserError
+from freebody.cli.options import AsJson, Changes
+from freebody.cli.user_errors import NOT_TRUE
 
 if TYPE_CHECKING:
     from freebody.check import Verdict
-
-NOT_TRUE = 3
 
 
 def check(
@@ -27,18 +26,11 @@ def check(
         list[str] | None,
         typer.Option("--where", metavar="LETTER=MEANING", help="A symbol of your own, like 'phi=theta-alpha'; repeatable."),
     ] = None,
-    changes: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
+    changes: Changes = None,
+    as_json: AsJson = False,
 ) -> None:
     """Say whether equations and claims are true of every motion of a model, and correct the wrong ones."""
-    from freebody.model.errors import ModelProblem
-
-    try:
-        stated, fine = _statements(model, statements, where, changes, as_json) if statements else _file(model, as_json)
-    except ModelProblem as complaint:
-        raise UserError(complaint.what, complaint.hint) from None
+    stated, fine = _statements(model, statements, where, changes, as_json) if statements else _file(model, as_json)
     if as_json:
         typer.echo(json.dumps(stated, ensure_ascii=False, indent=1))
     if not fine:

@@ -8,15 +8,14 @@ from typing import Annotated
 import typer
 
 from freebody.cli.models import opened
+from freebody.cli.options import Changes, Model
 
 
 def code(
-    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
+    model: Model,
     c: Annotated[bool, typer.Option("--c", help="C instead of Python; so does an output that ends in .c.")] = False,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes, instead of the screen.")] = None,
-    changes: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")
-    ] = None,
+    changes: Changes = None,
 ) -> None:
     """Print functions that compute accelerations and all reactions: Python that needs NumPy only, or C99."""
     from freebody.cli.show import written

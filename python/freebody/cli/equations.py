@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from freebody.cli.models import opened, pairs
+from freebody.cli.options import AsJson, Model
 from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def listed(asked: bool) -> None:
 
 
 def equations(
-    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")],
+    model: Model,
     form: Annotated[
         str,
         typer.Option(
@@ -61,7 +62,7 @@ def equations(
     ] = None,
     latex: Annotated[bool, typer.Option("--latex", help="A fragment of LaTeX.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Markdown.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")] = False,
+    as_json: AsJson = False,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json.")] = None,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rich import box
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
 from freebody.core import Indeterminate
+from freebody.solve.rich_tables import table
 from freebody.views.peaks import Peak, peak_reactions
 
 if TYPE_CHECKING:
@@ -40,18 +39,6 @@ def _plain(data: Any) -> Any:
     if isinstance(data, (list, tuple)):
         return [_plain(value) for value in data]
     return None if isinstance(data, float) and not math.isfinite(data) else data
-
-
-def table(title: str, heads: Sequence[str], rows: Iterable[Row]) -> Table:
-    """Words to the left, numbers (-0 as 0) to the right; names come from the model, so nothing is taken for markup."""
-    rows = list(rows)
-    made = Table(title=Text(title, "bold"), title_justify="left", box=box.SIMPLE_HEAD, show_edge=False)
-    for i, head in enumerate(heads):
-        numbers = any(isinstance(row[i], float) for row in rows)
-        made.add_column(escape(head), justify="right" if numbers else "left")
-    for row in rows:
-        made.add_row(*(Text(f"{cell + 0.0:.6g}" if isinstance(cell, float) else str(cell)) for cell in row))
-    return made
 
 
 def put(*things: Any) -> None:

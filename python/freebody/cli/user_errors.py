@@ -12,7 +12,8 @@ from typer.core import TyperGroup
 if TYPE_CHECKING:
     from freebody.model.errors import Problem
 
-MISTAKEN = 2
+MISTAKEN, NOT_TRUE = 2, 3
+"""Exit codes: the user can mend it; what was asked has the answer that nobody wants: a bad end, an equation that is not true."""
 
 
 class UserError(Exception):

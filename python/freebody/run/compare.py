@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.run.records import Array, Column
+from freebody.solve.rich_tables import captured, table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,25 +68,16 @@ class Comparison:
         return overlay(self.a, self.b, names or (self.largest.name,), ax=ax)
 
     def __rich__(self) -> Any:
-        from rich import box
-        from rich.table import Table
-        from rich.text import Text
-
-        table = Table(box=box.SIMPLE_HEAD, show_edge=False)
-        for head in ("column", "unit", "largest |a − b|", "at t / s", "rms", "relative"):
-            table.add_column(head, justify="left" if head in ("column", "unit") else "right")
-        for d in filter(lambda d: d.largest, self.differences):
-            figures = (f"{d.largest:.3e}", f"{d.t:.6g}", f"{d.rms:.3e}", f"{d.relative:.1e}")
-            table.add_row(Text(d.name), d.unit, *figures)
-        return table
+        heads = ("column", "unit", "largest |a − b|", "at t / s", "rms", "relative")
+        rows = [
+            (d.name, d.unit, f"{d.largest:.3e}", f"{d.t:.6g}", f"{d.rms:.3e}", f"{d.relative:.1e}")
+            for d in self.differences
+            if d.largest
+        ]
+        return table("", heads, rows, figures=heads[2:])
 
     def __str__(self) -> str:
-        from rich.console import Console
-
-        console = Console(width=110, no_color=True)
-        with console.capture() as capture:
-            console.print(self)
-        return capture.get()
+        return captured(self, 110)
 
 
 def compare(a: Run, b: Run) -> Comparison:

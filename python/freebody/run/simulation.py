@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -158,7 +158,12 @@ class Run:
     @cached_property
     def reactions(self) -> Reactions:
         """Reaction of every joint over ``t``, on its second body unless ``.on(body)`` says otherwise."""
-        return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self.about["joints"])})
+        made = {}
+        for i, joint in enumerate(self.about["joints"]):
+            values = self._reactions[:, i]
+            least, evaluate = partial(self._least, i), partial(self.motion.evaluate, times=self.t)
+            made[joint["name"]] = Reaction.of(joint, values, ~np.isnan(values), least, evaluate)
+        return Reactions(made)
 
     @cached_property
     def energy(self) -> Energy:
@@ -324,22 +329,6 @@ class Run:
     def _limits(self) -> Array:
         texts = [column.name for column in columns_of("limit", self.about, ())]
         return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
-
-    def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
-        texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
-        values = self._reactions[:, i]
-        return Reaction(
-            name=joint["name"],
-            first=joint["first"],
-            second=joint["second"],
-            body=joint["second"],
-            values=values,
-            determined=~np.isnan(values),
-            smallest=lambda: self._least(i),
-            local=lambda: self.motion.evaluate(texts, self.t),
-            has_couple=joint["couple"],
-            carries=bool(joint["reaction"]),
-        )
 
     def _least(self, i: int) -> Array:
         p = self.end.p

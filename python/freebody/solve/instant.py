@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, Limit, Motion, State, quote
 from freebody.solve import rich_tables
-from freebody.solve.rich_tables import figure
+from freebody.solve.rich_tables import figure, table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -44,6 +44,21 @@ class Reaction:
     local: Callable[[], Array] = field(repr=False)
     has_couple: bool = True
     carries: bool = True
+
+    @classmethod
+    def of(
+        cls,
+        joint: Mapping[str, Any],
+        values: Array,
+        determined: NDArray[np.bool_],
+        smallest: Callable[[], Array],
+        evaluate: Callable[[list[str]], Array],
+    ) -> Reaction:
+        """That of a joint as the core describes it, on its second body; ``evaluate`` gives expressions (…, k)."""
+        name, first, second = joint["name"], joint["first"], joint["second"]
+        local = [f"{quote(name)}.Fs", f"{quote(name)}.Fn"]
+        carries = bool(joint["reaction"])
+        return cls(name, first, second, second, values, determined, smallest, lambda: evaluate(local), joint["couple"], carries)
 
     @property
     def Fx(self) -> Any:
@@ -161,7 +176,13 @@ class Instant:
     @property
     def reactions(self) -> Reactions:
         """Reaction of every joint, on its second body unless ``.on(body)`` says otherwise."""
-        return Reactions({j["name"]: self._reaction(i, j) for i, j in enumerate(self._about["joints"])})
+        solved = self._solved
+        rows = zip(self._about["joints"], solved.reactions, solved.determinate, strict=True)
+        made = (
+            Reaction.of(joint, values, known, lambda i=i: solved.least_reactions[i], self._values)
+            for i, (joint, values, known) in enumerate(rows)
+        )
+        return Reactions({reaction.name: reaction for reaction in made})
 
     @property
     def limits(self) -> dict[str, Limit]:
@@ -243,33 +264,20 @@ class Instant:
             return self.motion.evaluate(texts, np.array([self.state.t]))[0]
         return self.core.evaluate(texts, self.state)
 
-    def _reaction(self, i: int, joint: Mapping[str, Any]) -> Reaction:
-        texts = [f"{quote(joint['name'])}.{part}" for part in ("Fs", "Fn")]
-        return Reaction(
-            name=joint["name"],
-            first=joint["first"],
-            second=joint["second"],
-            body=joint["second"],
-            values=self._solved.reactions[i],
-            determined=self._solved.determinate[i],
-            smallest=lambda: self._solved.least_reactions[i],
-            local=lambda: self._values(texts),
-            has_couple=joint["couple"],
-            carries=bool(joint["reaction"]),
-        )
-
     def tables(self) -> list[Table]:
         """Accelerations, reactions on both bodies, what contacts, strings, stops, motions, couplings and locks do, and residuals, for
         rich."""
+        coordinates = [(c["name"], self.accelerations[c["name"]], f"{c['dimension']}/s²") for c in self._about["coordinates"]]
+        locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
+        drives = (("prescribed motions", "motion", self.motions), ("couplings", "coupling", self.couplings), ("locks", "lock", locks))
+        left = [(body, *(f"{value:.1e}" for value in row)) for body, row in self.residuals.items()]
         return [
-            rich_tables.of_accelerations(self._about["coordinates"], self.accelerations),
+            table("accelerations", ["coordinate", "value", "unit"], coordinates),
             rich_tables.of_reactions(self.reactions.values()),
             rich_tables.of_limits(self.limits.values()),
             rich_tables.of_forces(self.limits.values()),
-            rich_tables.of_drives("prescribed motions", "motion", self.motions),
-            rich_tables.of_drives("couplings", "coupling", self.couplings),
-            rich_tables.of_drives("locks", "lock", {name.removeprefix("lock "): value for name, value in self.locks.items()}),
-            rich_tables.of_residuals(self.residuals),
+            *(table(title, [kind, "force or torque"], forces.items()) for title, kind, forces in drives),
+            table("what is left of the momentum balances", ["body", "x [N]", "y [N]", "about G [N·m]"], left),
         ]
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
@@ -279,12 +287,7 @@ class Instant:
         yield Text("\n".join([f"largest relative residual {self.residual:.1e}", self.explanation, *self.self_stress]))
 
     def __str__(self) -> str:
-        from rich.console import Console
-
-        console = Console(width=100, no_color=True, highlight=False)
-        with console.capture() as capture:
-            console.print(self)
-        return capture.get()
+        return rich_tables.captured(self, 100)
 
 
 def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], about: Mapping[str, Any]) -> None:

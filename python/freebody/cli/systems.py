@@ -1,0 +1,121 @@
+"""``freebody systems``: the worked catalogue."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from freebody.cli.models import opened
+from freebody.cli.options import AsJson
+from freebody.cli.user_errors import NOT_TRUE, UserError
+
+if TYPE_CHECKING:
+    from freebody.catalogue import System
+
+
+def systems(
+    identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
+    diagrams: Annotated[bool, typer.Option("--diagrams", help="Draw free-body diagrams, of all systems or of this one.")] = False,
+    stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
+    output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
+    as_json: AsJson = False,
+    symbolic: Annotated[
+        bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
+    ] = False,
+) -> None:
+    """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
+    from freebody import catalogue
+
+    try:
+        listed = catalogue.systems()
+        chosen = listed if identity is None else [catalogue.find(identity)]
+    except ModuleNotFoundError as missing:
+        what = f"the catalogue checks its answers with other libraries, of which {missing.name} is missing"
+        raise UserError(what, "pip install 'freebody[catalogue]'") from None
+    except KeyError as error:
+        raise UserError(error.args[0], "freebody systems lists them") from None
+    if diagrams:
+        _draw(chosen, output)
+    elif stated:
+        _judge(chosen, as_json)
+    elif identity is None and not everything:
+        if as_json:
+            typer.echo(json.dumps([{"id": system.id, "title": system.title} for system in listed], indent=1))
+        else:
+            from freebody.catalogue import show
+
+            show.show_list(listed)
+    elif symbolic:
+        _derive(chosen)
+    else:
+        _answer(chosen, everything, as_json)
+
+
+def _answer(systems: list[System], briefly: bool, as_json: bool) -> None:
+    """The questions of systems with their answers, each printed as it comes or all as JSON; of one system what is stated, too."""
+    from freebody import catalogue
+    from freebody.catalogue import show
+    from freebody.catalogue.statements import statements
+
+    results: dict[str, list[catalogue.Asked]] = {}
+    for system in systems:
+        results[system.id] = []
+        for asked in catalogue.run(system):
+            results[system.id].append(asked)
+            if not as_json:
+                show.show_asked(asked)
+    if as_json:
+        typer.echo(catalogue.to_json(results))
+    elif briefly:
+        show.show_summary(results)
+    else:
+        for system, found in statements(systems):
+            show.show_verdicts(system, found)
+    if not all(asked.ok for questions in results.values() for asked in questions):
+        raise typer.Exit(NOT_TRUE)
+
+
+def _judge(systems: list[System], as_json: bool) -> None:
+    """The verdicts about what is stated, in tables or as JSON. Ends with an error where one is not as expected."""
+    from freebody.catalogue import show
+    from freebody.catalogue.statements import statements
+
+    results = []
+    for system, found in statements(systems):
+        results.append((system, found))
+        if not as_json:
+            show.show_statements(system, found)
+    every = [one for _, found in results for one in found]
+    if as_json:
+        stated = [{"system": system.id, **one.to_json()} for system, found in results for one in found]
+        typer.echo(json.dumps(stated, ensure_ascii=False, indent=1))
+    else:
+        show.show_totals(every)
+    if any(one.as_expected is False for one in every):
+        raise typer.Exit(NOT_TRUE)
+
+
+def _derive(systems: list[System]) -> None:
+    """The equations of the models of systems in all forms; of one that cannot move as it is, why."""
+    from freebody.core import MotionError
+    from freebody.equations.derivation.derive import FORMS
+
+    for model in (path for system in systems for path in system.models):
+        try:
+            for form in FORMS:
+                typer.echo(opened(model).equations(form).text())
+        except MotionError as error:
+            typer.echo(f"{model.name}: {error.what}\n")
+
+
+def _draw(systems: list[System], page: Path) -> None:
+    """A page with the diagrams of all models of some systems."""
+    from freebody.cli import show
+    from freebody.views.diagram.gallery import write_gallery
+
+    models = ((f"{system.id}, {path.stem}: {system.title}", opened(path)) for system in systems for path in system.models)
+    show.written([write_gallery(models, page)])
