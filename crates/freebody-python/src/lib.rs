@@ -35,7 +35,7 @@ fn time_chain(n: usize, repeats: usize) -> PyResult<f64> {
     let u: Vec<f64> = (0..n).map(|i| 0.2 * sin_cos(i as f64).1).collect();
     let mut u_dot = vec![0.0; n];
     let mut solve = || {
-        workspace.place(0.0, black_box(&q), &u);
+        workspace.move_to(0.0, black_box(&q), &u);
         let solved = workspace.solve();
         workspace.accelerations(&mut u_dot);
         black_box(&u_dot);

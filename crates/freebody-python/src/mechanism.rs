@@ -7,7 +7,7 @@ use crate::trajectory::Trajectory;
 use freebody::assembly::assemble;
 use freebody::builder::chosen;
 use freebody::compile::Compiled;
-use freebody::dynamics::{Observer, Route, Trouble, Workspace};
+use freebody::dynamics::{Route, Trouble, Workspace};
 use freebody::gauges::ModelExpr;
 use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
@@ -136,9 +136,7 @@ impl Mechanism {
         let m = self.0.mechanism();
         let mut workspace = placed(&m, &state)?;
         let laws: Vec<&ModelExpr> = laws.iter().collect();
-        let mut observer = Observer::new(&mut workspace, laws.iter().copied());
-        observer.place(state.1, state.2.as_slice()?, state.3.as_slice()?).map_err(errors::motion)?;
-        Ok(PyArray1::from_vec(py, observer.read(&laws, &[])))
+        Ok(PyArray1::from_vec(py, workspace.evaluate(&laws, &[]).map_err(errors::motion)?))
     }
 
     fn points<'py>(&self, py: Python<'py>, p: Array<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -57,7 +57,7 @@ pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) ->
     };
     let others = other_assemblies(workspace, t, request, &q);
     let u = velocities(workspace, t, request, &q)?;
-    workspace.place(t, &q, &u);
+    workspace.move_to(t, &q, &u);
     let gap = workspace.worst_gap();
     Ok(Assembled { q, u, gap, others })
 }
@@ -97,7 +97,7 @@ fn attempt(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, start: 
 /// Damped least squares on all rows; returns the largest gap left.
 fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)], q: &mut Vec<f64>) -> f64 {
     let still = vec![0.0; q.len()];
-    workspace.place(t, q, &still);
+    workspace.move_to(t, q, &still);
     let mut present = rows(workspace, held);
     // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
     let mut damping = 0.0;
@@ -111,13 +111,13 @@ fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)],
         workspace.to_user(&step, &mut user);
         let longest = (0..q.len()).map(|i| (user[i] / unit(workspace, i)).abs()).fold(1.0, f64::max);
         let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
-        workspace.place(t, &trial, &still);
+        workspace.move_to(t, &trial, &still);
         let next = rows(workspace, held);
         if norm(workspace, &next) < size {
             (*q, present) = (trial, next);
             damping = if damping < 1e-6 { 0.0 } else { 0.2 * damping };
         } else {
-            workspace.place(t, q, &still);
+            workspace.move_to(t, q, &still);
             if gap <= OPEN || damping > 1e9 {
                 break;
             }
@@ -133,7 +133,7 @@ fn norm(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
 }
 
 fn on_branch(workspace: &mut Workspace, t: f64, q: &[f64], request: &AssemblyRequest) -> bool {
-    workspace.place(t, q, &vec![0.0; q.len()]);
+    workspace.move_to(t, q, &vec![0.0; q.len()]);
     let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
     request.branch.iter().all(|(_, law, sign)| jet(&going, law).d0 * f64::from(*sign) > 0.0)
 }
@@ -179,7 +179,7 @@ fn other_assemblies(workspace: &mut Workspace, t: f64, request: &AssemblyRequest
     if workspace.m.closures.is_empty() || free == 0 || free > 6 || q.len() > 12 {
         return vec![];
     }
-    workspace.place(t, q, &vec![0.0; q.len()]);
+    workspace.move_to(t, q, &vec![0.0; q.len()]);
     let determined = rows(workspace, &request.held);
     if workspace.rank_of(&determined) < q.len() {
         return vec![];
@@ -221,7 +221,7 @@ fn velocities(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &
     for _ in 0..3 {
         workspace.project_velocities_with(t, q, &mut u, &request.held_rates)?;
     }
-    workspace.place(t, q, &u);
+    workspace.move_to(t, q, &u);
     workspace.update_rows();
     let speed = u.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
     let described = |source: Source| (source.name(workspace.m).to_string(), Some(source.path(workspace.m)));
@@ -241,7 +241,7 @@ fn velocities(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &
 }
 
 fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> Trouble {
-    workspace.place(t, q, &vec![0.0; q.len()]);
+    workspace.move_to(t, q, &vec![0.0; q.len()]);
     // Name and, for what is no wish, place in the model; how far open.
     let mut gaps: Vec<(String, Option<String>, f64)> = vec![];
     for (i, (row, gap)) in rows(workspace, &request.held).iter().enumerate() {

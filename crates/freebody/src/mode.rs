@@ -128,7 +128,20 @@ impl Mode {
             None => self.other_flank.push(joint),
         }
     }
-    /// Whether a part is in place.
+    /// Whether a part is in place, contacts, stops and strings included.
+    pub fn is_in_place(&self, m: &Mechanism, part: Part) -> bool {
+        match part {
+            Part::Group(g) => m.groups[g].constraints.clone().any(|l| self.contacts[l].mode != ContactMode::Off),
+            _ => self.has(part),
+        }
+    }
+    /// This mode with some unilateral constraints held in another way.
+    pub fn with_contacts(&self, constraints: &[usize], held: ContactMode) -> Mode {
+        let mut mode = self.clone();
+        constraints.iter().for_each(|&l| mode.contacts[l].mode = held);
+        mode
+    }
+    /// Whether a joint, a drive or a force is in place.
     pub fn has(&self, part: Part) -> bool {
         !self.off.contains(&part)
     }

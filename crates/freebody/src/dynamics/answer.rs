@@ -28,7 +28,7 @@ impl<'m> super::Workspace<'m> {
     /// The mechanism at a state, with contacts, strings and friction as they are where nothing moved before.
     ///
     /// # Errors
-    /// Arrays that are no state; as [`super::Workspace::set_contact_modes`].
+    /// Arrays that are no state; as [`super::Workspace::initial_mode`].
     pub fn of_state(
         m: &'m crate::mechanism::Mechanism,
         p: &[f64],
@@ -38,8 +38,9 @@ impl<'m> super::Workspace<'m> {
     ) -> Result<Self, super::Trouble> {
         m.check_state(p, t, q, u)?;
         let mut workspace = Self::new(m, p);
-        workspace.place(t, q, u);
-        workspace.set_contact_modes()?;
+        workspace.move_to(t, q, u);
+        let mode = workspace.initial_mode()?;
+        workspace.enter(&mode);
         Ok(workspace)
     }
 }

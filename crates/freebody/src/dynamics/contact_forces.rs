@@ -44,7 +44,7 @@ impl Workspace<'_> {
     /// What must not fall below zero for a unilateral constraint to go on as it does under a force along its gap and
     /// its slide, N.
     pub fn margins(&self, constraint: usize, [normal, tangent]: [f64; 2]) -> Vec<f64> {
-        match (self.mode.contacts[constraint].mode, self.m.unilateral[constraint].friction) {
+        match (self.mode().contacts[constraint].mode, self.m.unilateral[constraint].friction) {
             (ContactMode::Stick, Some(Friction::Coulomb { fixed, .. })) => {
                 let most = self.n.values[fixed] * normal;
                 vec![normal, most - tangent, most + tangent]
@@ -59,7 +59,7 @@ impl Workspace<'_> {
         for (row, &lambda) in self.rows.iter().zip(lambda) {
             match row.source {
                 Source::Gap(l) => {
-                    let friction = match (self.mode.contacts[l].mode, self.m.unilateral[l].friction) {
+                    let friction = match (self.mode().contacts[l].mode, self.m.unilateral[l].friction) {
                         (ContactMode::Slip(sense), Some(Friction::Coulomb { kinetic, .. })) => {
                             -sense * self.n.values[kinetic]
                         }
@@ -68,7 +68,7 @@ impl Workspace<'_> {
                     };
                     forces[l] = [lambda, forces[l][1] + friction * lambda];
                 }
-                Source::Friction(l) if self.mode.contacts[l].mode == ContactMode::Stick => forces[l][1] = lambda,
+                Source::Friction(l) if self.mode().contacts[l].mode == ContactMode::Stick => forces[l][1] = lambda,
                 _ => {}
             }
         }
@@ -84,8 +84,8 @@ impl Workspace<'_> {
     /// How a unilateral constraint is held, as one sees it: what is pressed sticks or slides, with friction.
     pub(super) fn mode_seen(&self, l: usize) -> ContactMode {
         match (
-            self.mode.contacts[l].mode,
-            self.m.joint_friction_of(l).map(|friction| self.mode.joint_friction[friction]),
+            self.mode().contacts[l].mode,
+            self.m.joint_friction_of(l).map(|friction| self.mode().joint_friction[friction]),
         ) {
             (ContactMode::Compliant, Some(mode)) if mode != ContactMode::Open => mode,
             (mode, _) => mode,
@@ -124,7 +124,7 @@ impl Workspace<'_> {
     /// Something of a contact, stop or string.
     pub(super) fn read_contact(&self, group: usize, bound: ContactQuantity) -> f64 {
         let limits = || self.m.groups[group].constraints.clone();
-        let closed = |l: &usize| self.mode.contacts[*l].mode.touches();
+        let closed = |l: &usize| self.mode().contacts[*l].mode.touches();
         match bound {
             ContactQuantity::Gap => limits().map(|l| self.open_gap(l)).fold(f64::INFINITY, f64::min),
             ContactQuantity::Slip => limits().filter(closed).map(|l| self.slide_rate(l)).next().unwrap_or(0.0),
@@ -158,7 +158,7 @@ impl Workspace<'_> {
     }
 
     fn compliant_contacts(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.m.unilateral.len()).filter(|&l| self.mode.contacts[l].mode == ContactMode::Compliant)
+        (0..self.m.unilateral.len()).filter(|&l| self.mode().contacts[l].mode == ContactMode::Compliant)
     }
 
     /// Adds the loads of all unilateral constraints that are pressed.
@@ -182,7 +182,7 @@ impl Workspace<'_> {
     pub fn resultant_at(&self, group: usize) -> Vec2 {
         let (forces, mut sum, mut all) = (self.contact_forces(), Vec2::zero(), 0.0);
         for l in self.m.groups[group].constraints.clone() {
-            let feature = self.mode.contacts[l].feature;
+            let feature = self.mode().contacts[l].feature;
             if let Some(contact) = self.m.unilateral[l].gap.contact(self.m, &self.at(), feature) {
                 sum += contact.point * forces[l][0];
                 all += forces[l][0];

@@ -10,7 +10,7 @@ use super::{generalized_force, Row, Trouble, Workspace};
 use crate::contact::complementarity::{self, Answer, FrictionLaw, Problem, Status, Verdict};
 use crate::error::Paradox;
 use crate::mechanism::Friction;
-use crate::mode::ContactMode;
+use crate::mode::{ContactMode, Mode};
 use crate::plane::{Vec2, Wrench};
 use crate::solve::Matrix;
 
@@ -39,6 +39,8 @@ pub struct ContactTolerances {
 pub struct ClosedContacts {
     /// Which.
     pub constraints: Vec<usize>,
+    /// The mode in which they are open, and all else is as it was.
+    pub opened: Mode,
     pub(super) gaps: Vec<Row>,
     pub(super) slides: Vec<Option<Row>>,
     /// Joint accelerations for a unit force: of the k gaps, then of the k slides.
@@ -62,6 +64,13 @@ pub struct ContactDecision {
 impl ClosedContacts {
     pub(super) fn len(&self) -> usize {
         self.constraints.len()
+    }
+
+    /// The mode that a decision about them makes.
+    fn decided(&self, decision: &ContactDecision) -> Mode {
+        let mut mode = self.opened.clone();
+        self.constraints.iter().zip(&decision.modes).for_each(|(&l, &held)| mode.contacts[l].mode = held);
+        mode
     }
 
     /// Speeds of sliding, m/s.
@@ -106,14 +115,13 @@ impl ClosedContacts {
 }
 
 impl Workspace<'_> {
-    /// Frees `limits` and finds how they act on one another at the present state.
+    /// How `limits`, freed, act on one another at the present state.
     ///
     /// # Errors
     /// As [`Workspace::solve`]: the mechanism without them must have a motion.
     pub fn closed_contacts(&mut self, limits: Vec<usize>) -> Result<ClosedContacts, Trouble> {
-        for &constraint in &limits {
-            self.mode.contacts[constraint].mode = ContactMode::Open;
-        }
+        let opened = self.mode().with_contacts(&limits, ContactMode::Open);
+        self.enter(&opened);
         let at = self.at();
         let gaps: Vec<Row> = limits.iter().map(|&l| gap_row(at, l, None)).collect();
         let slides: Vec<Option<Row>> =
@@ -128,6 +136,7 @@ impl Workspace<'_> {
         let rates = rates.chain(slides.iter().map(|s| s.as_ref().and_then(|r| r.rate).unwrap_or(0.0))).collect();
         let mut contacts = ClosedContacts {
             constraints: limits,
+            opened,
             gaps,
             slides,
             responses: vec![],
@@ -156,6 +165,7 @@ impl Workspace<'_> {
     /// # Errors
     /// As [`Workspace::solve`].
     pub fn free_accelerations(&mut self, contacts: &ClosedContacts) -> Result<Vec<f64>, Trouble> {
+        self.enter(&contacts.opened);
         self.solve_by(super::Route::Minimal)?;
         let at = self.at();
         let bodies = Some(self.solved.bodies.as_slice());
@@ -201,18 +211,19 @@ impl Workspace<'_> {
         }
     }
 
-    /// Lets the unilateral constraints hold that are closed at the present state, and lets friction act in the joints
-    /// that move, for an instant by itself: there is no impact.
+    /// The mode of an instant by itself: the unilateral constraints hold that are closed, and friction acts in the
+    /// joints that move. There is no impact.
     ///
     /// # Errors
     /// `penetration`; as [`Workspace::decide_contact_modes`].
-    pub fn set_contact_modes(&mut self) -> Result<(), Trouble> {
+    pub fn initial_mode(&mut self) -> Result<Mode, Trouble> {
         if self.m.unilateral.is_empty() && self.m.joint_friction.is_empty() {
-            return Ok(());
+            return Ok(self.mode().clone());
         }
-        self.start_contacts()?;
+        let mode = self.start_contacts()?;
+        self.enter(&mode);
         let rest_speed = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
-        self.start_joint_friction(rest_speed)?;
+        let mut mode = self.start_joint_friction(rest_speed)?;
         let scale = ContactTolerances {
             rest_speed,
             acceleration: self.n.gravity.norm().max(self.length),
@@ -220,15 +231,21 @@ impl Workspace<'_> {
             relaxed: false,
         };
         for _ in 0..=self.friction_switch_limit() {
-            self.set_modes_of_closed_contacts(scale)?;
-            if self.m.joint_friction.is_empty() || !self.switch_joint_friction(scale, None)? {
+            self.enter(&mode);
+            mode = self.modes_of_closed_contacts(scale)?;
+            if self.m.joint_friction.is_empty() {
                 break;
             }
+            self.enter(&mode);
+            match self.switch_joint_friction(scale, None)? {
+                Some(switched) => mode = switched,
+                None => break,
+            }
         }
-        Ok(())
+        Ok(mode)
     }
 
-    fn set_modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<(), Trouble> {
+    fn modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<Mode, Trouble> {
         let touching = self.touching(1e-9 * self.length);
         let contacts = self.closed_contacts(touching)?;
         let staying = (0..contacts.len())
@@ -237,43 +254,40 @@ impl Workspace<'_> {
             .collect();
         let contacts = self.closed_contacts(staying)?;
         let decision = self.decide_contact_modes(&contacts, &contacts.slips(), scale)?;
-        self.apply_contact_modes(&contacts, &decision);
-        Ok(())
+        Ok(contacts.decided(&decision))
     }
 
-    /// Takes the holds found.
-    pub fn apply_contact_modes(&mut self, contacts: &ClosedContacts, decision: &ContactDecision) {
-        for (&l, &mode) in contacts.constraints.iter().zip(&decision.modes) {
-            self.mode.contacts[l].mode = mode;
-        }
-    }
-
-    /// Of unilateral constraints that stick, though others that slide keep them from it, takes as many as there are
-    /// forces too many for the motions that are excluded: these keep the friction that they have now. What holds them
-    /// does not say how much.
+    /// The mode decided. Of unilateral constraints that stick, though others that slide keep them from it, as many as
+    /// there are forces too many for the motions that are excluded keep the friction that they have now. What holds
+    /// them does not say how much.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn share_friction(&mut self, contacts: &ClosedContacts, decision: &ContactDecision) -> Result<(), Trouble> {
+    pub fn share_friction(&mut self, contacts: &ClosedContacts, decision: &ContactDecision) -> Result<Mode, Trouble> {
+        let mut mode = contacts.decided(decision);
         let sticking = |(&l, &friction): (&usize, &f64)| {
-            Some((l, friction)).filter(|_| self.mode.contacts[l].mode == ContactMode::Stick)
+            Some((l, friction)).filter(|_| mode.contacts[l].mode == ContactMode::Stick)
         };
         let sticking: Vec<(usize, f64)> =
             contacts.constraints.iter().zip(&decision.friction_ratios).filter_map(sticking).collect();
+        self.enter(&mode);
         if self.solve_by(super::Route::Minimal).is_ok() || sticking.is_empty() {
-            return Ok(());
+            return Ok(mode);
         }
         for &(l, friction) in &sticking {
-            self.mode.contacts[l].mode = ContactMode::PartialFriction(friction);
+            mode.contacts[l].mode = ContactMode::PartialFriction(friction);
         }
         for &(l, friction) in &sticking {
-            self.mode.contacts[l].mode = ContactMode::Stick;
+            mode.contacts[l].mode = ContactMode::Stick;
+            self.enter(&mode);
             let fails = self.solve_by(super::Route::Minimal).is_err();
             if fails && self.dense.saddle.actuation_rank() >= self.dense.saddle.rank().rank {
-                self.mode.contacts[l].mode = ContactMode::PartialFriction(friction);
+                mode.contacts[l].mode = ContactMode::PartialFriction(friction);
             }
         }
-        self.solve_by(super::Route::Minimal)
+        self.enter(&mode);
+        self.solve_by(super::Route::Minimal)?;
+        Ok(mode)
     }
 
     pub(super) fn friction_laws(&self, contacts: &ClosedContacts, slips: &[f64], rest_speed: f64) -> Vec<FrictionLaw> {

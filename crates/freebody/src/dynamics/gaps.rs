@@ -3,8 +3,9 @@
 use super::rows::{closing_rows, joint_rows};
 use super::{Source, Trouble, Workspace};
 use crate::bound_values::BoundValues;
+use crate::kinematics::MotionView;
 use crate::mechanism::{Gap, Group, Mechanism, Part};
-use crate::mode::{Border, ContactMode, ContactState, Feature};
+use crate::mode::{Border, ContactMode, ContactState, Feature, Mode};
 
 /// Depth, over the characteristic length, to which a unilateral constraint may be violated at the start.
 const SHALLOW: f64 = 1e-8;
@@ -49,20 +50,29 @@ impl Mechanism {
 }
 
 impl Workspace<'_> {
-    /// Finds what only the start tells of unilateral constraints: how strings are attached, and on which feature every
-    /// gap is.
+    /// The present mode with what only the start tells of unilateral constraints: how strings are attached, on which
+    /// feature every gap is, and which springs are pressed.
     ///
     /// # Errors
     /// `penetration`, where a unilateral constraint is violated.
-    pub fn start_contacts(&mut self) -> Result<(), Trouble> {
+    pub fn start_contacts(&mut self) -> Result<Mode, Trouble> {
+        let mut mode = self.mode().clone();
         for l in 0..self.m.unilateral.len() {
-            self.start_contact(l);
-            let gap = self.constraint_gap(l);
+            mode.contacts[l].feature = self.initial_feature(l);
+        }
+        self.enter(&mode);
+        for l in 0..self.m.unilateral.len() {
+            let (gap, is_off) = (self.constraint_gap(l), mode.contacts[l].mode == ContactMode::Off);
             if self.m.unilateral[l].soft.is_some() {
-                self.update_compliant_contact(l);
+                let pressed = gap < 0.0 && self.compliant_force(l) > 0.0;
+                mode.contacts[l].mode = match (is_off, pressed) {
+                    (true, _) => ContactMode::Off,
+                    (_, true) => ContactMode::Compliant,
+                    _ => ContactMode::Open,
+                };
                 continue;
             }
-            if self.mode.contacts[l].mode != ContactMode::Off && gap < -SHALLOW * self.length {
+            if !is_off && gap < -SHALLOW * self.length {
                 let group = &self.m.groups[self.m.unilateral[l].group];
                 let what = match group.word {
                     "string" => format!("the string `{}` is stretched by {:.6e} m", group.name, -gap),
@@ -72,7 +82,7 @@ impl Workspace<'_> {
                 return Err(Trouble::Penetration(what + " at the start", hint, group.path()));
             }
         }
-        Ok(())
+        Ok(mode)
     }
 
     /// Refuses a state in which a unilateral constraint without a spring is violated: what should have closed it was
@@ -83,7 +93,7 @@ impl Workspace<'_> {
     pub fn check_gaps(&self, t: f64) -> Result<(), Trouble> {
         let apart = self.apart();
         for (l, constraint) in self.m.unilateral.iter().enumerate() {
-            let mode = self.mode.contacts[l].mode;
+            let mode = self.mode().contacts[l].mode;
             if mode == ContactMode::Off
                 || constraint.soft.is_some()
                 || (mode == ContactMode::Open && apart[constraint.group].is_some())
@@ -100,40 +110,37 @@ impl Workspace<'_> {
         Ok(())
     }
 
-    fn start_contact(&mut self, l: usize) {
+    /// The feature of a gap as it is told by the state alone.
+    fn initial_feature(&self, l: usize) -> Feature {
         let constraint = &self.m.unilateral[l];
         let mut feature = Feature::default();
         if let Gap::Cable(cable) = &constraint.gap {
             feature.phase = cable.initial_winding(self.m, &self.at());
         }
-        self.mode.contacts[l].feature = constraint.gap.feature(self.m, &self.at(), feature);
-    }
-
-    /// Presses a unilateral constraint with a spring if it is violated.
-    fn update_compliant_contact(&mut self, l: usize) {
-        if self.mode.contacts[l].mode != ContactMode::Off {
-            let pressed = self.constraint_gap(l) < 0.0 && self.compliant_force(l) > 0.0;
-            self.mode.contacts[l].mode = if pressed { ContactMode::Compliant } else { ContactMode::Open };
-        }
+        constraint.gap.feature(self.m, &self.at(), feature)
     }
 
     /// The gap of a unilateral constraint at the present state, on its feature.
     pub fn constraint_gap(&self, l: usize) -> f64 {
-        self.m.unilateral[l].gap.gap(self.m, &self.mode, &self.at(), self.mode.contacts[l].feature)
+        self.gap_on(l, self.mode().contacts[l].feature)
+    }
+
+    fn gap_on(&self, l: usize, feature: Feature) -> f64 {
+        self.m.unilateral[l].gap.gap(self.m, self.mode(), &self.at(), feature)
     }
 
     /// The gap of an open unilateral constraint at the present state, on whichever feature it now is.
     pub fn open_gap(&self, l: usize) -> f64 {
-        let (gap, at) = (&self.m.unilateral[l].gap, self.at());
-        gap.gap(self.m, &self.mode, &at, gap.feature(self.m, &at, self.mode.contacts[l].feature))
+        let (gap, feature) = (&self.m.unilateral[l].gap, self.mode().contacts[l].feature);
+        self.gap_on(l, gap.feature(self.m, &self.at(), feature))
     }
 
     /// The gap of an open unilateral constraint, where it can close as it now is; None too where a unilateral
     /// constraint that is closed keeps it off.
     pub fn closing_gap(&self, l: usize) -> Option<f64> {
-        let (gap, at) = (&self.m.unilateral[l].gap, self.at());
-        let feature = gap.feature(self.m, &at, self.mode.contacts[l].feature);
-        let gap_here = gap.can_close(feature.index).then(|| gap.gap(self.m, &self.mode, &at, feature));
+        let gap = &self.m.unilateral[l].gap;
+        let feature = gap.feature(self.m, &self.at(), self.mode().contacts[l].feature);
+        let gap_here = gap.can_close(feature.index).then(|| self.gap_on(l, feature));
         gap_here.filter(|gap_here| gap_here.abs() > SAME * self.length || !self.is_doubled(l, feature))
     }
 
@@ -148,9 +155,9 @@ impl Workspace<'_> {
         else {
             return false;
         };
-        let closed = |&by: &usize| by != l && self.mode.contacts[by].mode.touches();
+        let closed = |&by: &usize| by != l && self.mode().contacts[by].mode.touches();
         let by = self.m.groups[constraint.group].constraints.clone().filter(closed);
-        let mut places = by.filter_map(|by| place(by, self.mode.contacts[by].feature));
+        let mut places = by.filter_map(|by| place(by, self.mode().contacts[by].feature));
         places.any(|there| (there - here).norm() <= MEET * self.length)
     }
 
@@ -164,37 +171,39 @@ impl Workspace<'_> {
         self.m.groups.iter().zip(&self.reaches).map(apart).collect()
     }
 
-    /// Takes the present features of all open unilateral constraints, those apart left as they were; `moment`, s, is
-    /// short beside any of the motion.
-    pub fn find_features(&mut self, moment: f64) {
-        let apart = self.apart();
-        for l in 0..self.m.unilateral.len() {
-            if self.mode.contacts[l].mode == ContactMode::Open && apart[self.m.unilateral[l].group].is_none() {
-                let feature = self.m.unilateral[l].gap.feature(self.m, &self.at(), self.mode.contacts[l].feature);
-                self.mode.contacts[l].feature = feature;
-                self.take_next_feature(l, moment);
+    /// The present mode with the present features of all open unilateral constraints, those apart left as they were;
+    /// `moment`, s, is short beside any of the motion.
+    pub fn find_features(&self, moment: f64) -> Mode {
+        let (mut mode, apart) = (self.mode().clone(), self.apart());
+        for (constraint, contact) in self.m.unilateral.iter().zip(&mut mode.contacts) {
+            if contact.mode == ContactMode::Open && apart[constraint.group].is_none() {
+                let feature = constraint.gap.feature(self.m, &self.at(), contact.feature);
+                contact.feature = self.next_feature(&constraint.gap, feature, moment);
             }
         }
+        mode
     }
 
-    /// Where several features tell one gap, as where corners meet, takes the one that is the largest a moment later.
-    fn take_next_feature(&mut self, l: usize, moment: f64) {
-        let Gap::ContactPair(touch) = &self.m.unilateral[l].gap else { return };
-        let (first, gap) = (self.mode.contacts[l].feature, self.constraint_gap(l));
-        if gap.abs() > SAME * self.length {
-            return;
+    /// Where several features tell one gap, as where corners meet, the one on which it is the largest a moment later.
+    fn next_feature(&self, gap: &Gap, first: Feature, moment: f64) -> Feature {
+        let Gap::ContactPair(touch) = gap else { return first };
+        let going = MotionView { at: self.at(), bodies: None, accelerations: None };
+        let jet = |feature: Feature| gap.gap(self.m, self.mode(), &going, feature);
+        let now = gap.gap(self.m, self.mode(), &self.at(), first);
+        if now.abs() > SAME * self.length {
+            return first;
         }
         let mut borders = touch.borders(self.m, &self.at(), first.index);
         borders.retain(|border| touch.may_be_active(self.m, &self.at(), border.beyond));
-        let mut best = (gap + moment * self.gap_rate(l), first);
+        let mut best = (now + moment * jet(first).d1, first);
         for border in borders.iter().filter(|border| border.value.abs() <= SAME * self.length) {
-            self.mode.contacts[l].feature.index = border.beyond;
-            let coming = gap - border.value + moment * self.gap_rate(l);
+            let beyond = Feature { index: border.beyond, ..first };
+            let coming = now - border.value + moment * jet(beyond).d1;
             if coming > best.0 {
-                best = (coming, self.mode.contacts[l].feature);
+                best = (coming, beyond);
             }
         }
-        self.mode.contacts[l].feature = best.1;
+        best.1
     }
 
     /// The unilateral constraints whose gap is closed, or open by less than `most`.
@@ -202,9 +211,9 @@ impl Workspace<'_> {
         let apart = self.apart();
         let touches = |l: &usize| {
             if apart[self.m.unilateral[*l].group].is_some_and(|least| least > most) {
-                return self.mode.contacts[*l].mode.is_closed();
+                return self.mode().contacts[*l].mode.is_closed();
             }
-            let contact = self.mode.contacts[*l];
+            let contact = self.mode().contacts[*l];
             let can = || self.m.unilateral[*l].gap.can_close(contact.feature.index);
             contact.mode.is_closed()
                 || (contact.mode == ContactMode::Open
@@ -217,56 +226,46 @@ impl Workspace<'_> {
 
     /// The nearest border of a unilateral constraint's feature, and the feature beyond.
     pub fn border(&self, l: usize) -> Option<(f64, usize)> {
-        let borders = self.m.unilateral[l].gap.borders(self.m, &self.at(), self.mode.contacts[l].feature);
+        let borders = self.m.unilateral[l].gap.borders(self.m, &self.at(), self.mode().contacts[l].feature);
         borders.iter().map(|b| (b.value, b.beyond)).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Whether a part is in place.
-    pub fn has(&self, part: Part) -> bool {
-        match part {
-            Part::Group(g) => {
-                self.m.groups[g].constraints.clone().any(|l| self.mode.contacts[l].mode != ContactMode::Off)
-            }
-            _ => self.mode.has(part),
-        }
-    }
-
-    /// Takes a part away or puts it in place, joints as they are now; answers whether that changed anything.
-    pub fn put(&mut self, part: Part, there: bool) -> bool {
-        let changed = match part {
-            Part::Group(g) => self.put_contacts(g, there),
-            _ => self.mode.put(part, there),
+    /// The present mode with a part taken away or put in place, joints as they are now; None if that changes nothing.
+    pub fn switch_part(&self, part: Part, there: bool) -> Option<Mode> {
+        let mut mode = self.mode().clone();
+        let changes = match part {
+            Part::Group(g) => self.switch_contacts(&mut mode, g, there),
+            _ => mode.put(part, there),
         };
-        if let Some(mode) = self.m.held_without(part) {
-            self.mode.put(mode, !there);
+        if !changes {
+            return None;
         }
-        if let (true, true, Part::Joint(j)) = (changed, there, part) {
+        if let Some(stand_in) = self.m.held_without(part) {
+            mode.put(stand_in, !there);
+        }
+        if let (true, Part::Joint(j)) = (there, part) {
             let mut rows = vec![];
             joint_rows(self.at(), j, None, &mut rows);
             for row in rows {
                 if let (Source::Joint(j, r), Some(value)) = (row.source, row.value) {
-                    self.mode.row_offsets.insert((j, r), value);
+                    mode.row_offsets.insert((j, r), value);
                 }
             }
         }
-        changed
+        Some(mode)
     }
 
-    fn put_contacts(&mut self, g: usize, there: bool) -> bool {
-        let mut changed = false;
-        for l in self.m.groups[g].constraints.clone() {
-            let is_there = self.mode.contacts[l].mode != ContactMode::Off;
-            if is_there == there {
-                continue;
-            }
-            changed = true;
-            let mode = if there { ContactMode::Open } else { ContactMode::Off };
-            self.mode.contacts[l] = ContactState { mode, ..self.mode.contacts[l] };
-            if there {
-                self.start_contact(l);
-            }
+    fn switch_contacts(&self, mode: &mut Mode, g: usize, there: bool) -> bool {
+        let constraints = self.m.groups[g].constraints.clone();
+        let switched: Vec<usize> =
+            constraints.filter(|&l| (mode.contacts[l].mode != ContactMode::Off) != there).collect();
+        for &l in &switched {
+            mode.contacts[l] = match there {
+                true => ContactState { mode: ContactMode::Open, feature: self.initial_feature(l) },
+                false => ContactState { mode: ContactMode::Off, ..mode.contacts[l] },
+            };
         }
-        changed
+        !switched.is_empty()
     }
 
     /// Whether the rows of the last solution leave nothing free, and no motion drives it.
@@ -275,15 +274,17 @@ impl Workspace<'_> {
         !driven && self.dense.saddle.dof() == 0
     }
 
-    /// Takes the values of all rows of which only the change counts as their zeros.
-    pub fn take_row_offsets(&mut self) {
-        self.mode.row_offsets.clear();
+    /// The present mode with the values of all rows of which only the change counts as their zeros.
+    pub fn with_row_offsets(&self) -> Mode {
+        let mut mode = self.mode().clone();
+        mode.row_offsets.clear();
         for row in closing_rows(self.at(), None) {
             if let Source::Joint(j, r) = row.source {
                 if self.m.joints[j].is_relative[r] {
-                    self.mode.row_offsets.insert((j, r), row.value.unwrap_or(0.0));
+                    mode.row_offsets.insert((j, r), row.value.unwrap_or(0.0));
                 }
             }
         }
+        mode
     }
 }

@@ -4,18 +4,19 @@ use super::{Source, Workspace};
 use crate::joints::{Gear, Kind};
 use crate::kinematics::{relative, MotionView};
 use crate::mechanism::Joint;
+use crate::mode::Mode;
 
 /// Change of a distance, relative to what the wheels' turning could make of it, that is round-off.
 const HELD: f64 = 1e-9;
 
 impl Workspace<'_> {
-    /// Takes the other flank of every gear pair whose teeth would pull in the last solution; true if there was one.
+    /// The mode with the other flank of every gear pair whose teeth would pull in the last solution, if there is one.
     ///
     /// Where other joints hold the axles at their distance, the flank changes no motion, and so no tooth force: both
     /// flanks push along the pitch circles alike. Where they do not, the flank chosen in the model stays: the other is
     /// another constraint.
-    pub(super) fn switch_gear_flanks(&mut self) -> bool {
-        let mut pulling = vec![];
+    pub(super) fn other_gear_flanks(&self) -> Option<Mode> {
+        let mut other = None;
         for (row, lambda) in self.rows.iter().zip(&self.solved.lambda) {
             let Source::Joint(j, _) = row.source else { continue };
             let joint = &self.m.joints[j];
@@ -23,13 +24,12 @@ impl Workspace<'_> {
                 continue;
             }
             let model = self.n.values[joint.numbers[Gear::FLANK]];
-            let flank = if self.mode.bears_on_other_flank(j) { -model } else { model };
+            let flank = if self.mode().bears_on_other_flank(j) { -model } else { model };
             if flank * lambda < 0.0 && self.keeps_centre_distance(joint) {
-                pulling.push(j);
+                other.get_or_insert_with(|| self.mode().clone()).turn_flank(j);
             }
         }
-        pulling.iter().for_each(|&joint| self.mode.turn_flank(joint));
-        !pulling.is_empty()
+        other
     }
 
     /// Whether the axles of a gear pair keep their distance in the last solution, in rate and in acceleration.

@@ -124,16 +124,13 @@ impl Workspace<'_> {
     }
 }
 
-/// Reads expressions at states, solving the instant only when one of them asks for it.
-pub struct Observer<'b, 'm> {
-    workspace: &'b mut Workspace<'m>,
-    needs_solution: bool,
-    needs_reactions: bool,
-}
-
-impl<'b, 'm> Observer<'b, 'm> {
-    /// An observer for the given expressions.
-    pub fn new<'l>(workspace: &'b mut Workspace<'m>, laws: impl IntoIterator<Item = &'l ModelExpr>) -> Self {
+impl Workspace<'_> {
+    /// The values of expressions at the present state, which is solved only when one of them asks for it; `works` of
+    /// all forces, then of all drives. What is not determinate is NaN.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn evaluate(&mut self, laws: &[&ModelExpr], works: &[f64]) -> Result<Vec<f64>, Trouble> {
         let (mut needs_solution, mut needs_reactions) = (false, false);
         for law in laws {
             needs_solution |= law.depends_on_accelerations();
@@ -147,38 +144,20 @@ impl<'b, 'm> Observer<'b, 'm> {
                 needs_solution |= needs_reactions || matches!(reading, Reading::JointFriction(_));
             }
         }
-        Observer { workspace, needs_solution, needs_reactions }
-    }
-
-    /// Goes to a state.
-    ///
-    /// # Errors
-    /// As [`Workspace::solve`].
-    pub fn place(&mut self, t: f64, q: &[f64], u: &[f64]) -> Result<(), Trouble> {
-        self.workspace.place(t, q, u);
-        if self.needs_solution {
-            self.workspace.solve()?;
-        }
-        Ok(())
-    }
-
-    /// The values of expressions at the present state; `works` of all forces, then of all drives. What is not
-    /// determinate is NaN.
-    pub fn read(&mut self, laws: &[&ModelExpr], works: &[f64]) -> Vec<f64> {
-        let b = &mut *self.workspace;
         let (mut joints, mut drives, mut powers) = (vec![], vec![], vec![]);
         let (mut sure, mut drives_sure, mut groups_sure) = (vec![], vec![], vec![]);
-        if self.needs_reactions {
-            joints = b.joint_loads();
-            drives = b.drive_forces();
-            powers = b.drive_powers();
-            Determinacy { joints: sure, drives: drives_sure, groups: groups_sure } = b.determinacy();
+        let mut accelerations = vec![0.0; self.m.freedom()];
+        if needs_solution {
+            self.solve()?;
+            self.accelerations(&mut accelerations);
         }
-        let mut accelerations = vec![0.0; b.m.freedom()];
-        if self.needs_solution {
-            b.accelerations(&mut accelerations);
+        if needs_reactions {
+            joints = self.joint_loads();
+            drives = self.drive_forces();
+            powers = self.drive_powers();
+            Determinacy { joints: sure, drives: drives_sure, groups: groups_sure } = self.determinacy();
         }
-        let b = &*b;
+        let b = &*self;
         let read = |reading: Reading| -> f64 {
             let known = |sure: bool, x: f64| if sure { x } else { f64::NAN };
             match reading {
@@ -212,7 +191,7 @@ impl<'b, 'm> Observer<'b, 'm> {
             }
         };
         let observed = Observed { at: b.at(), bodies: &b.solved().bodies, accelerations: &accelerations, read: &read };
-        laws.iter().map(|law| law.eval(&observed)).collect()
+        Ok(laws.iter().map(|law| law.eval(&observed)).collect())
     }
 }
 

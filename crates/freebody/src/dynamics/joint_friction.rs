@@ -7,7 +7,7 @@
 use super::rows::joint_friction_row;
 use super::{ContactTolerances, Route, Source, Trouble, Workspace};
 use crate::mechanism::FrictionSource;
-use crate::mode::ContactMode;
+use crate::mode::{ContactMode, Mode};
 
 /// Turns after which a joint counts as jammed.
 const ITERATIONS: usize = 200;
@@ -41,7 +41,7 @@ impl Workspace<'_> {
     pub(super) fn add_joint_friction(&mut self) {
         for friction in 0..self.m.joint_friction.len() {
             let force = self.joint_friction_forces[friction];
-            if matches!(self.mode.joint_friction[friction], ContactMode::Slip(_)) && force != 0.0 {
+            if matches!(self.mode().joint_friction[friction], ContactMode::Slip(_)) && force != 0.0 {
                 for (body, load) in joint_friction_row(self.at(), friction, None).motion {
                     self.loads[body] += load * force;
                 }
@@ -79,7 +79,7 @@ impl Workspace<'_> {
     }
 
     fn sliding_friction(&self, friction: usize) -> f64 {
-        match self.mode.joint_friction[friction] {
+        match self.mode().joint_friction[friction] {
             ContactMode::Slip(sense) => -sense * self.most_friction(friction, false),
             _ => 0.0,
         }
@@ -87,7 +87,7 @@ impl Workspace<'_> {
 
     /// Friction in the last solution, along what it keeps from sliding: N, or N·m of a hinge.
     pub fn joint_friction_force(&self, friction: usize) -> f64 {
-        match self.mode.joint_friction[friction] {
+        match self.mode().joint_friction[friction] {
             ContactMode::Slip(_) => self.joint_friction_forces[friction],
             _ => {
                 let rows = self.rows.iter().zip(&self.solved.lambda);
@@ -114,48 +114,52 @@ impl Workspace<'_> {
             .sum()
     }
 
-    /// Lets all friction go on as it is: what moves slides, the rest sticks, and what is not pressed does neither.
+    /// The present mode with all friction going on as it is: what moves slides, the rest sticks, and what is not
+    /// pressed does neither.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn start_joint_friction(&mut self, rest_speed: f64) -> Result<(), Trouble> {
+    pub fn start_joint_friction(&mut self, rest_speed: f64) -> Result<Mode, Trouble> {
+        let mut mode = self.mode().clone();
         for friction in 0..self.m.joint_friction.len() {
-            self.mode.joint_friction[friction] = match self.m.joint_friction[friction].of {
-                FrictionSource::Limit(constraint) if self.mode.contacts[constraint].mode != ContactMode::Compliant => {
+            mode.joint_friction[friction] = match self.m.joint_friction[friction].of {
+                FrictionSource::Limit(constraint) if mode.contacts[constraint].mode != ContactMode::Compliant => {
                     ContactMode::Open
                 }
-                FrictionSource::Joint { joint, .. } if !self.has(self.m.part_of(joint)) => ContactMode::Open,
+                FrictionSource::Joint { joint, .. } if !mode.has(self.m.part_of(joint)) => ContactMode::Open,
                 _ if self.rests(friction, rest_speed) => ContactMode::Stick,
                 _ => ContactMode::Slip(self.joint_sliding_rate(friction).signum()),
             };
         }
-        if self.mode.joint_friction.contains(&ContactMode::Stick) && self.is_overconstrained() {
-            self.release_overconstrained_friction()?;
+        if mode.joint_friction.contains(&ContactMode::Stick) && self.is_overconstrained(&mode) {
+            return self.release_overconstrained_friction(mode);
         }
-        Ok(())
+        Ok(mode)
     }
 
-    /// Whether the constraints of the present mode ask for motions that exclude each other.
-    fn is_overconstrained(&mut self) -> bool {
+    /// Whether the constraints of a mode ask for motions that exclude each other.
+    fn is_overconstrained(&mut self, mode: &Mode) -> bool {
+        self.enter(mode);
         matches!(self.solve_by(Route::Minimal), Err(Trouble::Contradiction(..) | Trouble::Residual(..)))
     }
 
     /// Lets slide what no friction can hold, because the other constraints alone tell its acceleration: a slider that
     /// turns back at the dead point of its crank.
-    fn release_overconstrained_friction(&mut self) -> Result<(), Trouble> {
+    fn release_overconstrained_friction(&mut self, mut mode: Mode) -> Result<Mode, Trouble> {
         let stuck: Vec<usize> = (0..self.m.joint_friction.len())
-            .filter(|&friction| self.mode.joint_friction[friction] == ContactMode::Stick)
+            .filter(|&friction| mode.joint_friction[friction] == ContactMode::Stick)
             .collect();
-        stuck.iter().for_each(|&friction| self.mode.joint_friction[friction] = ContactMode::Open);
+        stuck.iter().for_each(|&friction| mode.joint_friction[friction] = ContactMode::Open);
+        self.enter(&mode);
         self.solve_by(Route::Minimal)?;
         let later: Vec<f64> = stuck.iter().map(|&friction| self.joint_sliding_acceleration(friction)).collect();
         for (&friction, later) in stuck.iter().zip(later) {
-            self.mode.joint_friction[friction] = ContactMode::Stick;
-            if self.is_overconstrained() {
-                self.mode.joint_friction[friction] = ContactMode::Slip(later.signum());
+            mode.joint_friction[friction] = ContactMode::Stick;
+            if self.is_overconstrained(&mode) {
+                mode.joint_friction[friction] = ContactMode::Slip(later.signum());
             }
         }
-        Ok(())
+        Ok(mode)
     }
 
     /// Turns after which it should be settled what sticks.
@@ -163,10 +167,9 @@ impl Workspace<'_> {
         SWITCHES * self.m.joint_friction.len()
     }
 
-    /// Lets the first slide that sticks and whose friction at rest does not suffice, or the first stick again that
-    /// slides from rest and would be brought back, but not the one just come `released`; answers whether there was one
-    /// (Murty 1974,
-    /// *Mathematical Programming* 7, 138: the first of them, so that it comes to an end).
+    /// The present mode, but that the first slides that sticks and whose friction at rest does not suffice, or that the
+    /// first sticks again that slides from rest and would be brought back, the one just `released` left out; None where
+    /// there is none (Murty 1974, *Mathematical Programming* 7, 138: the first of them, so that it comes to an end).
     ///
     /// # Errors
     /// As [`Workspace::solve`].
@@ -174,16 +177,20 @@ impl Workspace<'_> {
         &mut self,
         scale: ContactTolerances,
         released: Option<usize>,
-    ) -> Result<bool, Trouble> {
+    ) -> Result<Option<Mode>, Trouble> {
         self.solve()?;
+        let with = |friction: usize, held: ContactMode| {
+            let mut mode = self.mode().clone();
+            mode.joint_friction[friction] = held;
+            Ok(Some(mode))
+        };
         for friction in 0..self.m.joint_friction.len() {
-            match self.mode.joint_friction[friction] {
+            match self.mode().joint_friction[friction] {
                 ContactMode::Stick => {
                     let [later, back] = self.joint_friction_reserve(friction);
                     if later.min(back) < 0.0 {
                         // Friction that would have to push ahead cannot keep it from sliding back.
-                        self.mode.joint_friction[friction] = ContactMode::Slip(if later < back { -1.0 } else { 1.0 });
-                        return Ok(true);
+                        return with(friction, ContactMode::Slip(if later < back { -1.0 } else { 1.0 }));
                     }
                 }
                 ContactMode::Slip(sense)
@@ -191,13 +198,12 @@ impl Workspace<'_> {
                         && self.rests(friction, scale.rest_speed)
                         && sense * self.joint_sliding_acceleration(friction) < -NOTHING * scale.acceleration =>
                 {
-                    self.mode.joint_friction[friction] = ContactMode::Stick;
-                    return Ok(true);
+                    return with(friction, ContactMode::Stick);
                 }
                 _ => {}
             }
         }
-        Ok(false)
+        Ok(None)
     }
 
     /// Acceleration of sliding in the last solution, m/s², or rad/s² of a hinge.

@@ -84,7 +84,7 @@ impl Workspace<'_> {
 
     /// Factors mass matrix and rows of the present state.
     pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
-        let at = StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        let at = self.placed.view(self.m, &self.n, &self.k);
         mass_matrix(at, &self.arms, &mut self.dense.mass);
         rows_in_coordinates(at, &self.rows, self.length, &mut self.dense.g, &mut self.dense.b);
         let columns = column_scales(at, self.length);
@@ -118,7 +118,7 @@ impl Workspace<'_> {
         let dependence = Orthogonal::factor(&self.dense.g);
         let (y, rank) = (dependence.y(), dependence.rank().rank);
         let is_part = |i: usize| (rank..y.rows()).any(|k| y[(k, i)].abs() > PART);
-        let slides = |l: &usize| matches!(self.mode.contacts[*l].mode, ContactMode::Slip(_));
+        let slides = |l: &usize| matches!(self.mode().contacts[*l].mode, ContactMode::Slip(_));
         let constraint = |row: &Row| if let Source::Gap(l) = row.source { Some(l) } else { None };
         let parts = self.rows.iter().enumerate().filter(|(i, _)| is_part(*i));
         parts.filter_map(|(_, row)| constraint(row)).filter(slides).collect()

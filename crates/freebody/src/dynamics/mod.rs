@@ -31,7 +31,7 @@ mod term_scales;
 pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
 pub use energy::{kinetic, potential};
 pub use impact::ImpactSolution;
-pub use instant::{ContactLoad, Instant, Observer};
+pub use instant::{ContactLoad, Instant};
 pub use loads::{add_force, force_power, force_value, pulled, pushed, unaccounted_power};
 pub use maximal::{constraint_rows, joint_place};
 pub use momentum::{add_multipliers, inertia_wrench, momentum, residual};
@@ -97,22 +97,34 @@ pub struct Solution {
     pub joint_wrenches: Vec<Wrench>,
 }
 
+/// A state, and what is active in it.
+struct Placed {
+    mode: Mode,
+    /// The mode with the flanks on which gears bear in the last solution, where these are others.
+    bearing: Option<Mode>,
+    t: f64,
+    q: Vec<f64>,
+    u: Vec<f64>,
+}
+
+impl Placed {
+    fn view<'a>(&'a self, m: &'a Mechanism, n: &'a BoundValues, k: &'a Kinematics) -> StateView<'a> {
+        StateView { m, n, k, q: &self.q, u: &self.u, t: self.t, mode: self.bearing.as_ref().unwrap_or(&self.mode) }
+    }
+}
+
 /// One state of a mechanism with everything that its equations need; the memory is kept from one state to the next.
 pub struct Workspace<'m> {
     /// The mechanism.
     pub m: &'m Mechanism,
     /// Its numbers.
     n: BoundValues,
-    /// Which arms of switches are frozen.
-    pub mode: Mode,
     /// Characteristic length, for the scaling of rows and coordinates, m.
     pub length: f64,
     /// Of every contact, how far its surfaces reach from the joint origins of its bodies, m.
     reaches: Vec<[f64; 2]>,
     k: Kinematics,
-    t: f64,
-    q: Vec<f64>,
-    u: Vec<f64>,
+    placed: Placed,
     arms: Vec<Vec2>,
     loads: Vec<Wrench>,
     rows: Vec<Row>,
@@ -137,13 +149,10 @@ impl<'m> Workspace<'m> {
         let mut workspace = Workspace {
             m,
             n,
-            mode: Mode::free(m),
             length,
             reaches,
             k: Kinematics::of(m),
-            t: 0.0,
-            q: vec![0.0; freedom],
-            u: vec![0.0; freedom],
+            placed: Placed { mode: Mode::free(m), bearing: None, t: 0.0, q: vec![0.0; freedom], u: vec![0.0; freedom] },
             arms: vec![Vec2::zero(); bodies],
             loads: vec![Wrench::zero(); bodies],
             rows: vec![],
@@ -177,23 +186,43 @@ impl<'m> Workspace<'m> {
         self.reaches = gaps::reaches(self.m, &self.n);
     }
 
-    /// Goes to a state.
-    pub fn place(&mut self, t: f64, q: &[f64], u: &[f64]) {
-        self.t = t;
-        self.q.copy_from_slice(q);
-        self.u.copy_from_slice(u);
+    /// Goes to a state in a mode.
+    pub fn place(&mut self, mode: &Mode, t: f64, q: &[f64], u: &[f64]) {
+        self.enter(mode);
+        self.move_to(t, q, u);
+    }
+
+    /// Takes the present state as one in another mode.
+    pub fn enter(&mut self, mode: &Mode) {
+        self.placed.bearing = None;
+        if self.placed.mode != *mode {
+            self.placed.mode = mode.clone();
+        }
+    }
+
+    /// Goes to another state in the present mode.
+    pub fn move_to(&mut self, t: f64, q: &[f64], u: &[f64]) {
+        self.placed.bearing = None;
+        self.placed.t = t;
+        self.placed.q.copy_from_slice(q);
+        self.placed.u.copy_from_slice(u);
         self.k.forward_kinematics(self.m, &self.n, q, u);
+    }
+
+    /// The mode of the present state.
+    pub fn mode(&self) -> &Mode {
+        &self.placed.mode
     }
 
     /// Takes all speeds as none, in the present configuration.
     pub fn set_zero_rates(&mut self) {
-        self.u.fill(0.0);
-        self.k.forward_kinematics(self.m, &self.n, &self.q, &self.u);
+        self.placed.u.fill(0.0);
+        self.k.forward_kinematics(self.m, &self.n, &self.placed.q, &self.placed.u);
     }
 
-    /// The present state, as what measures sees it.
+    /// The present state, as what measures sees it; gears bear as in the last solution.
     pub fn at(&self) -> StateView<'_> {
-        StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode }
+        self.placed.view(self.m, &self.n, &self.k)
     }
 
     /// Solves the present state the quickest way; see [`Workspace::solved`].
@@ -210,8 +239,10 @@ impl<'m> Workspace<'m> {
     /// # Errors
     /// As [`Workspace::solve`].
     pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
+        self.placed.bearing = None;
         self.solve_once(route)?;
-        if self.switch_gear_flanks() {
+        self.placed.bearing = self.other_gear_flanks();
+        if self.placed.bearing.is_some() {
             self.solve_once(route)?;
         }
         match self.m.joint_friction.is_empty() {
@@ -221,12 +252,12 @@ impl<'m> Workspace<'m> {
     }
 
     fn solve_once(&mut self, route: Route) -> Result<(), Trouble> {
-        let at = StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        let at = self.placed.view(self.m, &self.n, &self.k);
         loads::centre_arms(at, &mut self.arms);
         loads::loads(at, &self.arms, &mut self.loads);
         self.add_joint_friction();
         self.add_compliant_forces();
-        let at = StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode };
+        let at = self.placed.view(self.m, &self.n, &self.k);
         match route {
             Route::Minimal if !self.is_closed() => {
                 self.solved.lambda.clear();

@@ -4,7 +4,8 @@ use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
 use super::{Row, Source, Trouble, Workspace};
 use crate::gauges::ModelExpr;
-use crate::kinematics::{JointView, StateView};
+use crate::kinematics::JointView;
+use crate::mode::Mode;
 use crate::solve::{Lu, Matrix, Orthogonal};
 
 /// Corrections after which a position is given up.
@@ -25,7 +26,7 @@ impl Workspace<'_> {
         let value = row.value?;
         let Source::Joint(j, r) = row.source else { return Some(value) };
         let joint = &self.m.joints[j];
-        let zero = match self.mode.row_offsets.get(&(j, r)) {
+        let zero = match self.mode().row_offsets.get(&(j, r)) {
             Some(zero) => *zero,
             None if joint.is_relative[r] => return None,
             None => 0.0,
@@ -59,14 +60,15 @@ impl Workspace<'_> {
         }
     }
 
-    /// Closes the loops at (t, q): returns the size of the correction.
+    /// Closes the loops at (t, q) in a mode: returns the size of the correction.
     ///
     /// # Errors
     /// `branch_lost` when the loops cannot be closed from here.
-    pub fn project_positions(&mut self, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, Trouble> {
+    pub fn project_positions(&mut self, mode: &Mode, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, Trouble> {
+        self.enter(mode);
         let (mut moved, mut last) = (0.0_f64, f64::INFINITY);
         for _ in 0..TRIES {
-            self.place(t, q, u);
+            self.move_to(t, q, u);
             let gap = self.worst_gap();
             // Gaps of contacts are told to the round-off of places: to lessen them further is work for nothing.
             let shut = gap <= 0.1 * CLOSED && self.m.closures.is_empty();
@@ -87,7 +89,7 @@ impl Workspace<'_> {
             moved = moved.max(self.size_of(&step));
             q.iter_mut().zip(&step).for_each(|(q, d)| *q += d);
         }
-        self.place(t, q, u);
+        self.move_to(t, q, u);
         let gap = self.worst_gap();
         if gap <= OPEN {
             return Ok(moved);
@@ -96,12 +98,12 @@ impl Workspace<'_> {
         Err(Trouble::LoopOpened(open.name(self.m).to_string(), gap * self.length, open.path(self.m)))
     }
 
-    /// Makes the velocities at (t, q) keep the loops closed: returns the size of the correction.
+    /// Makes the velocities at (t, q) keep the loops closed in a mode: returns the size of the correction.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn project_velocities(&mut self, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, Trouble> {
-        self.place(t, q, u);
+    pub fn project_velocities(&mut self, mode: &Mode, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, Trouble> {
+        self.place(mode, t, q, u);
         self.update_rows();
         let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
         if asked.iter().all(|&r| r == 0.0) {
@@ -123,10 +125,7 @@ impl Workspace<'_> {
         let mut keep = present.iter();
         self.rows.retain(|_| *keep.next().expect("one for each row"));
         let asked: Vec<f64> = asked.iter().zip(present).filter(|(_, &p)| p).map(|(a, _)| *a).collect();
-        super::loads::centre_arms(
-            StateView { m: self.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: &self.mode },
-            &mut self.arms,
-        );
+        super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
         match self.factor(Force::Gradient) {
             Ok(()) => Ok(self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked).a),
             Err(_) => Ok(self.least_motion(&self.rows, &asked)),
@@ -143,7 +142,8 @@ impl Workspace<'_> {
         step
     }
 
-    /// As [`Workspace::project_velocities`], with further gauges whose rates must have given values.
+    /// As [`Workspace::project_velocities`] in the present mode, with further gauges whose rates must have given
+    /// values.
     pub(crate) fn project_velocities_with(
         &mut self,
         t: f64,
@@ -151,7 +151,7 @@ impl Workspace<'_> {
         u: &mut [f64],
         contact: &[(String, ModelExpr, f64)],
     ) -> Result<(), Trouble> {
-        self.place(t, q, u);
+        self.move_to(t, q, u);
         self.update_rows();
         let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
         self.rows.extend(targets);

@@ -130,7 +130,7 @@ impl Freedom {
 impl Workspace<'_> {
     /// Degrees of freedom at the present state, and whether constraints that are redundant here are so nearby.
     pub fn freedom(&mut self) -> Freedom {
-        let Count { bodies, rows, driven } = Count::of(self.m, &self.mode);
+        let Count { bodies, rows, driven } = Count::of(self.m, self.mode());
         let (rank, uncertain) = self.closing_rank();
         let closing = self.geometric().len();
         let redundant = closing - rank;
@@ -148,7 +148,8 @@ impl Workspace<'_> {
 
     /// The largest rank at a few configurations nearby, reached by motions that the loops allow.
     fn nearby_rank(&mut self, here: usize) -> usize {
-        let (t, q, u) = (self.t, self.q.clone(), self.u.clone());
+        let mode = self.mode().clone();
+        let (t, q, u) = (self.placed.t, self.placed.q.clone(), self.placed.u.clone());
         self.rows = self.geometric();
         // A factorisation that fails for want of inertia has still found the motions.
         let _ = self.factor(Force::Gradient);
@@ -158,14 +159,14 @@ impl Workspace<'_> {
         for k in 0..motions.cols() {
             let along: Vec<f64> = (0..q.len()).map(|i| 1e-2 * motions[(i, k)]).collect();
             let mut step = zero.clone();
-            self.place(t, &q, &u);
+            self.move_to(t, &q, &u);
             self.to_user(&along, &mut step);
             let mut near: Vec<f64> = q.iter().zip(&step).map(|(q, d)| q + d).collect();
-            if self.project_positions(t, &mut near, &zero).is_ok() {
+            if self.project_positions(&mode, t, &mut near, &zero).is_ok() {
                 most = most.max(self.closing_rank().0);
             }
         }
-        self.place(t, &q, &u);
+        self.move_to(t, &q, &u);
         most
     }
 
@@ -215,7 +216,7 @@ impl Workspace<'_> {
     /// The rows of all that is closed: of unilateral constraints that touch one solution loads no more than balance
     /// needs.
     fn rows_with_closed_contacts(&self) -> Vec<Row> {
-        let mut mode = self.mode.clone();
+        let mut mode = self.at().mode.clone();
         for (l, contact) in mode.contacts.iter_mut().enumerate().filter(|(_, contact)| contact.mode.is_closed()) {
             let rests = self.slide_rate(l).abs() <= UNTOUCHED * self.length;
             match (contact.mode, self.m.unilateral[l].friction) {

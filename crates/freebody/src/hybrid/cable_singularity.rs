@@ -11,7 +11,7 @@ const VANISHED: f64 = 1e-9;
 impl HybridSystem<'_> {
     /// The segments of unilateral constraint `l` between points, if it is a taut string.
     fn taut_segments(&self, l: usize) -> Vec<Vec2> {
-        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode.contacts[l]);
+        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode().contacts[l]);
         match &constraint.gap {
             Gap::Cable(cable) if contact.mode.carries() => {
                 cable.free_segments(self.workspace.m, &self.workspace.at(), contact.feature)

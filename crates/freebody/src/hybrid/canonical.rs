@@ -86,7 +86,7 @@ impl Canonical for HybridSystem<'_> {
         let n = self.workspace.m.freedom();
         let q = &z[..n];
         let u = self.rates(q, &z[n..2 * n])?;
-        self.workspace.place(t, q, &u);
+        self.workspace.place(&self.mode, t, q, &u);
         self.workspace.solve()?;
         let mut u_dot = vec![0.0; n];
         self.workspace.accelerations(&mut u_dot);

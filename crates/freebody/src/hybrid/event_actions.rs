@@ -25,15 +25,19 @@ impl HybridSystem<'_> {
 
     /// Whether all that an event would release is gone already.
     pub(super) fn is_spent(&self, event: &Event) -> bool {
-        let gone = |action: &EventAction| matches!(action, EventAction::Release(part) if !self.workspace.has(*part));
-        event.then.iter().any(|action| matches!(action, EventAction::Release(_))) && event.then.iter().all(gone)
+        let mut actions = event.then.iter();
+        let is_gone = |action: &EventAction| match action {
+            EventAction::Release(part) => !self.mode.is_in_place(self.workspace.m, *part),
+            _ => false,
+        };
+        !event.then.is_empty() && actions.all(is_gone)
     }
 
     /// Takes the other arm of a switch.
     pub(super) fn switch_branch(&mut self, discontinuity: &Discontinuity, t: f64) {
         if let Discontinuity::Switch(switch, _) = discontinuity {
-            let arm = self.workspace.mode.branch(*switch).unwrap_or(true);
-            self.workspace.mode.freeze(*switch, !arm);
+            let arm = self.mode.branch(*switch).unwrap_or(true);
+            self.mode.freeze(*switch, !arm);
         }
         self.begin_phase(t, 0.0, 0.0);
     }
@@ -49,7 +53,7 @@ impl HybridSystem<'_> {
         if !values.is_empty() {
             self.change(t, y, &values);
             if !(self.workspace.m.unilateral.is_empty() && self.workspace.m.joint_friction.is_empty()) {
-                self.resolve_mode(t, y)?;
+                self.resolve_mode(t, y, None)?;
             }
         }
         let switched = self.switch_parts(t, y, &event.then)?;

@@ -21,8 +21,7 @@ impl HybridSystem<'_> {
     pub(super) fn guard_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
         let m = self.workspace.m;
-        let carries =
-            !m.joint_friction.is_empty() || self.workspace.mode.contacts.iter().any(|contact| contact.mode.carries());
+        let carries = !m.joint_friction.is_empty() || self.mode.contacts.iter().any(|contact| contact.mode.carries());
         if carries {
             self.workspace.solve_by(Route::Minimal)?;
         }
@@ -34,14 +33,14 @@ impl HybridSystem<'_> {
         for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
             match apart[m.unilateral[l].group] {
                 // Apart, as their bodies are.
-                Some(least) if self.workspace.mode.contacts[l].mode == ContactMode::Open => {
+                Some(least) if self.mode.contacts[l].mode == ContactMode::Open => {
                     values.copy_from_slice(&[least / self.workspace.length, 1.0, 1.0, 1.0]);
                 }
                 _ => self.guards_of(l, forces.get(l).copied(), values),
             }
         }
         // One guard is of them all.
-        let first = self.workspace.mode.contacts.iter().position(|contact| contact.mode.carries());
+        let first = self.mode.contacts.iter().position(|contact| contact.mode.carries());
         if let Some((first, shared)) = first.zip(shared) {
             out[GUARDS * first] = shared / self.strength;
         }
@@ -51,7 +50,7 @@ impl HybridSystem<'_> {
     /// The guards of one unilateral constraint under given forces along its gap and its slide, where there are such, at
     /// the state placed.
     fn guards_of(&self, l: usize, forces: Option<[f64; 2]>, values: &mut [f64]) {
-        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode.contacts[l]);
+        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.mode.contacts[l]);
         values.fill(1.0);
         match contact.mode {
             ContactMode::Off => return,
@@ -88,7 +87,7 @@ impl HybridSystem<'_> {
     fn joint_friction_guards(&self, out: &mut [f64]) {
         for (friction, values) in out.chunks_exact_mut(FRICTION_GUARDS).enumerate() {
             values.fill(1.0);
-            match self.workspace.mode.joint_friction[friction] {
+            match self.mode.joint_friction[friction] {
                 ContactMode::Stick => {
                     let reserve = self.workspace.joint_friction_reserve(friction).map(|r| r / self.strength);
                     values.copy_from_slice(&reserve);
@@ -116,7 +115,7 @@ impl HybridSystem<'_> {
     /// One guard, if it is of places and speeds alone: then nothing needs to be solved.
     pub(super) fn guard_value(&mut self, guard: usize, t: f64, y: &[f64]) -> Option<f64> {
         let (l, which) = (guard / GUARDS, guard % GUARDS);
-        let is_force = match self.workspace.mode.contacts.get(l)?.mode {
+        let is_force = match self.mode.contacts.get(l)?.mode {
             ContactMode::Stick => which < 3,
             mode => mode.carries() && which == 0,
         };

@@ -3,8 +3,8 @@
 use super::mode_changes::{ContactImpulse, Impulses, ModeChange};
 use super::HybridSystem;
 use crate::contact::complementarity::{self, ImpactLaw, ImpactProblem, NoImpact};
-use crate::dynamics::{ClosedContacts, ImpactSolution, Trouble};
-use crate::mode::ContactMode;
+use crate::dynamics::{ClosedContacts, ContactTolerances, ImpactSolution, Trouble};
+use crate::mode::{ContactMode, Mode};
 use crate::plane::Vec2;
 
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
@@ -50,20 +50,29 @@ impl Rule {
 }
 
 impl HybridSystem<'_> {
-    /// The constraints that are closed collide; returns those that did.
-    pub(super) fn impact(&mut self, t: f64, y: &mut [f64], contacts: &ClosedContacts) -> Result<Vec<usize>, Trouble> {
+    /// The constraints that are closed collide: returns those that did, and the speed that counts as none from now on
+    /// in this instant.
+    pub(super) fn impact(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        contacts: &ClosedContacts,
+        rest_speed: f64,
+    ) -> Result<(Vec<usize>, f64), Trouble> {
         let restitution: Vec<f64> = contacts.constraints.iter().map(|&l| self.workspace.restitution(l)).collect();
         let names = self.workspace.names_of(&contacts.constraints);
         let rule = self.rule;
-        let (before, rest_speed) = (y.to_vec(), self.rest_speed);
+        let (before, mut raised) = (y.to_vec(), rest_speed);
         let impact = self.workspace.solve_impact(contacts, &restitution, |problem| decide(problem, rule, &names));
-        let mut impacting = impact.and_then(|impact| self.apply_impact(t, y, impact));
+        let mut impacting = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
         for share in REGULARIZATION.into_iter().filter(|_| rule != Rule::Stop) {
             if impacting.is_err() {
                 let impact =
                     self.workspace.solve_impact(contacts, &restitution, |problem| yielding(problem, share, &names));
-                impacting = impact.and_then(|impact| self.apply_impact(t, y, impact));
-                impacting.iter().for_each(|(impact, _)| self.raise_rest_speed(contacts, impact, share));
+                impacting = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
+                if let Ok((impact, _)) = &impacting {
+                    raised = raised.max(self.speed_left(contacts, impact, share));
+                }
             }
         }
         let (impact, lost) = impacting?;
@@ -78,10 +87,10 @@ impl HybridSystem<'_> {
             of: self.names(&impacting),
             lost,
             states: Some([before, y.to_vec()]),
-            impulses: Some(self.impulses(contacts, &impact)),
+            impulses: Some(self.impulses(contacts, &impact, raised)),
             note: impact.note,
         });
-        Ok(impacting)
+        Ok((impacting, raised))
     }
 
     /// Takes the velocities after an impact, with the energy lost in it, if there is less than before: large impulses
@@ -90,30 +99,33 @@ impl HybridSystem<'_> {
         &mut self,
         t: f64,
         y: &mut [f64],
+        contacts: &ClosedContacts,
         impact: ImpactSolution,
     ) -> Result<(ImpactSolution, f64), Trouble> {
         let n = self.workspace.m.freedom();
         let (before, energy) = (y.to_vec(), self.workspace.kinetic_energy());
         y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
-        self.place(t, y);
+        self.place_in(&contacts.opened, t, y);
         let lost = energy - self.workspace.kinetic_energy();
         if lost >= -RISE * energy {
             return Ok((impact, lost));
         }
         y.copy_from_slice(&before);
-        self.place(t, y);
+        self.place_in(&contacts.opened, t, y);
         Err(Trouble::ImpulsesCreateEnergy(t, -lost))
     }
 
-    /// From now on in this instant the speeds that yielding left over count as none.
-    fn raise_rest_speed(&mut self, contacts: &ClosedContacts, impact: &ImpactSolution, share: f64) {
+    /// The speed that yielding left over, m/s; 0 where it is too large to count as none.
+    fn speed_left(&self, contacts: &ClosedContacts, impact: &ImpactSolution, share: f64) -> f64 {
         let left = contacts.speeds_of(&impact.normal, &impact.tangent).map(|v| 2.0 * share * v).fold(0.0, f64::max);
         if left <= LEFT_OVER * self.speed {
-            self.rest_speed = self.rest_speed.max(left);
+            left
+        } else {
+            0.0
         }
     }
 
-    fn impulses(&self, contacts: &ClosedContacts, impact: &ImpactSolution) -> Impulses {
+    fn impulses(&self, contacts: &ClosedContacts, impact: &ImpactSolution, rest_speed: f64) -> Impulses {
         let m = self.workspace.m;
         let mut limits: Vec<(String, Vec2)> = vec![];
         for (&l, &p) in contacts.constraints.iter().zip(&impact.on_first) {
@@ -126,10 +138,10 @@ impl HybridSystem<'_> {
         let most = limits.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
         limits.retain(|(_, p)| p.norm() > NOTHING * most);
         let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
-        let (part, hit) = (contacts.takes_part(self.rest_speed), hit(impact));
+        let (part, hit) = (contacts.takes_part(rest_speed), hit(impact));
         let (impacting, unloaded): (Vec<usize>, Vec<usize>) =
             (0..part.len()).filter(|&i| part[i]).partition(|&i| hit[i]);
-        let mut mode = self.workspace.mode.clone();
+        let mut mode = contacts.opened.clone();
         for &i in &impacting {
             let friction = self.workspace.friction_of(contacts.constraints[i]);
             mode.contacts[contacts.constraints[i]].mode = held(impact.normal[i], impact.tangent[i], friction);
@@ -145,20 +157,21 @@ impl HybridSystem<'_> {
         Impulses { groups: limits, joints, drives, contacts: impacting, unloaded, mode }
     }
 
-    /// Whether bounces without end are over within a moment: then what takes part in them comes to rest.
+    /// The mode after bounces without end, if they are over within a moment: what takes part in them comes to rest.
     ///
     /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
     /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does
     /// not see them.
     pub(super) fn zeno_limit(
         &mut self,
+        mode: &Mode,
         t: f64,
         y: &mut [f64],
         contacts: &ClosedContacts,
         parting: &[usize],
         impacting: &[usize],
-    ) -> Result<bool, Trouble> {
-        self.place(t, y);
+    ) -> Result<Option<Mode>, Trouble> {
+        self.place_in(mode, t, y);
         self.workspace.solve()?;
         let limits: Vec<usize> = parting.iter().map(|&i| contacts.constraints[i]).collect();
         let back = self.workspace.gap_accelerations(&limits);
@@ -171,7 +184,7 @@ impl HybridSystem<'_> {
         if over.is_empty() {
             let of = impacting.iter().copied().chain([limits[next]]).collect();
             self.bounce_interval = flights[next].is_finite().then_some((of, flights[next]));
-            return Ok(false);
+            return Ok(None);
         }
         let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
         let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
@@ -181,16 +194,16 @@ impl HybridSystem<'_> {
         let n = self.workspace.m.freedom();
         let (energy, earlier) = (self.workspace.kinetic_energy(), y.to_vec());
         let fastest = parting.iter().map(|&i| contacts.rates[i]).fold(0.0, f64::max);
+        let mut mode = mode.clone();
         for &constraint in &over {
             // What rocks comes to rest as a whole; what slides goes on sliding.
             let rocks = self.workspace.m.unilateral[constraint].friction.is_some()
                 && self.workspace.slide_rate(constraint).abs() <= fastest;
-            self.workspace.mode.contacts[constraint].mode =
-                if rocks { ContactMode::Stick } else { ContactMode::Frictionless };
+            mode.contacts[constraint].mode = if rocks { ContactMode::Stick } else { ContactMode::Frictionless };
         }
         let (q, rest) = y.split_at_mut(n);
-        self.workspace.project_velocities(t, q, &mut rest[..n])?;
-        self.place(t, y);
+        self.workspace.project_velocities(&mode, t, q, &mut rest[..n])?;
+        self.place_in(&mode, t, y);
         let lost = energy - self.workspace.kinetic_energy();
         self.begin_phase(t, 0.0, -lost);
         self.record(ModeChange {
@@ -202,22 +215,24 @@ impl HybridSystem<'_> {
             impulses: None,
             note: Some(format!("the bounces from t = {t:.12} s on, infinitely many, have come to an end")),
         });
-        Ok(true)
+        Ok(Some(mode))
     }
 
     /// Contacts that jam: the impact without a collision that brings their sliding to an end (Génot & Brogliato
     /// 1999, *European Journal of Mechanics A* 18). Answers whether anything did.
     pub(super) fn impact_without_collision(
         &mut self,
+        mode: &Mode,
         t: f64,
         y: &mut [f64],
         limits: &[usize],
+        tolerances: ContactTolerances,
     ) -> Result<bool, Trouble> {
-        self.place(t, y);
+        self.place_in(mode, t, y);
         let contacts = self.workspace.closed_contacts(limits.to_vec())?;
-        let (before, scale) = (y.to_vec(), self.tolerances());
-        let Some(impact) = self.workspace.impact_without_collision(&contacts, scale)? else { return Ok(false) };
-        let (impact, lost) = self.apply_impact(t, y, impact)?;
+        let before = y.to_vec();
+        let Some(impact) = self.workspace.impact_without_collision(&contacts, tolerances)? else { return Ok(false) };
+        let (impact, lost) = self.apply_impact(t, y, &contacts, impact)?;
         let hit = hit(&impact);
         let impacting = (0..contacts.constraints.len()).filter(|&i| hit[i]);
         let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
@@ -227,7 +242,7 @@ impl HybridSystem<'_> {
             of: self.names(&impacting),
             lost,
             states: Some([before, y.to_vec()]),
-            impulses: Some(self.impulses(&contacts, &impact)),
+            impulses: Some(self.impulses(&contacts, &impact, tolerances.rest_speed)),
             note: impact.note,
         });
         Ok(true)

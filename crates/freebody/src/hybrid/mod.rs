@@ -107,12 +107,9 @@ pub fn simulate(
     let integrator = settings.integrator()?;
     let mut workspace = Workspace::new(m, start.p);
     workspace.prefer(settings.route);
-    workspace.place(start.t, start.q, start.u);
-    match start.mode {
-        Some(mode) => workspace.mode = mode.clone(),
-        None => workspace.take_row_offsets(),
-    }
-    let mut machine = HybridSystem::new(workspace, start.p);
+    workspace.move_to(start.t, start.q, start.u);
+    let mode = start.mode.cloned().unwrap_or_else(|| workspace.with_row_offsets());
+    let mut machine = HybridSystem::new(workspace, mode, start.p);
     machine.rule = settings.impacts;
     machine.jam_by_impact = settings.jam_by_impact;
     let mut y = machine.pack(start.q, start.u);

@@ -1,7 +1,7 @@
 //! What switched: the record of a motion's modes.
 
 use super::HybridSystem;
-use crate::dynamics::{Source, Trouble};
+use crate::dynamics::Source;
 use crate::mode::{ContactMode, Mode};
 use crate::plane::Vec2;
 
@@ -57,10 +57,10 @@ pub struct ContactImpulse {
 }
 
 impl HybridSystem<'_> {
-    /// Notes what changed of the mode, and begins another phase.
-    pub(super) fn record_mode_changes(&mut self, t: f64, before: &crate::mode::Mode) -> Result<(), Trouble> {
-        let m = self.workspace.m;
-        let (mut found, after): (Vec<(&'static str, String, Option<String>)>, _) = (vec![], &self.workspace.mode);
+    /// Goes on in another mode: notes what changes by it, and begins another phase.
+    pub(super) fn enter_mode(&mut self, t: f64, after: Mode) {
+        let (m, before) = (self.workspace.m, &self.mode);
+        let mut found: Vec<(&'static str, String, Option<String>)> = vec![];
         let touches =
             |mode: &Mode, group: usize| m.groups[group].constraints.clone().any(|l| mode.contacts[l].mode.touches());
         for (l, constraint) in m.unilateral.iter().enumerate() {
@@ -68,7 +68,7 @@ impl HybridSystem<'_> {
             let string = group.word == "string";
             let (was, is) = (before.contacts[l].mode, after.contacts[l].mode);
             let elsewhere = || {
-                let stays = touches(before, constraint.group) && touches(after, constraint.group);
+                let stays = touches(before, constraint.group) && touches(&after, constraint.group);
                 stays.then(|| "at one place; at another it touches".to_string())
             };
             let kind = match (was.touches(), is.touches()) {
@@ -90,7 +90,7 @@ impl HybridSystem<'_> {
             }
         }
         for friction in 0..m.joint_friction.len() {
-            let kind = match (before.joint_friction[friction], self.workspace.mode.joint_friction[friction]) {
+            let kind = match (before.joint_friction[friction], after.joint_friction[friction]) {
                 (ContactMode::Stick, ContactMode::Slip(_)) => "slip",
                 (ContactMode::Slip(_), ContactMode::Stick) => "stick",
                 (ContactMode::Slip(a), ContactMode::Slip(b)) if a != b => "reversal",
@@ -101,8 +101,8 @@ impl HybridSystem<'_> {
         for (kind, name, note) in found {
             self.record(ModeChange { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note });
         }
+        self.mode = after;
         self.begin_phase(t, 0.0, 0.0);
-        Ok(())
     }
 
     /// The names of the contacts, stops and strings of unilateral constraints, each once.

@@ -3,7 +3,7 @@
 use super::impacts::{Rule, LEFT_OVER};
 use super::{HybridSystem, Start};
 use crate::dynamics::{ContactTolerances, Trouble};
-use crate::mode::ContactMode;
+use crate::mode::{ContactMode, Mode};
 use crate::motion::{EventRecord, Kind, System};
 
 /// Gap, over the characteristic length, below which a unilateral constraint is reached.
@@ -15,6 +15,13 @@ const GAIN: f64 = 1e-9;
 /// Impacts that one instant may hold, and those after which ever larger speeds count as none.
 const ROUNDS: usize = 100;
 const MANY: usize = 50;
+
+/// A joint whose friction at rest is used up, and the sense in which it begins to slide.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Released {
+    friction: usize,
+    sense: f64,
+}
 
 impl HybridSystem<'_> {
     /// Finds what only the start tells of unilateral constraints, lets the events of the start happen and begins the
@@ -30,9 +37,9 @@ impl HybridSystem<'_> {
         if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
             self.place(t, y);
             if start.mode.is_none() {
-                self.workspace.start_contacts()?;
+                self.mode = self.workspace.start_contacts()?;
             }
-            self.resolve_mode(t, y)?;
+            self.resolve_mode(t, y, None)?;
         }
         for (i, event) in m.events.iter().enumerate().filter(|(_, e)| e.opening && start.mode.is_none()) {
             if self.armed(i, t, y)? {
@@ -47,23 +54,25 @@ impl HybridSystem<'_> {
     /// A guard of unilateral constraint `l` fell to zero.
     pub(super) fn switch_contact(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
         self.place(t, y);
-        let constraint = &self.workspace.m.unilateral[l];
+        let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
+        let contact = &mut mode.contacts[l];
         if guard == 3 {
             let (_, beyond) = self.workspace.border(l).expect("a guard of a border belongs to one");
-            self.workspace.mode.contacts[l].feature.index = beyond;
-            if !constraint.gap.can_close(beyond) {
-                let before = self.workspace.mode.clone();
-                self.workspace.mode.contacts[l].mode = ContactMode::Open;
-                self.record_mode_changes(t, &before)?;
+            contact.feature.index = beyond;
+            if constraint.gap.can_close(beyond) {
+                self.mode = mode;
+            } else {
+                contact.mode = ContactMode::Open;
+                self.enter_mode(t, mode);
             }
         } else if constraint.soft.is_some() {
-            let before = self.workspace.mode.clone();
-            let contact = &mut self.workspace.mode.contacts[l];
             contact.mode = if contact.mode == ContactMode::Open { ContactMode::Compliant } else { ContactMode::Open };
-            self.decide_modes(t, y, &[], None)?;
-            return self.record_mode_changes(t, &before);
+            let mode = self.start_joint_friction(&mode, None)?;
+            let mode = self.decide_modes(mode, t, y, &[], None, self.tolerances())?;
+            self.enter_mode(t, mode);
+            return Ok(());
         }
-        self.resolve_mode(t, y)
+        self.resolve_mode(t, y, None)
     }
 
     /// A guard of a joint with friction fell to zero: it sticks no more, or stopped.
@@ -74,112 +83,135 @@ impl HybridSystem<'_> {
         t: f64,
         y: &mut [f64],
     ) -> Result<(), Trouble> {
-        let slides = self.workspace.mode.joint_friction[friction] == ContactMode::Stick;
+        let slides = self.mode.joint_friction[friction] == ContactMode::Stick;
         // The friction that is used up pushes against the sliding to come.
         let sense = if guard == 0 { -1.0 } else { 1.0 };
-        self.resolve_mode_releasing(t, y, slides.then_some((friction, sense)))
+        self.resolve_mode(t, y, slides.then_some(Released { friction, sense }))
     }
 
-    /// Impacts until nothing approaches, then which unilateral constraints hold and which joints stick.
+    /// Impacts until nothing approaches, then the mode in which the motion goes on: which unilateral constraints hold
+    /// and which joints stick, the one `released` left out.
     ///
     /// # Errors
     /// `simultaneous_impact` and the paradoxes of Painlevé, by name.
-    pub(super) fn resolve_mode(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
-        self.resolve_mode_releasing(t, y, None)
-    }
-
-    fn resolve_mode_releasing(&mut self, t: f64, y: &mut [f64], released: Option<(usize, f64)>) -> Result<(), Trouble> {
+    pub(super) fn resolve_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<(), Trouble> {
         let (known, earlier) = ([self.mode_changes.len(), self.phases.len()], y.to_vec());
-        (self.rest_speed, self.relaxed) = (REST_SPEED * self.speed, false);
-        let resolved = self.resolve_mode_from(t, y, released);
-        if resolved.is_err() {
-            // The motion ends with the state before.
-            y.copy_from_slice(&earlier);
-            self.mode_changes.truncate(known[0]);
-            self.phases.truncate(known[1]);
+        match self.next_mode(t, y, released) {
+            Ok(mode) => {
+                self.enter_mode(t, mode);
+                Ok(())
+            }
+            Err(error) => {
+                // The motion ends with the state before.
+                y.copy_from_slice(&earlier);
+                self.mode_changes.truncate(known[0]);
+                self.phases.truncate(known[1]);
+                Err(error)
+            }
         }
-        resolved
     }
 
-    fn resolve_mode_from(&mut self, t: f64, y: &mut [f64], released: Option<(usize, f64)>) -> Result<(), Trouble> {
-        let before = self.workspace.mode.clone();
-        self.workspace.mode.resting = false;
-        let mut impacting = vec![];
+    fn next_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<Mode, Trouble> {
+        let mut mode = self.mode.clone();
+        mode.resting = false;
+        let (mut tolerances, mut impacting) = (self.tolerances(), vec![]);
         for round in 0..ROUNDS {
             if round > MANY {
                 // What comes to rest here sets off what rests there, ever more slowly.
-                self.rest_speed = (2.0 * self.rest_speed).min(LEFT_OVER * self.speed);
+                tolerances.rest_speed = (2.0 * tolerances.rest_speed).min(LEFT_OVER * self.speed);
             }
             // Joints pass impulses on without friction.
-            self.workspace.mode.joint_friction.fill(ContactMode::Open);
-            self.place(t, y);
-            self.workspace.find_features(self.lookahead());
+            mode.joint_friction.fill(ContactMode::Open);
+            self.place_in(&mode, t, y);
+            self.workspace.enter(&self.workspace.find_features(self.lookahead()));
             let touching = self.workspace.touching(CLOSED_GAP * self.workspace.length);
             let contacts = self.workspace.closed_contacts(touching)?;
-            let (k, rest_speed) = (contacts.constraints.len(), self.rest_speed);
+            mode = contacts.opened.clone();
+            let (k, rest_speed) = (contacts.constraints.len(), tolerances.rest_speed);
             if contacts.rates[..k].iter().any(|&rate| rate < -rest_speed) {
-                impacting.extend(self.impact(t, y, &contacts)?);
+                let (hit, rest_speed) = self.impact(t, y, &contacts, rest_speed)?;
+                impacting.extend(hit);
+                tolerances.rest_speed = rest_speed;
                 continue;
             }
             let (parting, staying): (Vec<usize>, Vec<usize>) = (0..k).partition(|&i| contacts.rates[i] > rest_speed);
             let staying: Vec<usize> = staying.iter().map(|&i| contacts.constraints[i]).collect();
-            match self.decide_modes(t, y, &staying, released) {
+            mode = self.start_joint_friction(&mode, released)?;
+            mode = match self.decide_modes(mode.clone(), t, y, &staying, released, tolerances) {
                 Err(error) if self.jam_by_impact && error.is_jam() => {
-                    if self.relaxed {
+                    if tolerances.relaxed {
                         return Err(error);
                     }
                     // Where nothing jumps there are forces, and what contradicts them is not told exactly enough.
-                    self.relaxed = !self.impact_without_collision(t, y, &staying)?;
+                    tolerances.relaxed = !self.impact_without_collision(&mode, t, y, &staying, tolerances)?;
                     continue;
                 }
-                done => done?,
-            }
+                decided => decided?,
+            };
             // What bounces back does so from where it is: to shift it would turn its way.
             let at_rest: Vec<usize> = contacts.constraints.iter().copied().filter(|l| !impacting.contains(l)).collect();
-            self.close_contacts(t, y, &at_rest, &contacts.constraints)?;
-            match parting.is_empty() {
-                true => self.bounce_interval = None,
-                false if self.zeno_limit(t, y, &contacts, &parting, &impacting)? => continue,
-                false => {}
+            mode = self.close_contacts(mode, t, y, &at_rest, &contacts.constraints)?;
+            if parting.is_empty() {
+                self.bounce_interval = None;
+            } else if let Some(at_rest) = self.zeno_limit(&mode, t, y, &contacts, &parting, &impacting)? {
+                mode = at_rest;
+                continue;
             }
-            return self.record_mode_changes(t, &before);
+            return Ok(mode);
         }
         Err(Trouble::EndlessImpacts(ROUNDS))
+    }
+
+    /// A mode with friction in joints as it starts from the state placed, the one `released` sliding.
+    fn start_joint_friction(&mut self, mode: &Mode, released: Option<Released>) -> Result<Mode, Trouble> {
+        self.workspace.enter(mode);
+        let mut mode = self.workspace.start_joint_friction(REST_SPEED * self.speed)?;
+        if let Some(Released { friction, sense }) = released {
+            let held = &mut mode.joint_friction[friction];
+            *held = if *held == ContactMode::Stick { ContactMode::Slip(sense) } else { *held };
+        }
+        Ok(mode)
     }
 
     /// Decides which unilateral constraints hold and which joints stick.
     fn decide_modes(
         &mut self,
+        mut mode: Mode,
         t: f64,
         y: &[f64],
         limits: &[usize],
-        released: Option<(usize, f64)>,
-    ) -> Result<(), Trouble> {
-        self.workspace.start_joint_friction(REST_SPEED * self.speed)?;
-        if let Some((friction, sense)) =
-            released.filter(|(friction, _)| self.workspace.mode.joint_friction[*friction] == ContactMode::Stick)
-        {
-            self.workspace.mode.joint_friction[friction] = ContactMode::Slip(sense);
-        }
-        let scale = ContactTolerances { rest_speed: REST_SPEED * self.speed, ..self.tolerances() };
+        released: Option<Released>,
+        tolerances: ContactTolerances,
+    ) -> Result<Mode, Trouble> {
+        let scale = ContactTolerances { rest_speed: REST_SPEED * self.speed, ..tolerances };
         for _ in 0..=self.workspace.friction_switch_limit() {
             if !limits.is_empty() {
-                self.decide_contact_modes(t, y, limits)?;
+                mode = self.decide_contact_modes(&mode, t, y, limits, tolerances)?;
             }
-            if self.workspace.m.joint_friction.is_empty()
-                || !self.workspace.switch_joint_friction(scale, released.map(|(friction, _)| friction))?
-            {
+            if self.workspace.m.joint_friction.is_empty() {
                 break;
             }
+            self.workspace.enter(&mode);
+            match self.workspace.switch_joint_friction(scale, released.map(|released| released.friction))? {
+                Some(switched) => mode = switched,
+                None => break,
+            }
         }
-        Ok(())
+        Ok(mode)
     }
 
     /// Brings the state exactly onto the unilateral constraints that hold. What speed, and what height, that takes
     /// away, where unilateral constraints all but depend on each other, is in the ledger.
-    fn close_contacts(&mut self, t: f64, y: &mut [f64], at_rest: &[usize], contacts: &[usize]) -> Result<(), Trouble> {
+    fn close_contacts(
+        &mut self,
+        mode: Mode,
+        t: f64,
+        y: &mut [f64],
+        at_rest: &[usize],
+        contacts: &[usize],
+    ) -> Result<Mode, Trouble> {
         let before = self.energy(t, y);
-        self.project_onto_contacts(t, y, at_rest, contacts)?;
+        let mode = self.project_onto_contacts(mode, t, y, at_rest, contacts)?;
         let after = self.energy(t, y);
         let [speed, height] = [0, 1].map(|i| after[i] - before[i]);
         if speed > GAIN * self.strength * self.workspace.length {
@@ -188,88 +220,87 @@ impl HybridSystem<'_> {
         if speed + height != 0.0 {
             self.begin_phase(t, 0.0, speed + height);
         }
-        Ok(())
+        Ok(mode)
     }
 
-    /// Brings the state exactly onto the unilateral constraints that hold, and out of those that open from rest.
+    /// Brings the state exactly onto the unilateral constraints that hold, and out of those that open from rest. Where
+    /// nothing can move then, the mode rests.
     fn project_onto_contacts(
         &mut self,
+        mut mode: Mode,
         t: f64,
         y: &mut [f64],
         at_rest: &[usize],
         contacts: &[usize],
-    ) -> Result<(), Trouble> {
+    ) -> Result<Mode, Trouble> {
         let n = self.workspace.m.freedom();
-        self.place(t, y);
-        let inside = |l: &&usize| {
-            self.workspace.mode.contacts[**l].mode == ContactMode::Open && self.workspace.constraint_gap(**l) < 0.0
-        };
-        let opening: Vec<usize> = at_rest.iter().filter(inside).copied().collect();
-        let carries = self.workspace.mode.contacts.iter().any(|contact| contact.mode.carries());
+        self.place_in(&mode, t, y);
+        let is_open = |l: usize| mode.contacts[l].mode == ContactMode::Open;
+        let inside = |l: &usize| is_open(*l) && self.workspace.constraint_gap(*l) < 0.0;
+        let opening: Vec<usize> = at_rest.iter().copied().filter(inside).collect();
+        let carries = mode.contacts.iter().any(|contact| contact.mode.carries());
         if opening.is_empty() && !carries && self.workspace.m.joint_friction.is_empty() {
-            return Ok(());
+            return Ok(mode);
         }
         let (q, rest) = y.split_at_mut(n);
-        opening.iter().for_each(|&l| self.workspace.mode.contacts[l].mode = ContactMode::Frictionless);
-        let closed = self.workspace.project_positions(t, q, &rest[..n]);
-        opening.iter().for_each(|&l| self.workspace.mode.contacts[l].mode = ContactMode::Open);
-        closed?;
+        let shut = mode.with_contacts(&opening, ContactMode::Frictionless);
+        self.workspace.project_positions(&shut, t, q, &rest[..n])?;
         // What begins to slide does so from rest, and not the other way by round-off.
-        let modes: Vec<ContactMode> = self.workspace.mode.contacts.iter().map(|contact| contact.mode).collect();
-        for (l, &mode) in modes.iter().enumerate() {
-            if matches!(mode, ContactMode::Slip(sense) if sense * self.workspace.slide_rate(l) < 0.0) {
-                self.workspace.mode.contacts[l].mode = ContactMode::Stick;
-            }
-        }
+        let turned = |l: &usize| match mode.contacts[*l].mode {
+            ContactMode::Slip(sense) => sense * self.workspace.slide_rate(*l) < 0.0,
+            _ => false,
+        };
+        let turned: Vec<usize> = (0..mode.contacts.len()).filter(turned).collect();
         // What opens does not approach any more, by however little.
-        self.workspace.place(t, q, &rest[..n]);
-        let opening = contacts.iter().filter(|&&l| modes[l] == ContactMode::Open && self.workspace.gap_rate(l) < 0.0);
-        let opening: Vec<usize> = opening.copied().collect();
-        opening.iter().for_each(|&l| self.workspace.mode.contacts[l].mode = ContactMode::Frictionless);
-        let aligned = self.workspace.project_velocities(t, q, &mut rest[..n]);
-        self.workspace.mode.contacts.iter_mut().zip(modes).for_each(|(contact, mode)| contact.mode = mode);
-        aligned?;
-        self.place(t, y);
+        self.workspace.move_to(t, q, &rest[..n]);
+        let approaching = |l: &usize| is_open(*l) && self.workspace.gap_rate(*l) < 0.0;
+        let approaching: Vec<usize> = contacts.iter().copied().filter(approaching).collect();
+        let still =
+            mode.with_contacts(&turned, ContactMode::Stick).with_contacts(&approaching, ContactMode::Frictionless);
+        self.workspace.project_velocities(&still, t, q, &mut rest[..n])?;
+        self.place_in(&mode, t, y);
         self.workspace.solve()?;
-        if self.workspace.is_locked() {
+        mode.resting = self.workspace.is_locked();
+        if mode.resting {
             // Nothing can move: not even by round-off.
             y[n..2 * n].fill(0.0);
-            self.workspace.mode.resting = true;
-            self.place(t, y);
         }
-        Ok(())
+        Ok(mode)
     }
 
     /// Decides how unilateral constraints that neither approach nor part go on.
-    fn decide_contact_modes(&mut self, t: f64, y: &[f64], limits: &[usize]) -> Result<(), Trouble> {
-        let scale = self.tolerances();
-        self.place(t, y);
+    fn decide_contact_modes(
+        &mut self,
+        mode: &Mode,
+        t: f64,
+        y: &[f64],
+        limits: &[usize],
+        tolerances: ContactTolerances,
+    ) -> Result<Mode, Trouble> {
+        self.place_in(mode, t, y);
         let contacts = self.workspace.closed_contacts(limits.to_vec())?;
         let slips = contacts.slips();
-        let mut decision = self.workspace.decide_contact_modes(&contacts, &slips, scale)?;
+        let mut decision = self.workspace.decide_contact_modes(&contacts, &slips, tolerances)?;
         if decision.is_doubtful {
             // What nothing decides now is decided by what comes next.
-            self.workspace.apply_contact_modes(&contacts, &decision);
-            self.place(t, y);
-            self.workspace.share_friction(&contacts, &decision)?;
-            let (q, u) = self.extrapolate(t, y)?;
-            self.workspace.place(t + self.lookahead(), &q, &u);
+            let mode = self.workspace.share_friction(&contacts, &decision)?;
+            let (q, u) = self.extrapolate(&mode, t, y)?;
+            self.workspace.place(&mode, t + self.lookahead(), &q, &u);
             let next = self.workspace.closed_contacts(contacts.constraints.clone())?;
-            decision = self.workspace.decide_contact_modes(&next, &slips, scale)?;
+            decision = self.workspace.decide_contact_modes(&next, &slips, tolerances)?;
+            self.place_in(&mode, t, y);
         }
-        self.workspace.apply_contact_modes(&contacts, &decision);
-        self.place(t, y);
         self.workspace.share_friction(&contacts, &decision)
     }
 
     /// What counts as slow, and what is done where nothing decides.
-    pub(super) fn tolerances(&self) -> ContactTolerances {
+    fn tolerances(&self) -> ContactTolerances {
         let rate = self.speed * self.speed / self.workspace.length;
         ContactTolerances {
-            rest_speed: self.rest_speed,
+            rest_speed: REST_SPEED * self.speed,
             acceleration: rate,
             prefer_rest: self.rule != Rule::Stop,
-            relaxed: self.relaxed,
+            relaxed: false,
         }
     }
 
@@ -278,13 +309,15 @@ impl HybridSystem<'_> {
         1e-6 * self.workspace.length / self.speed
     }
 
-    /// The state a glimpse later, in the present mode.
-    fn extrapolate(&mut self, t: f64, y: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Trouble> {
+    /// The state a glimpse later, in a mode.
+    fn extrapolate(&mut self, mode: &Mode, t: f64, y: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Trouble> {
         let (n, h) = (self.workspace.m.freedom(), self.lookahead());
-        let mut dy = vec![0.0; y.len()];
-        self.rate(t, y, &mut dy)?;
-        let q = (0..n).map(|i| y[i] + h * y[n + i] + 0.5 * h * h * dy[n + i]).collect();
-        let u = (n..2 * n).map(|i| y[i] + h * dy[i]).collect();
+        let mut u_dot = vec![0.0; n];
+        self.place_in(mode, t, y);
+        self.solve_stage(t, y)?;
+        self.workspace.accelerations(&mut u_dot);
+        let q = (0..n).map(|i| y[i] + h * y[n + i] + 0.5 * h * h * u_dot[i]).collect();
+        let u = (0..n).map(|i| y[n + i] + h * u_dot[i]).collect();
         Ok((q, u))
     }
 }

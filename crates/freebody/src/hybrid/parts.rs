@@ -32,14 +32,17 @@ impl HybridSystem<'_> {
         switched |= self.reset(t, y, actions)?;
         if switched {
             self.close_engaged(t, y, engaged)?;
-            self.resolve_mode(t, y)?;
+            self.resolve_mode(t, y, None)?;
         }
         Ok(switched)
     }
 
     fn put(&mut self, t: f64, part: Part, there: bool) -> bool {
-        let changed = self.workspace.put(part, there);
-        if changed {
+        let switched = self.workspace.switch_part(part, there);
+        let changed = switched.is_some();
+        if let Some(mode) = switched {
+            self.mode = mode;
+            self.workspace.enter(&self.mode);
             let of = vec![self.workspace.m.name_of(part).to_string()];
             let kind = if there { "engaged" } else { "released" };
             self.record(ModeChange { t, kind, of, lost: 0.0, states: None, impulses: None, note: None });
@@ -79,13 +82,11 @@ impl HybridSystem<'_> {
         let energy = self.workspace.kinetic_energy();
         // Unilateral constraints join in afterwards; the whole is the same impact, for what they do leaves the joints
         // closed.
-        let mut limits = std::mem::take(&mut self.workspace.mode.contacts);
-        let contact = limits.clone();
-        limits.iter_mut().filter(|h| h.mode.carries()).for_each(|h| h.mode = ContactMode::ClosedUnloaded);
-        self.workspace.mode.contacts = limits;
+        let mut mode = self.mode.clone();
+        let carrying = mode.contacts.iter_mut().filter(|contact| contact.mode.carries());
+        carrying.for_each(|contact| contact.mode = ContactMode::ClosedUnloaded);
+        self.workspace.enter(&mode);
         let impact = self.workspace.engagement_impact()?;
-        let mode = self.workspace.mode.clone();
-        self.workspace.mode.contacts = contact;
         let before = y.to_vec();
         y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
         self.place(t, y);

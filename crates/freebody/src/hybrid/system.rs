@@ -3,7 +3,7 @@
 use super::guards::{FRICTION_GUARDS, GUARDS};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
-use crate::dynamics::{Observer, Trouble, Workspace};
+use crate::dynamics::{Trouble, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::{curve_switch, Poses, State};
 use crate::mechanism::{Discontinuity, EventAction};
@@ -21,7 +21,7 @@ pub struct Phase {
     pub from: f64,
     /// Parameters.
     pub p: Vec<f64>,
-    /// Arms of switches.
+    /// What is active in it.
     pub mode: Mode,
     /// Energy that the change of parameters at its beginning put in, J.
     pub jump: f64,
@@ -32,6 +32,8 @@ pub struct Phase {
 /// A mechanism in motion.
 pub struct HybridSystem<'m> {
     pub(super) workspace: Workspace<'m>,
+    /// What is active now.
+    pub(super) mode: Mode,
     /// Forces whose work is integrated.
     pub(super) worked: Vec<usize>,
     /// Prescribed motions, whose work is integrated.
@@ -55,10 +57,6 @@ pub struct HybridSystem<'m> {
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
-    /// Speed below which there is none, at the instant being resolved, m/s.
-    pub(super) rest_speed: f64,
-    /// Whether touches that are almost one may contradict each other by a little, at the instant being resolved.
-    pub(super) relaxed: bool,
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) phases: Vec<Phase>,
@@ -72,8 +70,8 @@ pub struct HybridSystem<'m> {
 }
 
 impl<'m> HybridSystem<'m> {
-    /// A mechanism at given parameters.
-    pub fn new(workspace: Workspace<'m>, p: &[f64]) -> Self {
+    /// A mechanism at given parameters, in a mode.
+    pub fn new(workspace: Workspace<'m>, mode: Mode, p: &[f64]) -> Self {
         let m = workspace.m;
         let worked = (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative());
         let driven = (0..m.drives.len()).filter(|&d| m.drives[d].is_motion());
@@ -84,6 +82,7 @@ impl<'m> HybridSystem<'m> {
         let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(friction) + usize::from(presses);
         HybridSystem {
             workspace,
+            mode,
             worked,
             driven,
             has_friction: friction,
@@ -96,8 +95,6 @@ impl<'m> HybridSystem<'m> {
             bounce_interval: None,
             strength: 1.0,
             speed: 1.0,
-            rest_speed: 0.0,
-            relaxed: false,
             set: m.overruled(p),
             phases: vec![],
             worst_gap: 0.0,
@@ -120,20 +117,16 @@ impl<'m> HybridSystem<'m> {
         (&y[..n], &y[n..2 * n])
     }
 
+    /// Goes to a state in the mode of the motion.
     pub(super) fn place(&mut self, t: f64, y: &[f64]) {
-        let (q, u) = self.split(y);
-        self.workspace.place(t, q, u);
+        let n = self.workspace.m.freedom();
+        self.workspace.place(&self.mode, t, &y[..n], &y[n..2 * n]);
     }
 
-    /// Goes to the state on the closed loops that is nearest to y. Close to a singular configuration a motion off
-    /// the loops, however little, is accelerated without bound; a motion on them is not.
-    fn place_closed(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
-        let (q, u) = self.split(y);
-        let (mut q, mut u) = (q.to_vec(), u.to_vec());
-        self.workspace.project_positions(t, &mut q, &u)?;
-        self.workspace.project_velocities(t, &q, &mut u)?;
-        self.workspace.place(t, &q, &u);
-        Ok(())
+    /// Goes to a state in a mode that may become that of the motion.
+    pub(super) fn place_in(&mut self, mode: &Mode, t: f64, y: &[f64]) {
+        let n = self.workspace.m.freedom();
+        self.workspace.place(mode, t, &y[..n], &y[n..2 * n]);
     }
 
     /// Freezes every switch at the arm it has now.
@@ -143,7 +136,7 @@ impl<'m> HybridSystem<'m> {
         for discontinuity in &m.discontinuities {
             let value = self.switching(discontinuity);
             if let Discontinuity::Switch(switch, _) = discontinuity {
-                self.workspace.mode.freeze(*switch, value >= 0.0);
+                self.mode.freeze(*switch, value >= 0.0);
             }
         }
     }
@@ -155,7 +148,7 @@ impl<'m> HybridSystem<'m> {
     }
 
     pub(super) fn begin_phase(&mut self, from: f64, jump: f64, impact: f64) {
-        let (p, mode) = (self.workspace.at().n.p.clone(), self.workspace.mode.clone());
+        let (p, mode) = (self.workspace.at().n.p.clone(), self.mode.clone());
         self.phases.push(Phase { from, p, mode, jump, impact });
     }
 
@@ -199,13 +192,25 @@ impl<'m> HybridSystem<'m> {
         [self.workspace.kinetic_energy(), self.workspace.potential_energy()]
     }
 
+    /// Solves a stage of a step, the state placed. Close to a singular configuration it is first brought onto the
+    /// loops: there a motion off them, however little, is accelerated without bound; a motion on them is not.
+    pub(super) fn solve_stage(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+        if self.near_singular {
+            let (q, u) = self.split(y);
+            let (mode, mut q, mut u) = (self.workspace.mode().clone(), q.to_vec(), u.to_vec());
+            self.workspace.project_positions(&mode, t, &mut q, &u)?;
+            self.workspace.project_velocities(&mode, t, &q, &mut u)?;
+            self.workspace.move_to(t, &q, &u);
+        }
+        self.check_taut_segments()?;
+        self.workspace.solve()
+    }
+
     /// Values of laws at a state.
     pub(super) fn read(&mut self, laws: &[&ModelExpr], t: f64, y: &[f64]) -> Result<Vec<f64>, Trouble> {
+        self.place(t, y);
         let works = self.works(y);
-        let (q, u) = (y[..self.workspace.m.freedom()].to_vec(), self.split(y).1.to_vec());
-        let mut observer = Observer::new(&mut self.workspace, laws.iter().copied());
-        observer.place(t, &q, &u)?;
-        Ok(observer.read(laws, &works))
+        self.workspace.evaluate(laws, &works)
     }
 
     /// The works in the state vector, spread over all forces, then all drives, then that of friction.
@@ -233,17 +238,12 @@ impl System for HybridSystem<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
         let n = self.workspace.m.freedom();
-        if self.workspace.mode.resting {
+        if self.mode.resting {
             dy.fill(0.0);
             return Ok(());
         }
-        if self.near_singular {
-            self.place_closed(t, y)?;
-        } else {
-            self.place(t, y);
-        }
-        self.check_taut_segments()?;
-        self.workspace.solve()?;
+        self.place(t, y);
+        self.solve_stage(t, y)?;
         dy[..n].copy_from_slice(self.workspace.at().u);
         self.workspace.accelerations(&mut dy[n..2 * n]);
         for (i, &f) in self.worked.iter().enumerate() {
@@ -265,16 +265,16 @@ impl System for HybridSystem<'_> {
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
-        if !self.workspace.is_closed() || self.workspace.mode.resting {
+        if !self.workspace.is_closed() || self.mode.resting {
             return Ok(0.0);
         }
         let n = self.workspace.m.freedom();
         let (q, rest) = y.split_at_mut(n);
-        let moved = self.workspace.project_positions(t, q, &rest[..n])?;
+        let moved = self.workspace.project_positions(&self.mode, t, q, &rest[..n])?;
         self.worst_gap = self.worst_gap.max(self.workspace.worst_gap());
         self.independence = self.workspace.independence();
         self.near_singular = self.independence < NEAR_SINGULAR;
-        let turned = self.workspace.project_velocities(t, q, &mut rest[..n])?;
+        let turned = self.workspace.project_velocities(&self.mode, t, q, &mut rest[..n])?;
         self.note_taut_segments();
         let rate = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / rate))

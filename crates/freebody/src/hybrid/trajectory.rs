@@ -3,7 +3,7 @@
 use super::mode_changes::ModeChange;
 use super::system::Phase;
 use super::{HybridSystem, Settings};
-use crate::dynamics::{Freedom, Instant, Observer, Route, Trouble, Workspace};
+use crate::dynamics::{Freedom, Instant, Route, Trouble, Workspace};
 use crate::gauges::ModelExpr;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
@@ -91,18 +91,7 @@ impl Trajectory {
         &self.phases[later.max(1) - 1]
     }
 
-    /// A balance with the parameters of a time; made anew only where they change.
-    fn workspace_at<'m>(&self, m: &'m Mechanism, t: f64, last: &mut Option<(f64, Workspace<'m>)>) {
-        let stretch = self.phase(t);
-        if last.as_ref().is_some_and(|(from, _)| *from == stretch.from) {
-            return;
-        }
-        let mut workspace = Workspace::new(m, &stretch.p);
-        workspace.mode = stretch.mode.clone();
-        *last = Some((stretch.from, workspace));
-    }
-
-    /// Goes through times: `visit` is given a balance placed on the closed loops, with the whole state vector.
+    /// Goes through times: `visit` is given a workspace placed on the closed loops, with the whole state vector.
     fn each<'m>(
         &self,
         m: &'m Mechanism,
@@ -111,7 +100,7 @@ impl Trajectory {
     ) -> Result<(), Trouble> {
         let n = m.freedom();
         let mut y = vec![0.0; self.run.y.len()];
-        let mut last = None;
+        let mut last: Option<(f64, Workspace<'m>)> = None;
         for &t in times {
             if t == self.run.t {
                 // After what happened there.
@@ -120,14 +109,16 @@ impl Trajectory {
                 let (first, end) = (self.steps[0], self.run.t);
                 return Err(Trouble::OutOfRange(t, first, end));
             }
-            self.workspace_at(m, t, &mut last);
-            let (_, workspace) = last.as_mut().expect("made above");
-            if workspace.is_closed() && !workspace.mode.resting {
+            let phase = self.phase(t);
+            // Made anew only where parameters may have changed.
+            let known = last.take().filter(|(from, _)| *from == phase.from);
+            let (_, workspace) = last.insert(known.unwrap_or_else(|| (phase.from, Workspace::new(m, &phase.p))));
+            if workspace.is_closed() && !phase.mode.resting {
                 let (q, rest) = y.split_at_mut(n);
-                workspace.project_positions(t, q, &rest[..n])?;
-                workspace.project_velocities(t, q, &mut rest[..n])?;
+                workspace.project_positions(&phase.mode, t, q, &rest[..n])?;
+                workspace.project_velocities(&phase.mode, t, q, &mut rest[..n])?;
             }
-            workspace.place(t, &y[..n], &y[n..2 * n]);
+            workspace.place(&phase.mode, t, &y[..n], &y[n..2 * n]);
             visit(workspace, t, &y)?;
         }
         Ok(())
@@ -182,13 +173,9 @@ impl Trajectory {
     /// # Errors
     /// As [`Trajectory::reactions`].
     pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, Trouble> {
-        let n = m.freedom();
         let mut rows = vec![];
-        self.each(m, times, |workspace, t, y| {
-            let works = self.works(m, y);
-            let mut observer = Observer::new(workspace, laws.iter().copied());
-            observer.place(t, &y[..n], &y[n..2 * n])?;
-            rows.push(observer.read(laws, &works));
+        self.each(m, times, |workspace, _, y| {
+            rows.push(workspace.evaluate(laws, &self.works(m, y))?);
             Ok(())
         })?;
         Ok(rows)
@@ -272,8 +259,7 @@ impl Trajectory {
             return Err(Trouble::NoBlow(change));
         };
         let mut workspace = Workspace::new(m, &self.phase(t).p);
-        workspace.mode = impulses.mode.clone();
-        workspace.place(t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
+        workspace.place(&impulses.mode, t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
         read(&mut workspace)
     }
 

@@ -76,12 +76,12 @@ impl<'m> SymbolicState<'m> {
         let mut k = Kinematics::of(m);
         k.forward_kinematics(m, &n, &q, &u);
         let t = named("t", 0, at.t);
-        let placed = StateView { m, n: &n, k: &k, q: &q, u: &u, t, mode: &workspace.mode };
+        let placed = StateView { m, n: &n, k: &k, q: &q, u: &u, t, mode: at.mode };
         let bodies = k.propagate_user_motion(m, &n, &a);
         let mut loads = loads(placed);
         relate_friction(placed, &mut loads, values);
         let sizes = sizes(&loads, values);
-        SymbolicState { m, mode: &workspace.mode, n, k, t, q, u, a, bodies, loads, sizes, named: numbers }
+        SymbolicState { m, mode: at.mode, n, k, t, q, u, a, bodies, loads, sizes, named: numbers }
     }
 
     fn at(&self) -> StateView<'_, Symbol> {

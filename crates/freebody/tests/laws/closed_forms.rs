@@ -5,6 +5,7 @@ use crate::rng::Rng;
 use freebody::compile::Compiled;
 use freebody::dynamics::{Instant, Route, Workspace};
 use freebody::hybrid::{simulate, Settings, Start, Trajectory};
+use freebody::mode::Mode;
 use freebody::motion::{Options, METHODS};
 
 const G: f64 = 9.81;
@@ -14,7 +15,7 @@ const K_HALF: f64 = 1.854_074_677_301_372;
 
 fn instant(compiled: &Compiled, q: &[f64], u: &[f64]) -> Instant {
     let mut workspace = Workspace::new(&compiled.mechanism, &[]);
-    workspace.place(0.0, q, u);
+    workspace.move_to(0.0, q, u);
     workspace.instant(Route::Minimal).expect("a mechanism that moves")
 }
 
@@ -184,7 +185,7 @@ fn a_four_bar_has_the_ratio_of_its_instant_centre() {
     let q = ends.map(|(_, p, q)| bar(p, q).1);
     let mut workspace = Workspace::new(&compiled.mechanism, &[]);
     let mut u = vec![1.0, 0.0, 0.0];
-    workspace.project_velocities(0.0, &q, &mut u).expect("closed");
+    workspace.project_velocities(&Mode::free(workspace.m), 0.0, &q, &mut u).expect("closed");
     let centre = b[0] - b[1] * (c[0] - b[0]) / (c[1] - b[1]);
     near("ratio", u[2] / u[0], (centre - a[0]) / (centre - d[0]), 1e-13);
 }

@@ -5,7 +5,7 @@ use crate::rng::Rng;
 use freebody::compile::Compiled;
 use freebody::dynamics::Workspace;
 use freebody::mechanism::{ContactPair, Friction, Gap, Mechanism};
-use freebody::mode::ContactMode;
+use freebody::mode::{ContactMode, Mode};
 use freebody::plane::{vec2, Vec2};
 use freebody::spec::{Contact, Number, Stop, Surface};
 use std::f64::consts::{PI, TAU};
@@ -221,7 +221,7 @@ impl Probe {
     /// All gaps, each with its normal and the distance to its nearest border.
     fn all(&self, p: Vec2) -> Vec<(f64, Vec2, f64)> {
         let mut workspace = Workspace::new(&self.m, &[]);
-        workspace.place(0.0, &[p.x, p.y], &[0.0; 2]);
+        workspace.move_to(0.0, &[p.x, p.y], &[0.0; 2]);
         let at = workspace.at();
         let touches = self.m.unilateral.iter().filter_map(|limit| match &limit.gap {
             Gap::ContactPair(touch) => Some(touch),
@@ -364,7 +364,7 @@ fn polygons_that_meet_with_corners_touch_just_where_they_are() {
             at -= normal * height;
         }
         let mut workspace = Workspace::new(&m, &[]);
-        workspace.place(0.0, &[at.x, at.y, angle], &[0.0; 3]);
+        workspace.move_to(0.0, &[at.x, at.y, angle], &[0.0; 3]);
         let closing = (0..m.unilateral.len()).filter_map(|l| workspace.closing_gap(l));
         let least = closing.fold(f64::INFINITY, f64::min);
         assert!(least.abs() < 1e-14, "seed {seed}, {apart:e} from corner to corner: {least:e}");
@@ -390,14 +390,16 @@ fn how_hard_walls_pinch_what_slides_is_not_decided() {
     }
     let m = model.compile().mechanism;
     let mut workspace = Workspace::new(&m, &[]);
-    workspace.place(0.0, &[0.0; 6], &[1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    workspace.move_to(0.0, &[0.0; 6], &[1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
     // The normal of the upper wall is turned round, and so is its tangent.
+    let mut mode = Mode::free(&m);
     for (l, sense) in [1.0, -1.0, 1.0].into_iter().enumerate() {
-        workspace.mode.contacts[l].mode = ContactMode::Slip(sense);
+        mode.contacts[l].mode = ContactMode::Slip(sense);
     }
+    workspace.enter(&mode);
     let trouble = workspace.solve().expect_err("any pinch");
     assert_eq!(trouble.name(), "painleve_indeterminate");
     assert!(trouble.sentence().starts_with("`low` and `high` slide"), "{trouble}");
-    workspace.mode.contacts[1].mode = ContactMode::ClosedUnloaded;
+    workspace.enter(&mode.with_contacts(&[1], ContactMode::ClosedUnloaded));
     workspace.solve().expect("one wall less");
 }

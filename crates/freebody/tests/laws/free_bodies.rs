@@ -34,7 +34,7 @@ fn every_diagram(mut visit: impl FnMut(&Value, &str)) {
         let mut rng = Rng::new(seed);
         for _ in 0..5 {
             let state = bench.state(&mut workspace, &mut rng, 0.3).expect("a state");
-            workspace.place(state.t, &state.q, &state.u);
+            workspace.move_to(state.t, &state.q, &state.u);
             visit(&free_bodies(&mut workspace).expect("a solution"), &bench.told());
         }
     }
@@ -84,14 +84,14 @@ fn what_locks_hold_is_among_the_loads() {
         let lock = m.drives.iter().position(|drive| drive.kind == DriveKind::Lock).expect("a lock");
         let mut workspace = bench.balance();
         let state = bench.state(&mut workspace, &mut Rng::new(seed), 0.3).expect("a state");
-        workspace.place(state.t, &state.q, &state.u);
-        workspace.put(Part::Drive(lock), true);
+        workspace.move_to(state.t, &state.q, &state.u);
+        let mode = workspace.switch_part(Part::Drive(lock), true).expect("locked later");
         let mut u = state.u.clone();
         let label = format!("seed {seed}, lock of {coordinate}, {}", bench.told());
-        if workspace.project_velocities(state.t, &state.q, &mut u).is_err() {
+        if workspace.project_velocities(&mode, state.t, &state.q, &mut u).is_err() {
             continue; // A motion drives it.
         }
-        workspace.place(state.t, &state.q, &u);
+        workspace.move_to(state.t, &state.q, &u);
         let Ok(now) = workspace.instant(Route::Minimal) else { continue };
         if !now.drives_determinate[lock] {
             continue; // Loops and motions hold it already.

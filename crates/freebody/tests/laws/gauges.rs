@@ -86,7 +86,7 @@ fn every_zoo(mut visit: impl FnMut(&Bench, &mut Workspace, &[(String, ModelExpr)
         let mut rng = Rng::new(100 + seed);
         let u = rng.vector(bench.q.len(), 1.5);
         let mut workspace = bench.balance();
-        workspace.place(0.3, &bench.q, &u);
+        workspace.move_to(0.3, &bench.q, &u);
         visit(&bench, &mut workspace, &list, &format!("seed {seed}"), &mut rng);
     }
 }
@@ -144,7 +144,7 @@ fn the_rate_of_a_gauge_is_the_power_along_it() {
         let m = &bench.compiled.mechanism;
         let (q, u) = (workspace.at().q.to_vec(), workspace.at().u.to_vec());
         for (text, law) in list {
-            workspace.place(0.3, &q, &u);
+            workspace.move_to(0.3, &q, &u);
             let at = workspace.at();
             let rate = jet(&MotionView { at, bodies: None, accelerations: None }, law).d1;
             let powers: Vec<f64> =
@@ -153,7 +153,7 @@ fn the_rate_of_a_gauge_is_the_power_along_it() {
             assert!((rate - powers.iter().sum::<f64>()).abs() < 1e-12 * size, "{label}: {text}: {rate} {powers:?}");
             let mut moved = |by: f64| {
                 let q: Vec<f64> = q.iter().zip(&u).map(|(q, u)| q + u * by).collect();
-                workspace.place(0.3, &q, &u);
+                workspace.move_to(0.3, &q, &u);
                 read(workspace.at(), law)
             };
             let difference = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
@@ -233,7 +233,7 @@ fn forces_do_the_work_that_their_potential_loses() {
             on
         };
         let u = rng.vector(bench.q.len(), 1.5);
-        workspace.place(0.3, &bench.q, &u);
+        workspace.move_to(0.3, &bench.q, &u);
         let at = workspace.at();
         let on = loads(at);
         let power: f64 = on.iter().zip(&at.k.twist).map(|(w, v)| w.power(*v)).sum();
@@ -242,7 +242,7 @@ fn forces_do_the_work_that_their_potential_loses() {
         let Some(potential) = &m.forces[0].potential else { continue };
         conservative += 1;
         // At rest: a damper beside a spring does nothing.
-        workspace.place(0.3, &bench.q, &vec![0.0; u.len()]);
+        workspace.move_to(0.3, &bench.q, &vec![0.0; u.len()]);
         let at = workspace.at();
         let most = loads(at).iter().fold(1e-300, |m: f64, w| m.max(w.f.norm()).max(w.m.abs()));
         for (b, load) in loads(at).into_iter().enumerate().skip(1) {
@@ -270,7 +270,7 @@ fn a_distance_below_0_is_a_gauge_like_any_other() {
     let mut workspace = Workspace::new(m, &[]);
     // The same state told from either side of the pole.
     let mut solved = |r: f64, phi: f64, rate: f64| {
-        workspace.place(0.0, &[r, phi, 0.7], &[rate, 0.5, -0.8]);
+        workspace.move_to(0.0, &[r, phi, 0.7], &[rate, 0.5, -0.8]);
         let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
         let read = jet(&going, &law);
         assert!((read.d0 - r).abs() < 1e-15 && (read.d1 - rate).abs() < 1e-14, "{read:?}");

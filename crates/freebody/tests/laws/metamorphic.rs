@@ -44,7 +44,7 @@ fn solved(seed: u64, base: Base, own: &[[f64; 2]], s: &State) -> Instant {
     let bench = Bench::new(&ideal(seed).draw(seed, base));
     let join = |at: usize, rest: &[f64]| own.iter().map(|x| x[at]).chain(rest.iter().copied()).collect::<Vec<_>>();
     let mut workspace = bench.balance();
-    workspace.place(s.t, &join(0, &s.q), &join(1, &s.u));
+    workspace.move_to(s.t, &join(0, &s.q), &join(1, &s.u));
     workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}, {base:?}: {e:?}"))
 }
 
@@ -99,7 +99,7 @@ fn a_moving_base_cannot_be_felt() {
         *gx = literal(*x - push);
         let falling = Bench::new(&falling);
         let mut workspace = falling.balance();
-        workspace.place(s.t, &s.q, &s.u);
+        workspace.move_to(s.t, &s.q, &s.u);
         let tilted = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
         let relative: Vec<f64> = motion_of(&pushed).chunks(3).flat_map(|b| [b[0] - push, b[1], b[2]]).collect();
         let (a, f) = (apart(&motion_of(&tilted), &relative, 1.0), apart(&known(&tilted), &known(&pushed), 1.0));
@@ -121,7 +121,7 @@ fn a_power_of_two_in_the_masses_changes_no_bit_of_the_motion() {
             let (mut workspace, mut p) = (bench.balance(), bench.p.clone());
             p[scale] = factor;
             workspace.rebind(&p);
-            workspace.place(s.t, &s.q, &s.u);
+            workspace.move_to(s.t, &s.q, &s.u);
             workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"))
         };
         let one = solved(1.0);
@@ -196,7 +196,7 @@ fn the_world_in_a_mirror_is_as_good() {
         }
         seen_there += 1;
         let s = bench.state(&mut workspace, &mut Rng::new(seed), 0.2).unwrap_or_else(|| panic!("no state: {label}"));
-        workspace.place(s.t, &s.q, &s.u);
+        workspace.move_to(s.t, &s.q, &s.u);
         let here = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
 
         let there = Model(mirrored(thrown.model.0)).compile();
@@ -211,7 +211,7 @@ fn the_world_in_a_mirror_is_as_good() {
             }
         }
         let mut workspace = freebody::dynamics::Workspace::new(m, &bench.p);
-        workspace.place(s.t, &q, &u);
+        workspace.move_to(s.t, &q, &u);
         let there = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}, mirrored: {e:?}"));
         let seen = |x: Vec<f64>| x.chunks(3).flat_map(|b| [b[0], -b[1], -b[2]]).collect::<Vec<_>>();
         let (a, f) = (

@@ -149,7 +149,7 @@ impl Recipe {
         // A motion that loops and other motions exclude, or already give, is taken back.
         let bench = Bench::new(thrown);
         let mut workspace = bench.balance();
-        workspace.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+        workspace.move_to(0.0, &bench.q, &vec![0.0; bench.q.len()]);
         let possible =
             workspace.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate.iter().all(|&sure| sure));
         if !possible {
@@ -326,15 +326,16 @@ impl Bench {
     pub fn state(&self, workspace: &mut Workspace, rng: &mut Rng, reach: f64) -> Option<State> {
         let n = self.q.len();
         let still = vec![0.0; n];
-        workspace.place(0.0, &self.q, &still);
-        workspace.take_row_offsets();
+        workspace.move_to(0.0, &self.q, &still);
+        let mode = workspace.with_row_offsets();
+        workspace.enter(&mode);
         for i in 0..200 {
             let reach = reach * 0.97_f64.powi(i);
             let t = rng.within(0.0, 1.0);
             let mut q: Vec<f64> = self.q.iter().map(|q| q + rng.about(reach)).collect();
             let mut u = rng.vector(n, 2.0);
-            let closed = workspace.project_positions(t, &mut q, &still).is_ok()
-                && workspace.project_velocities(t, &q, &mut u).is_ok();
+            let closed = workspace.project_positions(&mode, t, &mut q, &still).is_ok()
+                && workspace.project_velocities(&mode, t, &q, &mut u).is_ok();
             // Loops may close far off, at a place where the mechanism is all but singular.
             let near = q.iter().zip(&self.q).all(|(a, b)| (a - b).abs() < 2.0) && u.iter().all(|u| u.abs() < 20.0);
             if closed && near && self.off_the_pole(&q) {

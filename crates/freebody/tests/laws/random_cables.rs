@@ -51,7 +51,7 @@ impl Scene {
             }
             all
         };
-        workspace.place(0.0, &ordered(at), &ordered(rates));
+        workspace.move_to(0.0, &ordered(at), &ordered(rates));
         look(workspace.at(), self.cord())
     }
     pub fn start(&self, at: &[Three]) -> Feature {

@@ -5,6 +5,7 @@ use crate::random::*;
 use crate::rng::Rng;
 use freebody::dynamics::{force_power, force_value, unaccounted_power, Instant, JointLoad, Route, Workspace};
 use freebody::kinematics::gradient;
+use freebody::mode::Mode;
 
 pub const MECHANISMS: u64 = 30;
 const STATES: usize = 34;
@@ -44,7 +45,7 @@ fn every_state(
         for i in 0..states {
             let label = format!("seed {seed}, state {i}, {}", bench.told());
             let state = bench.state(&mut workspace, &mut rng, REACH).unwrap_or_else(|| panic!("no state: {label}"));
-            workspace.place(state.t, &state.q, &state.u);
+            workspace.move_to(state.t, &state.q, &state.u);
             visit(&bench, &mut workspace, &state, &label, &mut rng);
         }
     }
@@ -77,7 +78,7 @@ fn every_joint_holds_at_the_pose_thrown() {
         let thrown = recipe(seed).draw(seed, HOME);
         let bench = Bench::new(&thrown);
         let mut workspace = bench.balance();
-        workspace.place(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+        workspace.move_to(0.0, &bench.q, &vec![0.0; bench.q.len()]);
         for body in bench.compiled.mechanism.listed_bodies() {
             let name = &bench.compiled.mechanism.bodies[body].name;
             let off = apart(&workspace.frame(body), &thrown.pose[name], 1.0);
@@ -127,8 +128,8 @@ fn light_links_between_heavy_ones_keep_their_digits() {
         let compiled = model.joint("close", "hinge", &[("of", points(&[&before, "ground.E"]))], &[]).compile();
         let mut workspace = Workspace::new(&compiled.mechanism, &[]);
         let mut u = rng.vector(bars, 1.0);
-        workspace.project_velocities(0.0, &q, &mut u).expect("closed as drawn");
-        workspace.place(0.0, &q, &u);
+        workspace.project_velocities(&Mode::free(workspace.m), 0.0, &q, &mut u).expect("closed as drawn");
+        workspace.move_to(0.0, &q, &u);
         let found: Vec<Instant> = Route::ALL.iter().map(|r| workspace.instant(r.1).expect("moves")).collect();
         for now in &found {
             let off = apart(&motion(&found[0]), &motion(now), 1.0);
@@ -173,10 +174,11 @@ fn what_is_not_in_place_does_nothing() {
         let (whole, bare) = (Bench::new(&thrown), Bench::without_idle(&thrown));
         let (mut with, mut without) = (whole.balance(), bare.balance());
         let state = bare.state(&mut without, &mut Rng::new(seed), REACH).expect("a state");
-        with.place(0.0, &whole.q, &vec![0.0; whole.q.len()]);
-        with.take_row_offsets();
+        with.move_to(0.0, &whole.q, &vec![0.0; whole.q.len()]);
+        let mode = with.with_row_offsets();
+        with.enter(&mode);
         for workspace in [&mut with, &mut without] {
-            workspace.place(state.t, &state.q, &state.u);
+            workspace.move_to(state.t, &state.q, &state.u);
         }
         let label = format!("seed {seed}, {}", whole.told());
         let [a, b] = [&mut with, &mut without]
@@ -239,7 +241,7 @@ fn accelerations_are_reciprocal() {
                 p[load] = 1.0;
             }
             workspace.rebind(&p);
-            workspace.place(state.t, &state.q, &state.u);
+            workspace.move_to(state.t, &state.q, &state.u);
             workspace.solve().unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
             let mut a = vec![0.0; n];
             workspace.accelerations(&mut a);
@@ -286,7 +288,7 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         let mut workspace = pushed.balance();
         let mut rng = Rng::new(seed);
         let state = pushed.state(&mut workspace, &mut rng, REACH).unwrap_or_else(|| panic!("seed {seed}: no state"));
-        workspace.place(state.t, &state.q, &state.u);
+        workspace.move_to(state.t, &state.q, &state.u);
         let forward = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
         let i = index_of(&pushed.compiled.mechanism, &name);
         let law = format!("{:?}", forward.accelerations[i]);
@@ -294,7 +296,7 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         driven.model = driven.model.motion("push", &format!("'{name}'"), &law, "acceleration", None);
         let driven = Bench::new(&driven);
         let mut workspace = driven.balance();
-        workspace.place(state.t, &state.q, &state.u);
+        workspace.move_to(state.t, &state.q, &state.u);
         let inverse = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
         let label = format!("seed {seed}, {name}, {}", driven.told());
         let (a, f) = (

@@ -45,7 +45,7 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         let mut rng = Rng::new(seed);
         let drawn = std::iter::repeat_with(|| {
             let s = plain.state(&mut workspace, &mut rng, 0.2).unwrap_or_else(|| panic!("seed {seed}: no state"));
-            workspace.place(s.t, &s.q, &s.u);
+            workspace.move_to(s.t, &s.q, &s.u);
             let now = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
             (s, now)
         });
@@ -55,7 +55,7 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         planted += 1;
         let freedom = workspace.freedom();
         let mut workspace = bound.balance();
-        workspace.place(s.t, &s.q, &s.u);
+        workspace.move_to(s.t, &s.q, &s.u);
         let label = format!("seed {seed}: planted on {} of {a} and {b}; {}", hinge.name, bound.told());
         for (word, route) in Route::ALL {
             let after = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));
@@ -105,7 +105,7 @@ fn a_parallelogram_with_spare_cranks() {
             (0..m.freedom()).map(|i| if m.coordinate(i).name == "phi" { -x } else { x }).collect()
         };
         let mut workspace = Workspace::new(m, &[]);
-        workspace.place(0.0, &by(theta), &by(omega));
+        workspace.move_to(0.0, &by(theta), &by(omega));
         let now = workspace.instant(Route::Minimal).expect("moves");
         let sure: Vec<(String, [bool; 3])> =
             m.joints.iter().zip(&now.determinate).map(|(j, s)| (j.name.clone(), *s)).collect();

@@ -123,7 +123,7 @@ fn equations_told_at_one_state_hold_at_another() {
         let mut rng = Rng::new(seed);
         let mut go = |workspace: &mut Workspace| {
             let state = bench.state(workspace, &mut rng, 0.05).expect("a state");
-            workspace.place(state.t, &state.q, &state.u);
+            workspace.move_to(state.t, &state.q, &state.u);
             state
         };
         go(&mut workspace);

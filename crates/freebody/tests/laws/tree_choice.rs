@@ -67,11 +67,12 @@ fn the_tree_does_not_matter() {
         let cut = |m: &Mechanism| m.closures.iter().map(|&j| m.joints[j].name.clone()).collect::<Vec<_>>();
         let label = format!("seed {seed}: cut at {:?} and {:?}; {}", cut(m), cut(n), one.told());
         let mut first = one.balance();
-        first.place(0.0, &one.q, &vec![0.0; one.q.len()]);
-        first.take_row_offsets();
+        first.move_to(0.0, &one.q, &vec![0.0; one.q.len()]);
+        let mode = first.with_row_offsets();
+        first.enter(&mode);
         let mut u = rng.vector(one.q.len(), 2.0);
-        first.project_velocities(0.0, &one.q, &mut u).unwrap_or_else(|e| panic!("{label}: {e:?}"));
-        first.place(0.0, &one.q, &u);
+        first.project_velocities(&mode, 0.0, &one.q, &mut u).unwrap_or_else(|e| panic!("{label}: {e:?}"));
+        first.move_to(0.0, &one.q, &u);
         // The rates of the other tree's coordinates, read off the first tree's bodies.
         let going = MotionView { at: first.at(), bodies: None, accelerations: None };
         let rate = |&(joint, k): &(usize, usize)| {
@@ -83,7 +84,7 @@ fn the_tree_does_not_matter() {
         other_trees += usize::from(cut(m) != cut(n));
         let a = first.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         let mut second = other.balance();
-        second.place(0.0, &other.q, &v);
+        second.move_to(0.0, &other.q, &v);
         let b = second.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         compare(&label, [m, n], [&a, &b]);
     }
@@ -122,7 +123,7 @@ fn a_massless_link_may_be_cut_loose() {
             let angles = [0.0, direction(0), direction(1), direction(2), 0.0];
             let q: Vec<f64> = m.coordinates.iter().map(|&(j, _)| angles[j + 1] - angles[j]).collect();
             let mut workspace = freebody::dynamics::Workspace::new(m, &[]);
-            workspace.place(0.0, &q, &vec![0.0; q.len()]);
+            workspace.move_to(0.0, &q, &vec![0.0; q.len()]);
             assert!(workspace.worst_gap() < 1e-15);
             for (word, route) in Route::ALL {
                 found.push(
@@ -170,7 +171,7 @@ fn no_couple_goes_through_a_particle() {
         let [m, n] = [&one.mechanism, &other.mechanism];
         let solved = |m: &Mechanism| {
             let mut workspace = freebody::dynamics::Workspace::new(m, &[]);
-            workspace.place(0.0, &q, &vec![0.0; q.len()]);
+            workspace.move_to(0.0, &q, &vec![0.0; q.len()]);
             assert!(workspace.worst_gap() < 1e-15);
             workspace.instant(Route::Minimal).expect("nothing is singular here")
         };

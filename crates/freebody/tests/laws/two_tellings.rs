@@ -55,7 +55,7 @@ fn pair(kind: Kind, seed: u64, reversed: bool, free: bool) -> Thrown {
 fn rates(to: &Bench, from: &Bench, at: &Workspace, u: &[f64]) -> Vec<f64> {
     let (m, tree) = (&to.compiled.mechanism, &from.compiled.mechanism);
     let mut there = to.balance();
-    there.place(0.0, &to.q, &vec![0.0; to.q.len()]);
+    there.move_to(0.0, &to.q, &vec![0.0; to.q.len()]);
     let rate = |i: usize| {
         if let Some(j) = (0..u.len()).find(|&j| tree.coordinate(j).name == m.coordinate(i).name) {
             return u[j];
@@ -89,10 +89,10 @@ fn a_joint_of_the_tree_is_the_same_joint_closing_a_loop() {
             assert!(cut.balance().is_closed(), "{what}: {}", cut.told());
             let u = Rng::new(seed + 3000).vector(tree.q.len(), 2.0);
             let mut one = tree.balance();
-            one.place(0.0, &tree.q, &u);
+            one.move_to(0.0, &tree.q, &u);
             let mut other = cut.balance();
             let v = rates(&cut, &tree, &one, &u);
-            other.place(0.0, &cut.q, &v);
+            other.move_to(0.0, &cut.q, &v);
             let first = one.instant(Route::Minimal).unwrap_or_else(|e| panic!("{what}: {e:?}"));
             let [m, n] = [&tree.compiled.mechanism, &cut.compiled.mechanism];
             let (a, f) = (accelerations(m, &first.bodies), told(&first.joints[joint_named(m, "test")]));
@@ -130,7 +130,7 @@ fn a_cam_is_a_slot_along_the_parallel_curve() {
             .iter()
             .map(|c| {
                 let mut workspace = Workspace::new(&c.mechanism, &[]);
-                workspace.place(0.0, &q, &u);
+                workspace.move_to(0.0, &q, &u);
                 let now = workspace.instant(Route::Minimal).expect("a tree with inertia");
                 (now.accelerations.clone(), told(&now.joints[1]).to_vec())
             })
