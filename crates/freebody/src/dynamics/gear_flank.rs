@@ -13,8 +13,8 @@ impl Workspace<'_> {
     /// The mode with the other flank of every gear pair whose teeth would pull in the last solution, if there is one.
     ///
     /// Where other joints hold the axles at their distance, the flank changes no motion, and so no tooth force: both
-    /// flanks push along the pitch circles alike. Where they do not, the flank chosen in the model stays: the other is
-    /// another constraint.
+    /// flanks push along the pitch circles alike. Where they do not, or where the teeth themselves hold the axles, the
+    /// flank chosen in the model stays: the other is another constraint.
     pub(super) fn other_gear_flanks(&self) -> Option<Mode> {
         let mut other = None;
         for (row, lambda) in self.rows.iter().zip(&self.solved.lambda) {
@@ -24,9 +24,9 @@ impl Workspace<'_> {
                 continue;
             }
             let model = self.n.values[joint.numbers[Gear::FLANK]];
-            let flank = if self.mode().bears_on_other_flank(j) { -model } else { model };
+            let flank = if self.at().mode.bears_on_other_flank(j) { -model } else { model };
             if flank * lambda < 0.0 && self.keeps_centre_distance(joint) {
-                other.get_or_insert_with(|| self.mode().clone()).turn_flank(j);
+                other.get_or_insert_with(|| self.at().mode.clone()).turn_flank(j);
             }
         }
         other

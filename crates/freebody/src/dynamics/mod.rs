@@ -241,8 +241,10 @@ impl<'m> Workspace<'m> {
     pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
         self.placed.bearing = None;
         self.solve_once(route)?;
-        self.placed.bearing = self.other_gear_flanks();
-        if self.placed.bearing.is_some() {
+        // To the other flank, and back again where teeth would pull there too.
+        for _ in 0..2 {
+            let Some(mode) = self.other_gear_flanks() else { break };
+            self.placed.bearing = Some(mode);
             self.solve_once(route)?;
         }
         match self.m.joint_friction.is_empty() {
