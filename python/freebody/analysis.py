@@ -117,10 +117,10 @@ class Moving:
     def code(
         self: Builder, language: str = "python", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
     ) -> str:
-        """CompiledModel of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
+        """Code of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
         (C99). Changed parameters become the defaults; a changed place says no more than on which branch things are. Raises
         ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.codegen``."""
-        from freebody.codegen import program
+        from freebody.codegen.program import program
 
         state, _ = self.start(initial, t, **changes)
         with self.core_errors():

@@ -20,7 +20,7 @@ MAY_USE = {
     "equations": SOLVED | {"document", "views", "codegen"},
     "check": SOLVED | {"equations"},
     "catalogue": SOLVED | {"document", "equations", "check"},
-    "cli": SOLVED | {"equations", "check", "views", "catalogue"},
+    "cli": SOLVED | {"document", "codegen", "equations", "check", "views", "catalogue"},
 }
 """What a folder may use; of those not named here, only that there are no circles of modules."""
 

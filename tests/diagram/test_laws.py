@@ -11,7 +11,7 @@ from store import SYSTEMS, every, mechanism, start
 import freebody as fb
 from freebody.equations.derivation.data import SymbolicState
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.printers.latex import latex
+from freebody.symbolic.printers.typeset import latex
 from freebody.views.diagram import diagram
 from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.rows import MARGIN

@@ -10,9 +10,10 @@ from material import LETTERS, cos, half, product, sin, square, sym
 from freebody.check.language.glyphs import glyphs
 from freebody.document.blocks import Equation
 from freebody.document.document import Document
-from freebody.equations import latex
-from freebody.symbolic.printers.latex import sides_latex
-from freebody.symbolic.printers.line_breaking import lines, width
+from freebody.symbolic.formula import typed
+from freebody.symbolic.printers.latex import aligned, latex
+from freebody.symbolic.printers.line_breaking import equation, lines, width
+from freebody.symbolic.printers.typeset import formula
 from freebody.symbolic.tree import ZERO, add, minus, mul, power
 
 TH1, TH2, X, M1, M2, L, G = map(sym, ("theta1", "theta2", "x", "m1", "m2", "l", "g"))
@@ -38,27 +39,28 @@ def plain(math):
 def test_lines_are_the_formula_and_none_is_too_wide():
     draw = random.Random(2)
     for _ in range(100):
-        math, room = latex(sums(draw), LETTERS), draw.uniform(14, 30)
+        math, room = formula(sums(draw), LETTERS), draw.uniform(14, 30)
         made = lines(math, room)
-        assert plain("".join(made)) == plain(math)
+        shown = list(map(latex, made))
+        assert plain("".join(shown)) == plain(latex(math))
         assert max(map(width, made)) <= room
-        assert all(line[0] in "+-" for line in made[1:])
-        torn = any(line.count(r"\left") != line.count(r"\right") for line in made)
+        assert all(line[0] in "+-" for line in shown[1:])
+        torn = any(line.count(r"\left") != line.count(r"\right") for line in shown)
         assert not torn and (len(made) > 1) == (width(math) > room)
 
 
 def test_a_fraction_that_is_too_wide_is_broken_above_its_line():
-    math = latex(
+    math = formula(
         mul(add(*(product(M1, L, G), mul(M2, X, sin(TH1)), half(W1, W2, L), mul(G, X, L))), power(add(L, X), -1)), LETTERS
     )
     made = lines(math, 9)
-    assert len(made) > 1 and max(map(width, made)) <= 9 and made[0].startswith(r"\frac{1}{")
+    assert len(made) > 1 and max(map(width, made)) <= 9 and latex(made[0]).startswith(r"\frac{1}{")
 
 
 def test_a_short_left_side_stands_beside_the_first_line():
     draw = random.Random(3)
-    right = latex(add(*(sums(draw) for _ in range(4))), LETTERS)
-    assert sides_latex("E", right).startswith("\\begin{aligned}\nE &= ")
+    right = formula(add(*(sums(draw) for _ in range(4))), LETTERS)
+    assert aligned(equation(typed("E"), right)).startswith("\\begin{aligned}\nE &= ")
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -70,8 +72,8 @@ def test_widths_are_those_of_computer_modern(seed):
     with matplotlib.rc_context({"mathtext.fontset": "cm"}):
         parser = MathTextParser("path")
         for tree in [sums(draw) for _ in range(30)]:
-            math = latex(tree, LETTERS)
-            set_in_type = parser.parse(f"${math.replace('tfrac', 'frac')}$", dpi=72).width / SIZE
+            math = formula(tree, LETTERS)
+            set_in_type = parser.parse(f"${latex(math).replace('tfrac', 'frac')}$", dpi=72).width / SIZE
             assert width(math) == pytest.approx(set_in_type, rel=0.1), math
 
 

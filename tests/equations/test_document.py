@@ -26,6 +26,7 @@ from freebody.equations import (
     read,
 )
 from freebody.symbolic.printers.text import columns
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import MINUS_ONE, ZERO, add, mul
 
 TH1, A1, A2 = sym("theta1"), sym("theta1", 2), sym("theta2", 2)
@@ -54,7 +55,7 @@ DOCUMENT = Document(
     [
         Heading("A pendulum & 100 % of it", 1),
         Paragraph(["The angle ", TH1, " is measured from the vertical; it costs $5_0 <here>."]),
-        Equation(Written("a_G", r"\mathbf{a}_G"), Vector(((mul(L, A1, cos(TH1)), "i"), (add(L, M1), "j"), (MINUS_ONE, "e_r"), (ZERO, "k")))),
+        Equation(Written.of(Name("a", ("G",)), bold=True), Vector(((mul(L, A1, cos(TH1)), "i"), (add(L, M1), "j"), (MINUS_ONE, "e_r"), (ZERO, "k")))),
         Equation(mul(M1, square(L), A1), product(-1, M1, "g", L, sin(TH1)), "AMB about the pivot", "1", "The pin has no moment."),
         Equation(LONG, ZERO, "A long one"),
         MatrixEquation([[M1, half(M1, L)], [ZERO, L]], [A1, A2], [product("g", M1), ZERO], "Both", "2"),
@@ -99,7 +100,7 @@ def test_latex_is_balanced():
     assert sorted(re.findall(r"\\begin\{(\w+)\}", shown)) == sorted(re.findall(r"\\end\{(\w+)\}", shown))
     assert shown.count("{") - shown.count(r"\{") == shown.count("}") - shown.count(r"\}")
     assert r"\section*{A pendulum \& 100 \% of it}" in shown and r"costs \$5\_0" in shown
-    assert r"\mathbf{a}_G = l \ddot\theta_1 \cos\theta_1 \, \mathbf{i} + (m_1 + l) \mathbf{j} - \mathbf{e}_{r}" in shown
+    assert r"\mathbf{a}_G = l \ddot\theta_1 \cos\theta_1 \, \mathbf{i} + (m_1 + l) \, \mathbf{j} - \mathbf{e}_r" in shown
 
 
 @pytest.mark.long

@@ -1,4 +1,4 @@
-"""``freebody code``: the equations of a model as functions in Python or C."""
+"""``freebody code``: the equations of a model as functions of a programming language."""
 
 from __future__ import annotations
 
@@ -8,19 +8,25 @@ from typing import Annotated
 import typer
 
 from freebody.cli.models import opened
-from freebody.cli.options import Changes, Model
+from freebody.cli.options import Changes, Model, offering
+from freebody.codegen.languages import LANGUAGES
+
+_FIRST = next(iter(LANGUAGES))
 
 
+@offering({each.word: f"{each.doc}; so does an output that ends in .{each.ending}." for each in LANGUAGES.values()})
 def code(
     model: Model,
-    c: Annotated[bool, typer.Option("--c", help="C instead of Python; so does an output that ends in .c.")] = False,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes, instead of the screen.")] = None,
     changes: Changes = None,
+    **asked: bool,
 ) -> None:
-    """Print functions that compute accelerations and all reactions: Python that needs NumPy only, or C99."""
+    """Print functions that compute accelerations and all reactions by themselves."""
     from freebody.cli.show import written
 
-    text = opened(model, changes).code("c" if c or (output and output.suffix == ".c") else "python")
+    ending = output.suffix.removeprefix(".") if output else ""
+    fitting = [word for word, each in LANGUAGES.items() if asked[word] or (ending == each.ending and not any(asked.values()))]
+    text = opened(model, changes).code(fitting[0] if fitting else _FIRST)
     if output is None:
         typer.echo(text.rstrip("\n"))
     else:

@@ -8,15 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from freebody.cli.models import opened, pairs
-from freebody.cli.options import AsJson, Model
+from freebody.cli.options import Model, offering
 from freebody.cli.user_errors import UserError
+from freebody.codegen.languages import LANGUAGES
+from freebody.document.rendering import FORMATS
 
 if TYPE_CHECKING:
     from freebody.document.document import Document
     from freebody.equations.derivation.derive import Equations
     from freebody.model import Mechanism
 
-
+_ENDINGS = ", ".join(f".{ending}" for ending in FORMATS)
 SOLVED = "solved"
 
 
@@ -33,6 +35,7 @@ def listed(asked: bool) -> None:
         raise typer.Exit
 
 
+@offering({each.word: each.doc for each in FORMATS.values()})
 def equations(
     model: Model,
     form: Annotated[
@@ -60,10 +63,8 @@ def equations(
         list[str] | None,
         typer.Option("--limit", metavar="NAME=VALUE", help="With --form solved: the answer as m2=inf, m1=0 …; repeatable."),
     ] = None,
-    latex: Annotated[bool, typer.Option("--latex", help="A fragment of LaTeX.")] = False,
-    markdown: Annotated[bool, typer.Option("--markdown", help="Markdown.")] = False,
-    as_json: AsJson = False,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Where it goes: .txt, .tex, .md, .html, .json.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help=f"Where it goes: {_ENDINGS}.")] = None,
+    **asked: bool,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
     if limits and form != SOLVED:
@@ -75,11 +76,14 @@ def equations(
         found = solved(opened(model), wanted, at_rest, pairs(fixed), pairs(limits))
     else:
         found = derived(opened(model), form, wanted[0] if wanted else None, at_rest, pairs(fixed))
-    asked = [word for word, given in (("tex", latex), ("md", markdown), ("json", as_json)) if given]
-    if len(asked) > 1:
-        raise UserError("several ways to print are asked for", "take one of --latex, --markdown, --json")
-    kind = asked[0] if asked else output.suffix.removeprefix(".") if output else "txt"
-    _refuse(kind)
+    kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
+    if len(kinds) > 1:
+        raise UserError("several ways to print are asked for", f"take one of {', '.join(f'--{f.word}' for f in FORMATS.values())}")
+    kind = kinds[0] if kinds else output.suffix.removeprefix(".") if output else next(iter(FORMATS))
+    if kind in (language.ending for language in LANGUAGES.values()):
+        raise UserError("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")
+    if kind not in FORMATS:
+        raise UserError(f"files that end in .{kind} cannot be written", f"take one of {_ENDINGS}")
     if output:
         from freebody.cli.show import written
 
@@ -111,12 +115,3 @@ def solved(mechanism: Mechanism, wanted: list[str], at_rest: bool, fixed: dict[s
         return mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=fixed, limits=limits).document
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
-
-
-def _refuse(kind: str) -> None:
-    """Raises ``UserError`` for a way of printing that there is not, by the ending of its file."""
-    ways = ("txt", "tex", "md", "html", "json")
-    if kind in ("py", "c"):
-        raise UserError("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")
-    if kind not in ways:
-        raise UserError(f"files that end in .{kind} cannot be written", f"take one of {', '.join('.' + way for way in ways)}")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -11,3 +13,17 @@ Model = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML o
 Changes = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")]
 Until = Annotated[str | None, typer.Option(metavar="TIME", help="End of the run, like 5 or '200 ms'.")]
+
+
+def offering(choices: Mapping[str, str]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """A command that takes ``**asked``, with an option ``--word`` for every word, and what it says of itself."""
+
+    def with_options(command: Callable[..., None]) -> Callable[..., None]:
+        signature = inspect.signature(command, eval_str=True)
+        own = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]
+        kinds: dict[str, Any] = {word: Annotated[bool, typer.Option(f"--{word}", help=doc)] for word, doc in choices.items()}
+        added = [inspect.Parameter(word, own[0].KEYWORD_ONLY, default=False, annotation=kinds[word]) for word in choices]
+        command.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
+        return command
+
+    return with_options

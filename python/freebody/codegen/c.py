@@ -1,10 +1,16 @@
-"""The part of generated C that solves: names and numbers, elimination, accelerations, reactions, first-order form."""
+"""Functions in C, and the part of generated C that solves."""
 
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
 
-from freebody.codegen.systems import Systems
+from freebody.codegen.source import Language, Step
+
+if TYPE_CHECKING:
+    from freebody.codegen.systems import Systems
 
 _SOLVE = """/* Solves a x = b, a of n rows, by elimination with row interchanges; x comes in b. 1 if a is singular, else 0. */
 static int solve(int n, double *a, double *b)
@@ -112,10 +118,38 @@ int derivative(double t, const double *y, const double *p, double *out)
 }"""
 
 
-def solvers(systems: Systems) -> str:
-    """Source that comes after the functions of ``systems``."""
-    parts = [_names(systems), _SOLVE, _CLOSED if systems.rows else _FREE, *([_LOADS] if systems.loads else []), _RATE]
-    return "\n\n".join(parts) + "\n"
+class C99(Language):
+    """C, ISO/IEC 9899:1999."""
+
+    word, ending, doc = "c", "c", "C99"
+    functions: ClassVar[Mapping[str, str]] = {
+        "sin": "sin({})", "cos": "cos({})", "tan": "tan({})", "exp": "exp({})", "ln": "log({})",
+        "atan2": "atan2({}, {})", "abs": "fabs({})", "sign": "sign({})", "sqrt": "sqrt({})", "power": "pow({}, {})",
+    }  # fmt: skip
+
+    def function(
+        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
+    ) -> str:
+        taken = ", ".join(f"double {x}" if x == "t" else f"const double *{x}" for x in arrays)
+        used = " ".join(value for _, value in steps) + " ".join(results)
+        idle = [x for x in arrays if f"{x}[" not in used and (x != "t" or not _mentions(used, "t"))]
+        body = [f"    (void)({x});" for x in idle] + [f"    const double {step} = {value};" for step, value in steps]
+        if shape == ():
+            return "\n".join([f"double {name}({taken})", "{", *body, f"    return {results[0]};", "}"])
+        body += [f"    out[{place}] = {result};" for place, result in enumerate(results)]
+        return "\n".join([f"/* out: {' × '.join(map(str, shape))} */", f"void {name}({taken}, double *out)", "{", *body, "}"])
+
+    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
+        safe = [line.replace("*/", "* /") for line in header]
+        top = ["/* Generated from the equations of a freebody model, in SI units and radians.", "", *safe, "*/"]
+        top += ["", "#include <math.h>"]
+        if any(_mentions(function, "sign") for function in functions):
+            top += ["", "static double sign(double x)", "{", "    return (double)((x > 0.0) - (x < 0.0));", "}"]
+        return "\n\n".join(["\n".join(top), *functions]) + "\n"
+
+    def solvers(self, systems: Systems) -> str:
+        parts = [_names(systems), _SOLVE, _CLOSED if systems.rows else _FREE, *([_LOADS] if systems.loads else []), _RATE]
+        return "\n" + "\n\n".join(parts) + "\n"
 
 
 def _names(systems: Systems) -> str:
@@ -133,3 +167,7 @@ def _array(what: str, entries: list[tuple[str, str]]) -> str:
     safe = [(entry, comment.replace("*/", "* /")) for entry, comment in entries]
     lines = [f"    {entry}, /* {comment} */\n" if comment else f"    {entry},\n" for entry, comment in safe]
     return f"{what}[] = {{\n{''.join(lines)}}};"
+
+
+def _mentions(code: str, word: str) -> bool:
+    return re.search(rf"\b{word}\b", code) is not None

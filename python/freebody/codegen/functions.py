@@ -1,4 +1,4 @@
-"""Source code of functions that evaluate trees: Python with NumPy, and C99.
+"""Source code of functions that evaluate trees.
 
 Every distinct subexpression is one node of a graph, found bottom-up by what it is made of; a node that is used twice gets a
 name and is computed once."""
@@ -10,14 +10,12 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from freebody.codegen.languages import LANGUAGES
+from freebody.codegen.source import Language, Writer
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.printers.c import C99
-from freebody.symbolic.printers.numpy import NumPy
-from freebody.symbolic.printers.source import Language, Writer
 from freebody.symbolic.symbols import ascii_name
 from freebody.symbolic.tree import PI, Entries, Sym, Tree, symbols
 
-LANGUAGES: Mapping[str, Language] = {"numpy": NumPy(), "c": C99()}
 _WORDS_OF_C = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
     "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while"
@@ -43,13 +41,13 @@ class Argument:
         return "t" if self.array == "t" else f"{self.array}[{self.index}]"
 
 
-def generate(functions: Mapping[str, Entries], letters: Letters, language: str = "numpy") -> str:
+def generate(functions: Mapping[str, Entries], letters: Letters, language: str = "python") -> str:
     """Source code with one function for every name.
 
     A function takes ``q, u, p, t``: coordinates, their rates, parameters and constants as arrays in the order of the letters,
     and time; behind them ``a`` (accelerations) and ``r`` (unknowns) if any of the functions needs those. In Python it returns a
     number or an array of the shape of the entries, with the shape of array arguments ``q[i]`` behind it. In C it is
-    ``void name(const double *q, …, double *out)``, rows first, or returns a ``double``. ``language`` is numpy or c."""
+    ``void name(const double *q, …, double *out)``, rows first, or returns a ``double``."""
     if language not in LANGUAGES:
         raise ValueError(f"language {language!r} is unknown; there are {', '.join(LANGUAGES)}")
     spelling = LANGUAGES[language]

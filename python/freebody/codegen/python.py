@@ -1,8 +1,14 @@
-"""The part of generated Python that solves: names and numbers, accelerations, reactions, first-order form."""
+"""Functions in Python with NumPy, and the part of generated Python that solves."""
 
 from __future__ import annotations
 
-from freebody.codegen.systems import Systems
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from freebody.codegen.source import Language, Step
+
+if TYPE_CHECKING:
+    from freebody.codegen.systems import Systems
 
 _FREE = '''def accelerations(q, u, p=DEFAULTS, t=0.0):
     """Second derivatives of the coordinates (n,): the solution of mass_matrix q'' = right_hand_side."""
@@ -35,10 +41,36 @@ _RATE = '''def derivative(t, y, p=DEFAULTS):
     return np.concatenate([u, accelerations(q, u, p, t)])'''
 
 
-def solvers(systems: Systems) -> str:
-    """Source that comes after the functions of ``systems``."""
-    parts = [_names(systems), _CLOSED if systems.rows else _FREE, *([_LOADS] if systems.loads else []), _RATE]
-    return "\n\n\n".join(parts) + "\n"
+class NumPy(Language):
+    """Python with NumPy."""
+
+    word, ending, doc = "python", "py", "Python that needs NumPy only"
+    functions: ClassVar[Mapping[str, str]] = {
+        "sin": "np.sin({})", "cos": "np.cos({})", "tan": "np.tan({})", "exp": "np.exp({})", "ln": "np.log({})",
+        "atan2": "np.arctan2({}, {})", "abs": "np.abs({})", "sign": "np.sign({})",
+        "sqrt": "np.sqrt({})", "power": "np.power({}, {})",
+    }  # fmt: skip
+
+    def function(
+        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
+    ) -> str:
+        lines = [f"def {name}({', '.join(arrays)}):", *(f"    {step} = {value}" for step, value in steps)]
+        if shape == ():
+            return "\n".join([*lines, f"    return {results[0]}"])
+        entries = [f"        {result}," for result in results]
+        return "\n".join([*lines, "    return _array([", *entries, f"    ], {shape!r})"])
+
+    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
+        safe = [line.replace("\\", "\\\\").replace('"', "'") for line in header]
+        top = ['"""Generated from the equations of a freebody model, in SI units and radians.', "", *safe, '"""']
+        top += ["", "import numpy as np", "", "", "def _array(entries, shape):"]
+        top += ["    entries = np.broadcast_arrays(*entries)"]
+        top += ["    return np.stack(entries).reshape(shape + entries[0].shape)"]
+        return "\n\n\n".join(["\n".join(top), *functions]) + "\n"
+
+    def solvers(self, systems: Systems) -> str:
+        parts = [_names(systems), _CLOSED if systems.rows else _FREE, *([_LOADS] if systems.loads else []), _RATE]
+        return "\n\n" + "\n\n\n".join(parts) + "\n"
 
 
 def _names(systems: Systems) -> str:

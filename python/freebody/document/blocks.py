@@ -7,16 +7,23 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
+from freebody.symbolic.formula import Formula
 from freebody.symbolic.letters import Letters
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
 
 @dataclass(frozen=True)
 class Written:
-    """Mathematics that is only written, not computed with: ``Written("ΣM/E", r"\\sum M_{/E}")``."""
+    """Mathematics that is only written, not computed with: on a line of text, and set in type."""
 
     text: str
-    latex: str
+    formula: Formula
+
+    @classmethod
+    def of(cls, name: Name, *, bold: bool = False) -> Written:
+        """A name; one of a vector is ``bold``."""
+        return cls(name.unicode(), name.formula(bold=bold))
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from freebody.document.blocks import Block, Equation, Figure, Heading, MatrixEquation, is_tree
-from freebody.document.rendering import data, plain
-from freebody.document.rendering.markup import Html, Latex, Markdown
-from freebody.document.templates import template
+from freebody.document.blocks import Block, Equation, Figure, MatrixEquation, is_tree
+from freebody.document.rendering import FORMATS
+from freebody.document.rendering.html import page
+from freebody.document.rendering.text import Text
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.tree import Tree
 
@@ -23,48 +22,38 @@ class Document:
     blocks: Sequence[Block]
     letters: Letters = field(default_factory=Letters)
 
+    def printed(self, kind: str, beside: str = "") -> str:
+        """In an output format, by the ending of its files; figures are files whose names begin with ``beside``, words where that is
+        empty. Raises ``KeyError`` for a format that there is not, see ``FORMATS``."""
+        return FORMATS[kind].render(self.blocks, self.letters, beside)
+
+    def save(self, path: str | Path, kind: str = "") -> list[Path]:
+        """Write a file by its ending or ``kind``, see ``printed``, and the figures beside it. Returns all that is written."""
+        path = Path(path)
+        form = FORMATS[kind or path.suffix.removeprefix(".")]
+        path.write_text(self.printed(form.ending, path.stem), encoding="utf-8")
+        figures = [block for block in self.blocks if isinstance(block, Figure) and form.figures]
+        return [path, *(each.picture.save(path.with_name(f"{path.stem}-{each.name}{form.figures}")) for each in figures)]
+
     def text(self, *, ascii: bool = False, width: int = 100) -> str:
         """Plain text of at most ``width`` columns, as far as equations can be broken."""
-        return plain.render(self.blocks, self.letters, ascii=ascii, width=width)
+        return Text(self.letters, ascii=ascii, width=width).render(self.blocks)
 
     def markdown(self, beside: str = "") -> str:
         """Markdown with LaTeX between dollars. Figures are files whose names begin with ``beside``; words where that is empty."""
-        return Markdown(self.letters, beside).render(self.blocks)
+        return self.printed("md", beside)
 
     def latex(self, beside: str = "") -> str:
         """A fragment of a LaTeX article; it needs amsmath, amssymb and graphicx. ``beside`` as in ``markdown``."""
-        return Latex(self.letters, beside).render(self.blocks)
-
-    def printed(self, kind: str, beside: str = "") -> str:
-        """By the ending of a file: txt, tex, md, html or json. Raises ``KeyError`` for any other."""
-        ways: dict[str, Callable[[], str]] = {
-            "txt": self.text, "tex": lambda: self.latex(beside), "md": lambda: self.markdown(beside), "html": self.html,
-            "json": self.json,
-        }  # fmt: skip
-        return ways[kind]()
-
-    def save(self, path: str | Path, kind: str = "") -> list[Path]:
-        """Write a file by its ending or ``kind``, see ``printed``, and beside it the figures of Markdown (.svg) and LaTeX (.pdf).
-        Returns all that is written."""
-        path = Path(path)
-        kind = kind or path.suffix.removeprefix(".")
-        path.write_text(self.printed(kind, path.stem), encoding="utf-8")
-        ending = {"md": ".svg", "tex": ".pdf"}.get(kind)
-        figures = [block for block in self.blocks if isinstance(block, Figure) and ending]
-        return [path, *(each.picture.save(path.with_name(f"{path.stem}-{each.name}{ending}")) for each in figures)]
+        return self.printed("tex", beside)
 
     def html(self) -> str:
         """A whole page, formulas as MathML, figures inside; it needs nothing from elsewhere."""
-        return self._page("page.html")
+        return self.printed("html")
 
-    @property
-    def title(self) -> str:
-        """The words of the first heading."""
-        return next((plain.words_text(block.words, self.letters) for block in self.blocks if isinstance(block, Heading)), "Equations")
-
-    def _page(self, around: str) -> str:
-        body = Html(self.letters).render(self.blocks)
-        return template("freebody.document.rendering", around).render(title=self.title, body=body)
+    def json(self) -> str:
+        """Every block with its kind and fields, trees as JSON and printed, and the letters."""
+        return self.printed("json")
 
     def sympy(self, *, time: bool = True) -> list[Any]:
         """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
@@ -87,16 +76,11 @@ class Document:
                 made.append(sympy.Eq(sympy.MatMul(matrix(block.matrix), x, evaluate=False), b, evaluate=False))
         return made
 
-    def json(self) -> str:
-        """Every block with its kind and fields, trees as JSON and printed, and the letters."""
-        made = {"letters": self.letters.write(), "blocks": [data.block(each, self.letters) for each in self.blocks]}
-        return json.dumps(made, ensure_ascii=False, indent=1)
-
     def __str__(self) -> str:
         return self.text()
 
     def _repr_html_(self) -> str:
-        return self._page("fragment.html")
+        return page(self.blocks, self.letters, "fragment.html")
 
     def _repr_latex_(self) -> str:
         return self.latex()

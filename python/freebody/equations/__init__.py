@@ -22,8 +22,8 @@ from freebody.equations.solve import Singular, TooLarge, coefficients, limit, li
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter, Letters
-from freebody.symbolic.printers.latex import equation_latex, latex, matrix_latex
 from freebody.symbolic.printers.text import equation_text, text
+from freebody.symbolic.printers.typeset import equation_latex, latex, matrix_latex
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, read, symbols, write
 

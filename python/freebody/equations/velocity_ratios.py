@@ -20,6 +20,7 @@ from freebody.equations.solve import TooLarge, coefficients, solve
 from freebody.symbolic.decimals import measured
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.simplify import PATIENCE, shortest
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, mul, negative, operations, over, replace, symbols
 
@@ -178,7 +179,7 @@ def blocks(found: Ratios, wanted: Sequence[str], shown: Put) -> list[Block]:
     made += [Equation(Sym(name, 1), shown(mul(k, rate))) for name, k in found.rates.items() if name != found.free]
     made += [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(found.named.items())]
     stated = "Lagrange's equations, added up with these factors, hold no load of what closes the loops: the inertia that is felt is"
-    made += [Paragraph(stated), Equation(Written("J", "J"), shown(found.inertia))]
+    made += [Paragraph(stated), Equation(Written.of(Name("J")), shown(found.inertia))]
     made.append(Equation(mul(Sym("J"), acceleration), shown(found.load), "And with it"))
     others = [name for name in wanted if name != found.free]
     return made + [Equation(Sym(name, 2), shown(found.acceleration(name)), "" if i else "So") for i, name in enumerate(others)]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import Array, cards, quote
-from freebody.symbolic.symbols import GREEK
+from freebody.symbolic.alphabet import GREEK
 
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 

@@ -9,26 +9,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
-GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
-    "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
-    "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
-    "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ",
-    "Psi": "Ψ", "Omega": "Ω",
-}  # fmt: skip
-SPELT = {sign: word for word, sign in GREEK.items()}
-READ: dict[str, str] = {
-    **{sign.upper(): word.capitalize() for word, sign in GREEK.items() if word.islower()},
-    **SPELT, "ο": "omicron", "Ο": "Omicron", "ϑ": "theta", "ϕ": "phi", "ϵ": "epsilon", "ϱ": "rho", "ς": "sigma", "ϖ": "pi",
-    "µ": "mu", "ℓ": "l", "Σ": "sum", "∑": "sum", "ı": "i", "ȷ": "j", "′": "'", "’": "'", "″": "''",
-}  # fmt: skip
-"""A sign that people write, and how its name is spelled with plain letters."""
-LATEX_WORDS: dict[str, str] = {
-    **{name: name for name in (*GREEK, "omicron")},
-    **{f"var{name}": name for name in ("theta", "phi", "epsilon", "rho", "sigma", "pi")},
-    **{"ell": "l", "imath": "i", "jmath": "j", "sum": "sum", "prime": "'"},
-}
-"""LaTeX commands that are letters."""
+from freebody.symbolic.alphabet import GREEK, READ, SPELT
+from freebody.symbolic.formula import Atom, Formula, Script, dotted, joined
+from freebody.symbolic.printers.latex import latex
+
 _MARKS = {"\u0307": 1, "\u0308": 2, "\u20db": 3}
 _NUMBERED = re.compile(r"[_{},\s]")
 _EPS = re.compile(r"eps(?=\d*$)")
@@ -36,6 +20,7 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _FROM_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _COMBINING = ("", "\u0307", "\u0308")
+_COMMA = (Atom(",", "sign"),)
 
 
 @dataclass(frozen=True)
@@ -76,15 +61,16 @@ class Name:
             + "".join(part if part.isdigit() else f"_{_word(part)}" for part in self.below)
         )
 
-    def latex(self, dots: int = 0) -> str:
-        r"""``\ddot\theta_1``, ``N_{\text{track}}``; for mathtext as well."""
+    def formula(self, dots: int = 0, *, bold: bool = False) -> Formula:
+        """Set in type: θ̈₁, N with ``track`` below it; a ``bold`` stem is a vector."""
         stem, below = self._letter_below()
-        letter = _letter(stem)
-        dotted = letter if not dots else f"\\{'d' * dots}ot{letter if letter.startswith(chr(92)) else f' {letter}'}"
-        if not self.is_letter and dots:
-            dotted = f"\\{'d' * dots}ot{{{letter}}}"
-        shown = ",".join(part for part in (*map(_subscript, below), upright(self.owner)) if part)
-        return f"{dotted}_{_braced(shown)}" if shown else dotted
+        letter = (Atom(GREEK.get(stem, stem), "bold") if bold else _letter(stem, "word"),)
+        shown = [*((_letter(part, "label"),) for part in below if part), *([(Atom(self.owner, "word"),)] if self.owner else [])]
+        return (Script(dotted(letter, dots), joined(shown, _COMMA)),) if shown else dotted(letter, dots)
+
+    def latex(self, dots: int = 0, *, bold: bool = False) -> str:
+        r"""``\ddot\theta_1``, ``N_{\text{track}}``; for mathtext as well."""
+        return latex(self.formula(dots, bold=bold))
 
     def _letter_below(self) -> tuple[str, tuple[str, ...]]:
         """Stem and what is below it; of ``mA`` the second letter is."""
@@ -103,21 +89,17 @@ def ascii_name(text: str, dots: int = 0) -> str:
     return "".join(SPELT.get(sign, sign) for sign in plain) + "'" * dots
 
 
-def latex_name(text: str, dots: int = 0, *, reaction: bool = False) -> str:
-    r"""``theta1`` with two dots is ``\ddot\theta_1``; a reaction ``pivot.x`` is ``\mathrm{pivot}_x``."""
+def name_formula(text: str, dots: int = 0, *, reaction: bool = False) -> Formula:
+    """``theta1`` with two dots is θ̈₁; of a reaction ``pivot.x`` the owner is the letter."""
     name = Name.parse(text)
-    return Name(name.owner, (name.stem + "".join(name.below),)).latex() if reaction and name.owner else name.latex(dots)
+    return Name(name.owner, (name.stem + "".join(name.below),)).formula() if reaction and name.owner else name.formula(dots)
 
 
-def upright(text: str) -> str:
-    """Upright LaTeX of any text, signs of TeX escaped."""
-    return rf"\mathrm{{{escaped(text)}}}".replace(" ", r"\ ") if text else ""
-
-
-def escaped(text: str) -> str:
-    """Text for LaTeX, outside and inside of formulas."""
-    words = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
-    return "".join(words.get(sign, f"\\{sign}" if sign in "_%#&{}$" else sign) for sign in text)
+def direction(name: str, dots: int = 0) -> Formula:
+    """A unit vector, ``e_r``: bold, with what is below it as a name by itself."""
+    stem, _, below = name.partition("_")
+    letter = dotted((Atom(stem, "bold"),), dots)
+    return (Script(letter, name_formula(below)),) if below else letter
 
 
 def superscript(text: str) -> str:
@@ -130,23 +112,15 @@ def subscript(digits: str) -> str:
     return digits.translate(_SUBSCRIPTS)
 
 
-def _letter(stem: str) -> str:
-    return f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else upright(stem.replace("_", " "))
-
-
-def _subscript(text: str) -> str:
-    if text.isdigit() or len(text) == 1:
-        return text
-    return f"\\{text}" if text in GREEK else rf"\text{{{escaped(text.replace('_', ' '))}}}" if text else ""
+def _letter(text: str, otherwise: str) -> Atom:
+    """A number, a letter, or a word of its kind."""
+    kind = "number" if text.isdigit() else "letter" if len(text) == 1 or text in GREEK else otherwise
+    return Atom(GREEK.get(text, text.replace("_", " ")), kind)
 
 
 def _word(text: str) -> str:
     """A name of several words as one."""
     return re.sub(r"\W+", "_", text).strip("_")
-
-
-def _braced(text: str) -> str:
-    return text if len(text) == 1 else f"{{{text}}}"
 
 
 # -- what people write ---------------------------------------------------------------------------

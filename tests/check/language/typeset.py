@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from freebody.check.language.spelling import level, signed, spell
 from freebody.check.language.statements import Assignment, Equation, Program
-from freebody.symbolic.symbols import GREEK
+from freebody.symbolic.alphabet import GREEK
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
 
 _SUM, _DOT, _CROSS, _PRODUCT, _FACTOR, _ATOM = range(6)

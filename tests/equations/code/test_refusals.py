@@ -6,7 +6,7 @@ import pytest
 from programs import ROOT
 
 import freebody as fb
-from freebody.codegen import CannotGenerate
+from freebody.codegen.refusals import CannotGenerate
 
 CART = """
 freebody: 1

@@ -7,8 +7,9 @@ import unicodedata
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from freebody.symbolic.alphabet import LATEX_WORDS, READ
 from freebody.symbolic.errors import Span, StatementError
-from freebody.symbolic.symbols import LATEX_WORDS, READ, dots, folded, plain
+from freebody.symbolic.symbols import dots, folded, plain
 
 from ...model.names import nearest
 

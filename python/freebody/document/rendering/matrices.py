@@ -20,6 +20,7 @@ from freebody.document.blocks import (
     listed,
     pieces,
 )
+from freebody.symbolic.formula import EQUALS, joined
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.printers.text import columns, text
 from freebody.symbolic.symbols import Name
@@ -120,7 +121,7 @@ def _entries(side: Side) -> list[Equation]:
             if not is_zero(tree):
                 found.setdefault(tree, []).append(_name(matrix.letter, place))
     return [
-        Equation(Written(*(" = ".join(names) for names in ([n.unicode() for n in each], [n.latex() for n in each]))), tree)
+        Equation(Written(" = ".join(n.unicode() for n in each), joined((n.formula() for n in each), (EQUALS,))), tree)
         for tree, each in found.items()
     ]
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
-
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.derivation import momenta
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.meaning import joined
+from freebody.symbolic.formula import Script, typed, word
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Sym, Tree, add, read, symbols
 
 _CONSERVED = "Their sum is conserved: all forces have potentials, and the reactions of joints and contacts do no work."
@@ -29,8 +29,13 @@ def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:
 def energies(subject: SymbolicState) -> tuple[Written, Written]:
     """How the kinetic and the potential energy are written."""
     kinetic, potential = (subject.symbols.quantity(f"E_{word[0]}", f"{word} energy") for word in ("kinetic", "potential"))
-    made = (Written(name.unicode(), re.sub("(?<=^E_)([kp])$", r"\\mathrm{\1}", name.latex())) for name in (kinetic, potential))
-    return next(made), next(made)
+    return _energy_name(kinetic), _energy_name(potential)
+
+
+def _energy_name(name: Name) -> Written:
+    """What is below E is the beginning of a word, which is upright."""
+    usual = name.stem == "E" and len(name.below) == 1
+    return Written(name.unicode(), (Script(typed("E"), word(name.below[0])),) if usual else name.formula())
 
 
 def _losses(subject: SymbolicState, without: list[str], letters: set[Sym]) -> str:

@@ -11,15 +11,16 @@ from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.result import Form, Printed
 from freebody.equations.derivation.system import System
 from freebody.equations.linear import Linear
+from freebody.symbolic.formula import GAP, NEGATIVE, Grid, typed
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name, Renamed
 from freebody.symbolic.tree import Tree, is_zero, negative, read
 
 _BLOCKS = Written(
     "[M −W; G 0] [a; λ]",
-    r"\begin{bmatrix} M & -W \\ G & 0 \end{bmatrix} \begin{bmatrix} a \\ \lambda \end{bmatrix}",
+    (Grid(((typed("M"), (NEGATIVE, *typed("W"))), (typed("G"), typed("0")))), GAP, Grid(((typed("a"),), (typed("λ"),)))),
 )
-_RIGHT = Written("[f; c]", r"\begin{bmatrix} f \\ c \end{bmatrix}")
+_RIGHT = Written("[f; c]", (Grid(((typed("f"),), (typed("c"),))),))
 _LEGEND = (
     "M has the masses and inertias, W what a unit of each unknown force does to the bodies, G what the constraints ask of the "
     "accelerations a; λ are the unknown forces, f the known ones, c what of the constraints depends on velocities and time. "
@@ -86,7 +87,7 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
         ("G", held),
         *((name, [[x] for x in side]) for name, side in columns),
     ]
-    return made + [Equation(Written(name, name), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]]
+    return made + [Equation(Written(name, typed(name)), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]]
 
 
 def _diagonal(rows: Sequence[Sequence[Tree]]) -> list[Tree]:

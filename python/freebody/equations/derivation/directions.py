@@ -13,7 +13,7 @@ from freebody.equations.derivation.data import Arrow, Motion
 from freebody.equations.derivation.meaning import joined
 from freebody.symbolic.collect import factored
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.symbols import Name, Taken, latex_name, subscript, unicode_name
+from freebody.symbolic.symbols import Name, Taken, direction, subscript, unicode_name
 from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, mul, negative, number, symbols
 
 
@@ -152,7 +152,7 @@ def axes(symbols: Taken) -> tuple[str, str, str]:
 
 def unit(name: str) -> Written:
     """A unit direction in a sentence."""
-    return Written(name, _latex(name, "{}"))
+    return Written(name, direction(name))
 
 
 def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
@@ -184,10 +184,4 @@ def _word(name: str) -> str:
 
 
 def _rate(name: str) -> Written:
-    return Written(f"d{name}/dt", _latex(name, r"\dot{{{}}}"))
-
-
-def _latex(name: str, letter: str) -> str:
-    stem, _, below = name.partition("_")
-    shown = letter.format(r"\boldsymbol{\lambda}" if stem == "λ" else rf"\mathbf{{{stem}}}")
-    return f"{shown}_{{{latex_name(below)}}}" if below else shown
+    return Written(f"d{name}/dt", direction(name, 1))

@@ -18,7 +18,7 @@ from freebody.solve.perturbed_states import wandering
 from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import factored, quotient
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.symbols import upright
+from freebody.symbolic.formula import Script, typed, word
 from freebody.symbolic.tree import Add, Tree, add, is_negative, is_zero, negative, power, symbols
 
 _ABSENT = 1e-9
@@ -72,11 +72,11 @@ def _letter(subject: SymbolicState, found: ConservedMomentum) -> Written:
     point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
     if whole and isinstance(along, str):
         name = subject.symbols.quantity(f"L_{along}", f"momentum along {along}")
-        return Written(name.unicode(), name.latex())
+        return Written.of(name)
     if whole and point:
-        return Written(f"H/{point}", rf"H_{{/{upright(point)}}}")
+        return Written(f"H/{point}", (Script(typed("H"), typed("/", word(point))),))
     name = subject.symbols.quantity(*("H", "angular momentum") if found.turns else ("L", "momentum"))
-    return Written(name.unicode(), name.latex())
+    return Written.of(name)
 
 
 def _written(subject: SymbolicState, balance: Balance) -> Tree:

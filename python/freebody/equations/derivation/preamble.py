@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -153,10 +152,9 @@ def _body(body: Motion, directions: Directions, symbols: Symbols) -> list[Block]
     made: list[Block] = []
     for stem in "rva":
         name = symbols.of_body(stem, body.body)
-        bold = replace(name, stem="@").latex().replace("@", rf"\mathbf{{{name.stem}}}")
         lead = f"For {body.body}" if stem == "r" else ""
-        made.append(Equation(Written(name.unicode(), bold), directions.vector(getattr(body, stem)), lead))
+        made.append(Equation(Written.of(name, bold=True), directions.vector(getattr(body, stem)), lead))
     if not body.particle:
         alpha = symbols.of_body("alpha", body.body)
-        made.append(Equation(Written(alpha.unicode(), alpha.latex()), body.alpha))
+        made.append(Equation(Written.of(alpha), body.alpha))
     return made

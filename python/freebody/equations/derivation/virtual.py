@@ -14,7 +14,8 @@ from freebody.equations.derivation.meaning import joined
 from freebody.equations.linear import Linear
 from freebody.solve.perturbed_states import DEPENDENT
 from freebody.symbolic.collect import common_number, divided
-from freebody.symbolic.symbols import latex_name, unicode_name
+from freebody.symbolic.formula import typed
+from freebody.symbolic.symbols import name_formula, unicode_name
 from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
 
 
@@ -114,4 +115,4 @@ def _blocks(power: VirtualPower) -> list[Block]:
 
 
 def _rate(name: str) -> Written:
-    return Written(f"δ{unicode_name(name)}", rf"\delta {latex_name(name)}")
+    return Written(f"δ{unicode_name(name)}", typed("δ ", name_formula(name)))

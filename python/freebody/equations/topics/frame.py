@@ -13,7 +13,9 @@ from freebody.equations.derivation.directions import Directions
 from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
 from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.formula import Atom, Script, bold
 from freebody.symbolic.simplify import equal
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, is_zero, negative, read, replace, symbols
 
@@ -123,7 +125,7 @@ def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow],
     made: list[Block] = [Heading("By direct differentiation")]
     for what, pair in (("r", place.xy), ("v", v), ("a", a)):
         made += [
-            Equation(Written(f"{what}_{axis}", f"{what}_{axis}"), spread(tree)) for axis, tree in zip("xy", pair, strict=True)
+            Equation(Written.of(Name(what, (axis,))), spread(tree)) for axis, tree in zip("xy", pair, strict=True)
         ]
     made.append(Paragraph("Both ways give the same, for all values of the symbols; it was checked at random ones."))
     return made
@@ -135,4 +137,4 @@ def _put(tree: Tree, known: Mapping[Sym, Tree]) -> Tree:
 
 def _vector(name: str) -> Written:
     stem, _, below = name.partition("_")
-    return Written(name, rf"\mathbf{{{stem}}}_{{\text{{{below}}}}}" if below else rf"\mathbf{{{stem}}}")
+    return Written(name, (Script(bold(stem), (Atom(below, "label"),)),) if below else bold(stem))

@@ -23,6 +23,7 @@ from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, moving_names, subject_of
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.formula import typed
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
@@ -138,7 +139,7 @@ def _introduction(subject: SymbolicState, kinetic: str, potential: str) -> Words
 
 
 def _momentum(kinetic: Written, coordinate: Name) -> Written:
-    return Written(f"∂{kinetic.text}/∂{coordinate.unicode(1)}", rf"\partial {kinetic.latex}/\partial {coordinate.latex(1)}")
+    return Written(f"∂{kinetic.text}/∂{coordinate.unicode(1)}", typed("∂", kinetic.formula, "/∂", coordinate.formula(1)))
 
 
 def _equality(subject: SymbolicState, found: Sequence[Lagrange]) -> list[Block]:

@@ -23,6 +23,7 @@ from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import nearby
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.formula import bold, dotted
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
 
@@ -31,9 +32,9 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 
-_BOLD = (("𝐌", r"\mathbf{M}"), ("𝐂", r"\mathbf{C}"), ("𝐊", r"\mathbf{K}"))
+_BOLD = tuple(Written(sign, bold(letter)) for sign, letter in (("𝐌", "M"), ("𝐂", "C"), ("𝐊", "K")))
 """The matrices, apart from any letters of a model."""
-_VECTOR = (Written("𝐱", r"\mathbf{x}"), Written("𝐱\u0307", r"\dot{\mathbf{x}}"), Written("𝐱\u0308", r"\ddot{\mathbf{x}}"))
+_VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumerate(("𝐱", "𝐱\u0307", "𝐱\u0308")))
 """The departures, their rates and accelerations."""
 _STANDS = 1e-9
 """Rate, rad/s or m/s, below which what is prescribed stands still."""
@@ -150,10 +151,9 @@ def _stated(found: Linearised, letters: Mapping[str, Letter], said: Sequence[str
     if len(perturbations) == 1 and not right:
         terms = (mul(shown(matrix[0][0]), Sym(perturbations[0], dots)) for matrix, dots in parts if not is_zero(matrix[0][0]))
         return [Equation(Add(tuple(terms)), ZERO, said)]
-    names = [Written(*pair) for pair in _BOLD]
-    whole = [names[0], " ", _VECTOR[2], " + ", names[1], " ", _VECTOR[1], " + ", names[2], " ", _VECTOR[0], " = ", right or "0"]
+    whole = [_BOLD[0], " ", _VECTOR[2], " + ", _BOLD[1], " ", _VECTOR[1], " + ", _BOLD[2], " ", _VECTOR[0], " = ", right or "0"]
     where = [" with ", _VECTOR[0], " = (", *listed(map(Sym, perturbations)), ") and"]
-    return [Paragraph([*said, " ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(names, parts, strict=True))]
+    return [Paragraph([*said, " ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(_BOLD, parts, strict=True))]
 
 
 def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> list[Block]:

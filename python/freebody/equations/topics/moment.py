@@ -22,7 +22,9 @@ from freebody.equations.topics.common import (
     spread,
     subject_of,
 )
+from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
 from freebody.symbolic.simplify import equal
+from freebody.symbolic.symbols import name_formula
 from freebody.symbolic.tree import Tree, add, is_zero
 
 if TYPE_CHECKING:
@@ -61,7 +63,7 @@ def _blocks(subject: SymbolicState, group: list[str], point: str) -> list[Block]
     whole = " + ".join(group or subject.free.bodies)
     made: list[Block] = [
         Heading("What acts"),
-        Equation(_written("Σ M", point, r"\sum M"), of.left, f"Moments about {point} on {whole}"),
+        Equation(_written("Σ M", point, typed("∑M")), of.left, f"Moments about {point} on {whole}"),
     ]
     if all(is_zero(part) for part in v):
         return [*made, *_fixed(of, point, changing)]
@@ -72,8 +74,8 @@ def _fixed(of: Balance, point: str, changing: Tree) -> list[Block]:
     _agree(of.right, changing)
     return [
         Heading(f"{point} is fixed"),
-        Equation(_written("H", point), of.momentum, "The angular momentum, Σ r × m v + I ω"),
-        Equation(_written("Ḣ", point, r"\dot H"), of.right, "Its rate, which is Σ r × m a + I α"),
+        Equation(_written("H", point, typed("H")), of.momentum, "The angular momentum, Σ r × m v + I ω"),
+        Equation(_written("Ḣ", point, dotted(typed("H"), 1)), of.right, "Its rate, which is Σ r × m a + I α"),
         Equation(of.left, of.right, "So Σ M = Ḣ is"),
     ]
 
@@ -87,12 +89,12 @@ def _moving(of: Balance, point: str, changing: Tree, moves: tuple[Pair, Pair]) -
         Heading(f"By accelerations, about {point} or the fixed point where it is at the instant"),
         Paragraph("Forces and accelerations are those of the instant, so it does not matter whether the point moves: "
                   f"r is from where {point} is now to the mass centres, a are their accelerations in the fixed frame."),
-        Equation(_written("Σ r × m a + I α", "", r"\sum \mathbf{r} \times m\mathbf{a} + I\alpha"), of.right),
+        Equation(Written("Σ r × m a + I α", typed("∑", bold("r"), "×m", bold("a"), (PLUS,), "Iα")), of.right),
         Equation(of.left, of.right, "So the balance is"),
         Heading(f"By the angular momentum about {point}, which moves"),
-        Equation(_written("H", point), spread(of.momentum), f"Σ r × m v + I ω with r from {point}, v in the fixed frame"),
-        Equation(Written("dH/dt", r"\mathrm{d}H/\mathrm{d}t"), spread(changing), "Its derivative, r changing also because the point moves"),
-        Equation(Written("v × L", r"\mathbf{v} \times \mathbf{L}"), relative, f"v of {point} × L, the momentum of the bodies"),
+        Equation(_written("H", point, typed("H")), spread(of.momentum), f"Σ r × m v + I ω with r from {point}, v in the fixed frame"),
+        Equation(Written("dH/dt", typed(word("d"), "H/", word("d"), "t")), spread(changing), "Its derivative, r changing also because the point moves"),
+        Equation(Written("v × L", typed(bold("v"), "×", bold("L"))), relative, f"v of {point} × L, the momentum of the bodies"),
     ]  # fmt: skip
     return made + [Paragraph(_verdict(point, relative))]
 
@@ -112,7 +114,6 @@ def _agree(one: Tree, other: Tree) -> None:
         raise ArithmeticError("the rate of angular momentum is not what the accelerations give")
 
 
-def _written(stem: str, point: str, latex: str = "") -> Written:
-    from freebody.symbolic.symbols import latex_name
-
-    return Written(f"{stem}/{point}" if point else stem, f"{latex or stem}_{{/{latex_name(point)}}}" if point else latex or stem)
+def _written(stem: str, point: str, shown: Formula) -> Written:
+    """What is about a point."""
+    return Written(f"{stem}/{point}", (*shown[:-1], Script(shown[-1:], typed("/", name_formula(point)))))

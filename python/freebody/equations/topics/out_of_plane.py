@@ -8,6 +8,7 @@ from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragrap
 from freebody.document.document import Document
 from freebody.equations.topics.common import document, subject_of
 from freebody.model.start import quantity
+from freebody.symbolic.formula import typed
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
@@ -46,7 +47,7 @@ def _without(masses: list[tuple[str, Tree]]) -> list[Block]:
 def _with(masses: list[tuple[str, Tree]], value: float) -> list[Block]:
     across = Sym(_ACROSS)
     each = [[f"{name}: N = ", mul(mass, across)] for name, mass in masses]
-    total = Written("Σ N", r"\sum N")
+    total = Written("Σ N", typed("∑N"))
     return [
         Paragraph(
             ["Gravity into the plane is ", across, f" = {value:g} m/s². Each body that lies on the plane by itself is carried by"]

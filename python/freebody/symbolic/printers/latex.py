@@ -1,131 +1,98 @@
-r"""Equations as LaTeX: ``\left(\tfrac{1}{4} m_1 + m_2\right) l^2 \ddot\theta_1 = -m_2 g l \sin\theta_1``. Needs amsmath."""
+r"""Formulas as LaTeX: ``\left(\tfrac{1}{4} m_1 + m_2\right) l^2 \ddot\theta_1 = -m_2 g l \sin\theta_1``. Needs amsmath."""
 
 from __future__ import annotations
 
-import itertools
-import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
-from fractions import Fraction
 
-from freebody.symbolic import layout
-from freebody.symbolic.letters import Letters
-from freebody.symbolic.printers import line_breaking
-from freebody.symbolic.printers.line_breaking import ROOM
-from freebody.symbolic.printers.printer import Printer
-from freebody.symbolic.symbols import latex_name, upright
-from freebody.symbolic.tree import Entries, Fn, Sym, Tree
+from freebody.symbolic.alphabet import GREEK
+from freebody.symbolic.formula import Accent, Atom, Formula, Fraction, Grid, Part, Root, Script
 
+COMMANDS = {sign: rf"\{word}" for word, sign in GREEK.items()} | {
+    "×": r"\times", "·": r"\cdot", "→": r"\to", "∞": r"\infty", "≤": r"\le", "≥": r"\ge", "√": r"\surd", "∂": r"\partial",
+    "≠": r"\ne", "≈": r"\approx", "∑": r"\sum", "−": "-", "\u2009": r"\,", "\u2003": r"\quad ",
+}  # fmt: skip
+"""A sign, and how LaTeX writes it in mathematics."""
+ACCENTS = {"˙": r"\dot", "¨": r"\ddot", "¯": r"\overline"}
 ROW = " \\\\\n"
 """Between two rows of an equation."""
-_MATRIX = 10  # columns of a matrix of amsmath
-_KNOWN = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "ln": r"\ln", "exp": r"\exp", "atan2": r"\operatorname{atan2}",
-          "sign": r"\operatorname{sign}"}  # fmt: skip
+_COLUMNS = 10  # of a matrix of amsmath
+_FUNCTIONS = ("sin", "cos", "tan", "ln", "exp")
+_LEFT_RIGHT = {"opening": r"\left", "closing": r"\right"}
 
 
-def latex(tree: Tree, letters: Letters | None = None) -> str:
-    """The expression as LaTeX for mathematics mode, without dollars."""
-    return LatexPrinter(letters or Letters()).expression(tree)
+def latex(formula: Formula) -> str:
+    """For mathematics mode, without dollars."""
+    made = ""
+    for part in formula:
+        shown = _part(part)
+        # A command ends where no letter follows.
+        made += " " * (shown[:1].isalnum() and re.search(r"\\[a-zA-Z]+$", made) is not None) + shown
+    return re.sub(r"  +", " ", made).strip()
 
 
-def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, room: float = ROOM) -> str:
-    """``left = right`` for mathematics mode; what would print wider than ``room`` em is ``aligned`` over lines."""
-    return sides_latex(latex(left, letters), latex(right, letters), room=room)
+def aligned(rows: Sequence[tuple[Formula, Formula]]) -> str:
+    """An equation on one line or more, of which the second parts stand below each other."""
+    if len(rows) == 1:
+        return latex(sum(rows[0], ()))
+    return "\\begin{aligned}\n" + beside(rows) + "\n\\end{aligned}"
 
 
-def sides_latex(left: str, right: str, *, room: float = ROOM) -> str:
-    """Two sides as an equation, on one line or ``aligned`` over several: ``= …`` stands beside a left side that is short."""
-    whole = f"{left} = {right}"
-    if line_breaking.width(whole) <= room:
-        return whole
-    before = line_breaking.width(f"{left} =")
-    if before <= room / 3:
-        first, *more = line_breaking.lines(right, room - before)
-        return aligned([rf"{left} &= {first}", *(rf"&\quad {line}" for line in more)])
-    above, below = line_breaking.lines(left, room), line_breaking.lines(right, room - line_breaking.width("="))
-    return aligned([*_indented(above), *_indented([f"= {below[0]}", *below[1:]])])
+def beside(rows: Sequence[tuple[Formula, Formula]], end: str = ROW) -> str:
+    """The same, for an environment of aligned rows."""
+    return end.join(f"{latex(before)} &{latex(after)}".lstrip() for before, after in rows)
 
 
-def _indented(lines: Sequence[str]) -> list[str]:
-    return [f"&{lines[0]}", *(rf"&\quad {line}" for line in lines[1:])]
+def escaped(text: str) -> str:
+    """Text for LaTeX, outside and inside of formulas."""
+    words = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
+    return "".join(words.get(sign, f"\\{sign}" if sign in "_%#&{}$" else sign) for sign in text)
 
 
-def aligned(rows: Sequence[str]) -> str:
-    """Rows of which each has one place to stand below the others."""
-    return "\\begin{aligned}\n" + ROW.join(rows) + "\n\\end{aligned}"
+def _part(part: Part) -> str:
+    match part:
+        case Atom():
+            return _atom(part.text, part.kind)
+        case Script(base, below, above):
+            scripts = (f"{sign}{_braced(latex(raised))}" for sign, raised in (("_", below), ("^", above)) if raised)
+            return latex(base) + "".join(scripts)
+        case Accent(inner, sign):
+            shown = latex(inner)
+            letter = re.fullmatch(r"(\\[a-zA-Z]+)|\w", shown) if sign != "¯" else None
+            return ACCENTS[sign] + (f"{{{shown}}}" if not letter else shown if letter[1] else f" {shown}")
+        case Fraction(above, below, small):
+            return rf"\{'t' * small}frac{{{latex(above)}}}{{{latex(below)}}}"
+        case Root(inner):
+            return rf"\sqrt{{{latex(inner)}}}"
+        case Grid(rows):
+            body = ROW.join(" & ".join(map(latex, row)) for row in rows)
+            across = len(rows[0]) if rows else 0
+            if across > _COLUMNS:
+                return f"\\left[\\begin{{array}}{{{'c' * across}}}\n{body}\n\\end{{array}}\\right]"
+            return f"\\begin{{bmatrix}}\n{body}\n\\end{{bmatrix}}"
 
 
-def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
-    """A vector (as a column) or a matrix of trees."""
-    printer = LatexPrinter(letters or Letters())
-    rows = [row if isinstance(row, Sequence) else [row] for row in entries]
-    body = " \\\\\n".join(" & ".join(map(printer.expression, row)) for row in rows)
-    across = len(rows[0]) if rows else 0
-    if across > _MATRIX:
-        return f"\\left[\\begin{{array}}{{{'c' * across}}}\n{body}\n\\end{{array}}\\right]"
-    return f"\\begin{{bmatrix}}\n{body}\n\\end{{bmatrix}}"
+def _atom(text: str, kind: str) -> str:
+    sign = COMMANDS.get(text, text)
+    match kind:
+        case "infix" | "relation":
+            return f" {sign} "
+        case "sign" | "space":
+            return f" {sign} " if text in "·×\u2009" else sign
+        case "function":
+            return f"\\{text}" if text in _FUNCTIONS else rf"\operatorname{{{text}}}"
+        case "word":
+            return rf"\mathrm{{{escaped(text)}}}".replace(" ", r"\ ")
+        case "label":
+            return rf"\text{{{escaped(text)}}}"
+        case "bold":
+            return rf"\boldsymbol{{{sign}}}" if sign != text else rf"\mathbf{{{escaped(text)}}}"
+        case "opening" | "closing":
+            return _LEFT_RIGHT[kind] + text
+        case "bigl" | "bigr" | "Bigl" | "Bigr":
+            return f"\\{kind}{text}"
+    return sign
 
 
-@dataclass(frozen=True)
-class LatexPrinter(Printer):
-    """LaTeX with amsmath."""
-
-    minus = "-"
-
-    def name(self, letter: Sym) -> str:
-        written = self.letters.written(letter.name)
-        if written:
-            return written.latex(letter.dots)
-        return latex_name(letter.name, letter.dots, reaction=self.letters.kind(letter.name) == "unknown")
-
-    def number(self, value: Fraction | float | int) -> str:
-        if not isinstance(value, float):
-            value = Fraction(value)
-            return str(value) if value.denominator == 1 else rf"\tfrac{{{value.numerator}}}{{{value.denominator}}}"
-        if math.isinf(value):
-            return r"\infty"
-        mantissa, _, exponent = f"{value:.10g}".partition("e")
-        return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
-
-    def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
-        return self._factors(value, factors)
-
-    def juxtapose(self, factors: Sequence[str]) -> str:
-        made = factors[0]
-        for left, right in itertools.pairwise(factors):
-            word = any(re.match(r"\\(mathrm|d*ot\{)", side) for side in (left, right))
-            made += (r" \cdot " if right[0].isdecimal() else r" \, " if word else " ") + right
-        return made
-
-    def bracket(self, inner: str) -> str:
-        return rf"\left({inner}\right)" if r"frac" in inner else f"({inner})"
-
-    def numerator(self, tree: Tree) -> str:
-        return self.expression(tree)
-
-    def fraction(self, above: str, below: str, ends_bare: bool, several: bool) -> str:
-        return rf"\frac{{{above}}}{{{below}}}"
-
-    def can_stand_apart(self, number: int, below: Sequence[Tree]) -> bool:
-        return True
-
-    def apart(self, above: str, below: str) -> str:
-        return rf"\frac{{{above}}}{{{below}}}"
-
-    def raised(self, base: str, exponent: Fraction) -> str:
-        shown = str(exponent)
-        return f"{base}^{shown}" if len(shown) == 1 else f"{base}^{{{shown}}}"
-
-    def root(self, tree: Tree) -> str:
-        return rf"\sqrt{{{self.expression(tree)}}}"
-
-    def function(self, tree: Fn, exponent: Fraction) -> str:
-        inner = self.arguments(tree)
-        raised = "" if exponent == 1 else f"^{exponent}" if exponent < 10 else f"^{{{exponent}}}"
-        if tree.name == "abs":
-            return rf"\left|{inner}\right|{raised}"
-        name = _KNOWN.get(tree.name, upright(tree.name)) + raised
-        if layout.is_bare(tree):
-            return f"{name}{'' if inner.startswith(chr(92)) else ' '}{inner}"
-        return name + self.bracket(inner)
+def _braced(shown: str) -> str:
+    return shown if len(shown) == 1 else f"{{{shown}}}"

@@ -1,158 +1,128 @@
-r"""Formulas of LaTeX that are too wide for a line, over several: ``m (a + b) - c`` breaks before its signs, within brackets where it must.
+"""Formulas that are too wide for a line, over several: m (a + b) − c breaks before its signs, within brackets where it must.
 
 Widths are those of Computer Modern, roughly, in em."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
+
+from freebody.symbolic.formula import EQUALS, GAP, QUAD, Accent, Atom, Formula, Fraction, Grid, Part, Root, Script, split, walk
 
 ROOM = 30.0
 """Width of a line of an article with a number beside it."""
 INDENT = 1.0
-_TOKEN = re.compile(r"\\(?:[a-zA-Z]+|.)|\d+(?:\.\d+)?|.", re.S)
 _LETTER, _CAPITAL, _DIGIT, _SCRIPT = 0.52, 0.76, 0.5, 0.7
 _WIDTHS = {
-    "+": 1.22, "-": 1.22, "=": 1.33, ",": 0.45, "(": 0.39, ")": 0.39, "m": 0.88, "w": 0.72, "l": 0.3, "i": 0.35, "t": 0.36,
-    r"\cdot": 0.72, r"\,": 0.17, r"\ ": 0.25, r"\quad": 1.0, r"\sin": 1.5, r"\cos": 1.55, r"\tan": 1.65, r"\ln": 1.1, r"\exp": 1.75,
-    r"\bigl": 0.1, r"\bigr": 0.1, r"\Bigl": 0.1, r"\Bigr": 0.1,
+    "+": 1.22, "−": 1.22, "=": 1.33, ",": 0.45, "·": 0.72, "m": 0.88, "w": 0.72, "l": 0.3, "i": 0.35, "t": 0.36,
+    "sin": 1.5, "cos": 1.55, "tan": 1.65, "ln": 1.1, "exp": 1.75, " ": 0.0, "\u2009": 0.17, "\u2003": 1.0,
 }  # fmt: skip
-_FRACTIONS = {r"\frac": 1.0, r"\tfrac": _SCRIPT}
-_WORDS = (r"\text", r"\mathrm", r"\operatorname")
-_OVER = {r"\dot": 0.0, r"\ddot": 0.0, r"\mathbf": 0.05, r"\boldsymbol": 0.05, r"\sqrt": 0.85}
+_BRACKETS = {"open": 0.39, "close": 0.39, "opening": 0.5, "closing": 0.5} | dict.fromkeys(("bigl", "bigr", "Bigl", "Bigr"), 0.49)
 _BAR = 0.24
 """What a fraction takes beyond what stands in it."""
+_ROOT = 0.85
+"""What the sign of a root takes."""
 
 
-@dataclass(frozen=True)
-class _Node:
-    """A part that is never broken: its LaTeX, its width, and whether it joins terms, opens or closes a bracket."""
-
-    latex: str
-    width: float
-    joins: bool = False
-    turn: int = 0
-
-
-def width(math: str) -> float:
+def width(formula: Sequence[Part]) -> float:
     """How wide a formula is on one line."""
-    return sum(node.width for node in _nodes(math))
+    return sum(map(_width, formula))
 
 
-def lines(math: str, room: float = ROOM) -> list[str]:
+def equation(left: Formula, right: Formula, room: float = ROOM) -> list[tuple[Formula, Formula]]:
+    """``left = right`` on one line, or on several of which the second parts stand below each other: what is after = beside a left
+    side that is short."""
+    whole = (*left, EQUALS, *right)
+    if width(whole) <= room:
+        return [((), whole)]
+    before = width((*left, EQUALS))
+    if before <= room / 3:
+        first, *more = lines(right, room - before)
+        return [(left, (EQUALS, *first)), *_indented(more)]
+    above, below = lines(left, room), lines(right, room - width((EQUALS,)))
+    return [((), above[0]), *_indented(above[1:]), ((), (EQUALS, *below[0])), *_indented(below[1:])]
+
+
+def _indented(rows: Sequence[Formula]) -> list[tuple[Formula, Formula]]:
+    return [((), (QUAD, *row)) for row in rows]
+
+
+def lines(formula: Formula, room: float = ROOM) -> list[Formula]:
     """The formula on lines of at most ``room``, as far as it can be broken; those after the first begin with their sign."""
-    made: list[list[_Node]] = []
+    made: list[list[Part]] = []
     left = 0.0
-    for part in _parts([*_nodes("".join(_unstacked(math, room)))], room - INDENT, 0):
-        needed = sum(node.width for node in part)
+    for part in _parts([*_unstacked(formula, room)], room - INDENT, 0):
+        needed = width(part)
         if not made or needed > left:
             made.append([])
             left = room - INDENT * (len(made) > 1)
         made[-1] += part
         left -= needed
-    shown = ["".join(node.latex for node in line).strip() for line in made]
     # Brackets that grow cannot be broken.
-    size = "Big" if r"\frac" in math else "big"
-    torn = any(line.count(r"\left") != line.count(r"\right") for line in shown)
-    return [re.sub(r"\\(left|right)(?![a-z])", lambda found: rf"\{size}{found[1][0]}", line) for line in shown] if torn else shown
+    size = "Big" if any(isinstance(part, Fraction) and not part.small for part in walk(formula)) else "big"
+    torn = any(sum(_growth(part) for part in line) for line in made)
+    return [tuple(_sized(part, size) for part in line) if torn else tuple(line) for line in made]
 
 
-def _unstacked(math: str, room: float) -> Iterator[str]:
+def _growth(part: Part) -> int:
+    """1 for a bracket that grows and opens, −1 for one that closes."""
+    kind = _bracket(part).kind
+    return (kind == "opening") - (kind == "closing")
+
+
+def _sized(part: Part, size: str) -> Part:
+    """A bracket that grows in a size of its own."""
+    growth = _growth(part)
+    if not growth:
+        return part
+    bracket = Atom(_bracket(part).text, size + ("l" if growth > 0 else "r"))
+    return replace(part, base=(*part.base[:-1], bracket)) if isinstance(part, Script) else bracket
+
+
+def _bracket(part: Part) -> Atom:
+    """The part, or what it raises, if that is a bracket."""
+    last = part.base[-1] if isinstance(part, Script) else part
+    return last if isinstance(last, Atom) else GAP
+
+
+def _unstacked(formula: Formula, room: float) -> Iterator[Part]:
     """The formula with fractions that are too wide as what is above times one over what is below: that can be broken."""
-    for node in _nodes(math):
-        if node.latex.startswith(r"\frac{") and node.width > room:
-            above, below = _Reader(node.latex.removeprefix(r"\frac")).arguments()
-            yield rf"\frac{{1}}{{{below}}} \left({above}\right)"
+    for part in formula:
+        if isinstance(part, Fraction) and not part.small and width((part,)) > room:
+            one = (Atom("1", "number"),)
+            yield from (Fraction(one, part.below), GAP, Atom("(", "opening"), *part.above, Atom(")", "closing"))
         else:
-            yield node.latex
+            yield part
 
 
-def _parts(nodes: list[_Node], room: float, depth: int) -> Iterator[list[_Node]]:
+def _parts(parts: list[Part], room: float, depth: int) -> Iterator[list[Part]]:
     """What stands between the signs that are in at most ``depth`` brackets; in more where that is too wide."""
-    for part in _split(nodes, depth):
-        if sum(node.width for node in part) <= room or not any(node.joins for node in part[1:]):
+    for part in split(parts, depth):
+        if width(part) <= room or not any(isinstance(each, Atom) and each.kind == "infix" for each in part[1:]):
             yield part
         else:
             yield from _parts(part, room, depth + 1)
 
 
-def _split(nodes: Sequence[_Node], wanted: int) -> Iterator[list[_Node]]:
-    depth, part = 0, []
-    for node in nodes:
-        if part and depth <= wanted and node.joins:
-            yield part
-            part = []
-        depth += node.turn
-        part.append(node)
-    yield part
-
-
-def _nodes(math: str) -> Iterator[_Node]:
-    reader = _Reader(math)
-    before: _Node | None = None
-    while node := reader.node():
-        if node.joins and (before is None or before.joins or before.turn > 0):
-            node = _Node(node.latex, node.width, turn=node.turn)
-        if not node.latex.isspace():
-            before = node
-        yield node
-
-
-class _Reader:
-    """Reads LaTeX from left to right, part by part."""
-
-    def __init__(self, math: str) -> None:
-        self._math, self._place = math, 0
-
-    def node(self) -> _Node | None:
-        """The next part; None at the end."""
-        start = self._place
-        token = self._next()
-        if not token:
-            return None
-        if token in (r"\left", r"\right"):
-            self._next()
-            return self._node(start, 0.5, turn=1 if token == r"\left" else -1)
-        if token in "+-":
-            return self._node(start, _WIDTHS[token], joins=True)
-        return self._node(start, self._width(token), turn=(token in "([") - (token in ")]"))
-
-    def arguments(self) -> tuple[str, str]:
-        """The next two."""
-        return self._argument(), self._argument()
-
-    def _node(self, start: int, width: float, joins: bool = False, turn: int = 0) -> _Node:
-        return _Node(self._math[start : self._place], width, joins, turn)
-
-    def _next(self) -> str:
-        found = _TOKEN.match(self._math, self._place)
-        self._place = found.end() if found else self._place
-        return found[0] if found else ""
-
-    def _argument(self) -> str:
-        """What stands in braces, or the next sign."""
-        token = self._next()
-        while token.isspace():
-            token = self._next()
-        if token != "{":
-            return token
-        start, depth = self._place, 1
-        while depth and (token := self._next()):
-            depth += (token == "{") - (token == "}")
-        return self._math[start : self._place - 1]
-
-    def _width(self, token: str) -> float:
-        if token in ("_", "^"):
-            return _SCRIPT * width(self._argument())
-        if token in _FRACTIONS:
-            return _FRACTIONS[token] * max(map(width, self.arguments())) + _BAR
-        if token in _WORDS:
-            return _DIGIT * len(re.sub(r"\\(?=.)", "", self._argument())) + 0.33 * (token == r"\operatorname")
-        if token in _OVER:
-            return width(self._argument()) + _OVER[token]
-        if token in _WIDTHS:
-            return _WIDTHS[token]
-        if token.isspace() or token in "{}":
-            return 0.0
-        return _DIGIT * len(token) if token[0].isdecimal() else _CAPITAL if token.isupper() else _LETTER
+def _width(part: Part) -> float:
+    match part:
+        case Atom(text, kind) if kind in _BRACKETS:
+            return _BRACKETS[kind]
+        case Atom(text, "word" | "label" | "number"):
+            return _DIGIT * len(text)
+        case Atom(text, "bold"):
+            return width(tuple(map(Atom, text))) + 0.05
+        case Atom(text, "function") if text not in _WIDTHS:
+            return _DIGIT * len(text) + 0.33
+        case Atom(text):
+            return _WIDTHS.get(text, _CAPITAL if text.isascii() and text.isupper() else _LETTER)
+        case Script(base, below, above):
+            return width(base) + _SCRIPT * (width(below) + width(above))
+        case Accent(inner):
+            return width(inner)
+        case Fraction(above, below, small):
+            return (_SCRIPT if small else 1.0) * max(width(above), width(below)) + _BAR
+        case Root(inner):
+            return width(inner) + _ROOT
+        case Grid(rows):
+            return sum(max(map(width, column)) + 1.0 for column in zip(*rows, strict=True))

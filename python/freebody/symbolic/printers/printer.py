@@ -1,4 +1,4 @@
-"""Printing, as far as it is the same for text and LaTeX: signs, brackets, fractions, order."""
+"""Printing, as far as it is the same on one line and set in type: signs, brackets, fractions, order."""
 
 from __future__ import annotations
 
@@ -6,71 +6,94 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import ClassVar, Generic, TypeVar
 
 from freebody.symbolic import layout
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
+from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, is_zero
+
+Made = TypeVar("Made", bound=Sequence)
 
 
 @dataclass(frozen=True)
-class Term:
+class Term(Generic[Made]):
     """One term of a printed sum: its sign and what follows it."""
 
     negative: bool
-    text: str
+    shown: Made
 
 
 @dataclass(frozen=True)
-class Printer(ABC):
-    """Prints trees; the letters say in what order a person writes them."""
+class Printer(ABC, Generic[Made]):
+    """Walks over trees and makes of them a text, or a formula; the letters say in what order a person writes them."""
 
     letters: Letters = field(default_factory=Letters)
-    minus = "−"
-    """The sign of subtraction."""
+    plus: ClassVar[Sequence]
+    minus: ClassVar[Sequence]
+    negative: ClassVar[Sequence]
+    comma: ClassVar[Sequence]
+    """The signs between terms, in front of the first, and between arguments."""
+    linear: ClassVar[bool] = True
+    """Whether fractions stand on one line, where brackets tell what is above and below."""
 
-    def expression(self, tree: Tree) -> str:
+    def expression(self, tree: Tree) -> Made:
         """The tree as one line."""
         return self.join(self.terms(tree))
 
-    def terms(self, tree: Tree) -> list[Term]:
+    def terms(self, tree: Tree) -> list[Term[Made]]:
         """The terms of the tree in the order of writing."""
         return [self._term(term) for term in layout.terms(tree, self.letters)]
 
-    def join(self, terms: Sequence[Term]) -> str:
+    def join(self, terms: Sequence[Term[Made]]) -> Made:
         """The terms as a sum: a leading plus is left out."""
-        signs = [f" {self.minus} " if term.negative else " + " for term in terms]
-        signs[0] = self.minus if terms[0].negative else ""
-        return "".join(sign + term.text for sign, term in zip(signs, terms, strict=True))
+        first, *more = terms
+        made = self.negative + first.shown if first.negative else first.shown
+        for term in more:
+            made += (self.minus if term.negative else self.plus) + term.shown
+        return made
 
-    def _term(self, tree: Tree) -> Term:
+    def vector(self, components: Sequence[tuple[Tree, str]]) -> Made:
+        """A vector by its components along unit directions."""
+        terms = [self._component(tree, self.direction(name)) for tree, name in components if not is_zero(tree)]
+        return self.join(terms) if terms else self.number(0)
+
+    def _component(self, tree: Tree, unit: Made) -> Term[Made]:
+        shown = self.expression(tree)
+        if isinstance(tree, Add) or self.ends_below(shown):
+            return Term(False, self.juxtapose([self.bracket(shown), unit]))
+        term = self._term(tree)
+        return Term(term.negative, unit if term.shown == self.number(1) else self.juxtapose([term.shown, unit]))
+
+    def _term(self, tree: Tree) -> Term[Made]:
         laid = layout.product(tree, self.letters)
-        return Term(laid.negative, self._fraction(laid) if laid.below else self._product(laid))
+        return Term(laid.negative, self._fraction(laid) if laid.below else self.product(laid.size, laid.above))
 
-    def _fraction(self, laid: layout.Product) -> str:
-        above, below = (laid.size, 1)
-        if isinstance(laid.size, Fraction):
-            above, below = laid.size.numerator, laid.size.denominator
-        bottom = self._factors(below, laid.below)
-        if layout.stands_apart(laid, self.letters) and self.can_stand_apart(below, laid.below):
-            return self.juxtapose([self.apart(self._factors(above, laid.head), bottom), *map(self._factor, laid.tail)])
+    def _fraction(self, laid: layout.Product) -> Made:
+        above, below = laid.size.as_integer_ratio() if isinstance(laid.size, Fraction) else (laid.size, 1)
+        bottom, several = self._factors(below, laid.below), below != 1 or len(laid.below) > 1
+        sums = not several and isinstance(laid.below[0], Add)
+        if layout.stands_apart(laid, self.letters) and not (self.linear and (several or sums)):
+            parameters = self.fraction(self._factors(above, laid.head), bottom, False, False)
+            return self.juxtapose([self.bracket(parameters) if self.linear else parameters, *map(self._factor, laid.tail)])
         sole = laid.above[0] if len(laid.above) == 1 and above == 1 else None
-        top = self.numerator(sole) if isinstance(sole, Add) else self._factors(above, laid.above)
+        top = self._alone(sole) if isinstance(sole, Add) else self._factors(above, laid.above)
         ends_bare = bool(laid.above) and layout.is_bare(laid.above[-1])
-        return self.fraction(top, self._bottom(below, laid.below, bottom), ends_bare, below != 1 or len(laid.below) > 1)
+        return self.fraction(top, self._alone(laid.below[0]) if sums else bottom, ends_bare, several)
 
-    def _bottom(self, number: int, below: Sequence[Tree], printed: str) -> str:
-        return self.numerator(below[0]) if number == 1 and len(below) == 1 and isinstance(below[0], Add) else printed
+    def _alone(self, tree: Tree) -> Made:
+        """A sum that is all that stands above or below the line."""
+        shown = self.expression(tree)
+        return self.bracket(shown) if self.linear else shown
 
-    def _factors(self, number: Fraction | float | int, factors: Sequence[Tree]) -> str:
+    def _factors(self, number: Fraction | float | int, factors: Sequence[Tree]) -> Made:
         shown = [] if number == 1 and factors else [self.number(number)]
         return self.juxtapose([*shown, *map(self._factor, factors)])
 
-    def _product(self, laid: layout.Product) -> str:
-        if isinstance(laid.size, Fraction) and laid.size.denominator != 1:
-            return self.rational(laid.size, laid.above)
-        return self._factors(laid.size, laid.above)
+    def product(self, number: Fraction | float, factors: Sequence[Tree]) -> Made:
+        """A number and the factors behind it, where nothing stands below a line."""
+        return self._factors(number, factors)
 
-    def _factor(self, tree: Tree) -> str:
+    def _factor(self, tree: Tree) -> Made:
         match tree:
             case Sym():
                 return self.name(tree)
@@ -78,19 +101,21 @@ class Printer(ABC):
                 return self._power(base, exponent)
             case Fn():
                 return self.function(tree, Fraction(1))
-            case Add() | Mul():
-                return self.bracket(self.expression(tree))
-            case Num(value):
-                return self.number(value) if value >= 0 else self.bracket(self.expression(tree))
+            case Num(value) if value >= 0:
+                return self.number(value)
+        return self.bracket(self.expression(tree))
 
-    def arguments(self, tree: Fn) -> str:
+    def arguments(self, tree: Fn) -> Made:
         """What a function is of, without the brackets."""
         if layout.is_bare(tree) and isinstance(tree.args[0], Mul):
             count, letter = tree.args[0].factors
             return self._factor(count) + self._factor(letter)
-        return ", ".join(map(self.expression, tree.args))
+        first, *more = map(self.expression, tree.args)
+        for each in more:
+            first += self.comma + each
+        return first
 
-    def _power(self, base: Tree, exponent: Fraction) -> str:
+    def _power(self, base: Tree, exponent: Fraction) -> Made:
         if exponent == Fraction(1, 2):
             return self.root(base)
         if isinstance(base, Fn) and exponent.denominator == 1 and exponent > 0:
@@ -100,49 +125,41 @@ class Printer(ABC):
         return self.raised(self._factor(base), exponent)
 
     @abstractmethod
-    def name(self, letter: Sym) -> str:
+    def name(self, letter: Sym) -> Made:
         """A letter."""
 
     @abstractmethod
-    def number(self, value: Fraction | float | int) -> str:
+    def direction(self, name: str) -> Made:
+        """A unit vector."""
+
+    @abstractmethod
+    def number(self, value: Fraction | float | int) -> Made:
         """A number that is not negative."""
 
     @abstractmethod
-    def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
-        """A number that is not whole times factors."""
-
-    @abstractmethod
-    def juxtapose(self, factors: Sequence[str]) -> str:
+    def juxtapose(self, factors: Sequence[Made]) -> Made:
         """Printed factors side by side."""
 
     @abstractmethod
-    def bracket(self, inner: str) -> str:
+    def bracket(self, inner: Made) -> Made:
         """Round brackets."""
 
     @abstractmethod
-    def numerator(self, tree: Tree) -> str:
-        """A sum that is all that stands above or below the line."""
-
-    @abstractmethod
-    def fraction(self, above: str, below: str, ends_bare: bool, several: bool) -> str:
+    def fraction(self, above: Made, below: Made, ends_bare: bool, several: bool) -> Made:
         """A fraction; whether its upper part ends with sin θ, and whether its lower part has several factors."""
 
-    @abstractmethod
-    def can_stand_apart(self, number: int, below: Sequence[Tree]) -> bool:
-        """Whether a fraction of parameters is readable before other factors."""
+    def ends_below(self, shown: Made) -> bool:
+        """Whether what comes behind something printed would be taken for a part of what is below its line."""
+        return False
 
     @abstractmethod
-    def apart(self, above: str, below: str) -> str:
-        """A fraction that other factors follow."""
-
-    @abstractmethod
-    def raised(self, base: str, exponent: Fraction) -> str:
+    def raised(self, base: Made, exponent: Fraction) -> Made:
         """A power of something printed."""
 
     @abstractmethod
-    def root(self, tree: Tree) -> str:
+    def root(self, tree: Tree) -> Made:
         """The square root."""
 
     @abstractmethod
-    def function(self, tree: Fn, exponent: Fraction) -> str:
+    def function(self, tree: Fn, exponent: Fraction) -> Made:
         """A function, raised to a whole power."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import ClassVar
 
 from freebody.symbolic import layout
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
-from freebody.symbolic.tree import Add, Fn, Num, Sym, Tree
+from freebody.symbolic.tree import Fn, Num, Sym, Tree
 
 WIDTH = 100
 _VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}
@@ -20,13 +22,12 @@ _VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", F
 
 def text(tree: Tree, letters: Letters | None = None, *, ascii: bool = False) -> str:
     """The expression on one line; ``ascii`` spells Greek letters and writes primes for dots."""
-    return _printer(letters, ascii).expression(tree)
+    return printer(letters, ascii).expression(tree)
 
 
 def equation_text(left: Tree, right: Tree, letters: Letters | None = None, *, ascii: bool = False, width: int = WIDTH) -> str:
     """``left = right``, broken at plus and minus signs to lines of at most ``width`` columns where that is possible."""
-    printer = _printer(letters, ascii)
-    first, second = printer.expression(left), printer.expression(right)
+    first, second = (text(side, letters, ascii=ascii) for side in (left, right))
     if columns(whole := f"{first} = {second}") <= width:
         return whole
     if columns(first) <= width // 3:
@@ -73,20 +74,28 @@ def _split(line: str, wanted: int) -> Iterator[str]:
     yield line[start:]
 
 
-def _printer(letters: Letters | None, ascii: bool) -> TextPrinter:
+def printer(letters: Letters | None, ascii: bool = False) -> TextPrinter:
+    """What prints with some letters."""
     return (AsciiPrinter if ascii else TextPrinter)(letters or Letters())
 
 
 @dataclass(frozen=True)
-class TextPrinter(Printer):
+class TextPrinter(Printer[str]):
     """Unicode."""
 
-    times = "·"
+    plus, minus, negative, comma = " + ", " − ", "−", ", "
+    times: ClassVar[str] = "·"
     """The sign of multiplication, where one is needed."""
 
     def name(self, letter: Sym) -> str:
         written = self.letters.written(letter.name)
         return written.unicode(letter.dots) if written else unicode_name(letter.name, letter.dots)
+
+    def direction(self, name: str) -> str:
+        return name
+
+    def ends_below(self, shown: str) -> bool:
+        return re.search(r"/[^()]+$", shown) is not None
 
     def number(self, value: Fraction | float | int) -> str:
         if not isinstance(value, float):
@@ -96,16 +105,18 @@ class TextPrinter(Printer):
         mantissa, _, exponent = f"{value:.10g}".partition("e")
         return f"{mantissa}×10{superscript(str(int(exponent)))}" if exponent else mantissa
 
-    def rational(self, value: Fraction, factors: Sequence[Tree]) -> str:
+    def product(self, number: Fraction | float, factors: Sequence[Tree]) -> str:
+        if isinstance(number, float) or number.denominator == 1:
+            return self._factors(number, factors)
         # In front where it is one sign, ½ m l²; else what is below stands behind, m l²/12, as it does in angles, π/2, but not behind
         # functions: (3/2) m g l sin θ.
-        vulgar = "" if list(factors) == [Sym("pi")] else self._vulgar(value)
+        vulgar = "" if list(factors) == [Sym("pi")] else self._vulgar(number)
         if vulgar or not factors:
-            return self.juxtapose([vulgar or str(value), *map(self._factor, factors)])
+            return self.juxtapose([vulgar or str(number), *map(self._factor, factors)])
         if any(layout.is_function(factor) for factor in factors):
-            return self.juxtapose([self.bracket(str(value)), *map(self._factor, factors)])
+            return self.juxtapose([self.bracket(str(number)), *map(self._factor, factors)])
         ends_bare = layout.is_bare(factors[-1])
-        return self.fraction(self._factors(value.numerator, factors), str(value.denominator), ends_bare, False)
+        return self.fraction(self._factors(number.numerator, factors), str(number.denominator), ends_bare, False)
 
     def juxtapose(self, factors: Sequence[str]) -> str:
         # Behind a factor a number would be taken for a part of it.
@@ -114,18 +125,9 @@ class TextPrinter(Printer):
     def bracket(self, inner: str) -> str:
         return f"({inner})"
 
-    def numerator(self, tree: Tree) -> str:
-        return self.bracket(self.expression(tree))
-
     def fraction(self, above: str, below: str, ends_bare: bool, several: bool) -> str:
         # Without brackets sin θ/l could be the sine of θ/l.
         return f"{self.bracket(above) if ends_bare else above}/{self.bracket(below) if several else below}"
-
-    def can_stand_apart(self, number: int, below: Sequence[Tree]) -> bool:
-        return number == 1 and len(below) == 1 and not isinstance(below[0], Add)
-
-    def apart(self, above: str, below: str) -> str:
-        return f"({above}/{below})"
 
     def raised(self, base: str, exponent: Fraction) -> str:
         base = self.bracket(base) if base.endswith(("′", "'")) else base
@@ -153,8 +155,7 @@ class TextPrinter(Printer):
 class AsciiPrinter(TextPrinter):
     """Letters of ASCII alone."""
 
-    minus = "-"
-    times = "*"
+    minus, negative, times = " - ", "-", "*"
 
     def name(self, letter: Sym) -> str:
         written = self.letters.written(letter.name)

@@ -25,8 +25,7 @@ class _Jumps(Labels):
 
     def acceleration(self, body: str, alone: bool) -> str:
         """Of the jump of the velocity of a body's mass centre."""
-        below = replace(self._of_body("v", body, alone), stem="@").latex().replace("@", r"\mathbf{v}")
-        return rf"\Delta{below}"
+        return rf"\Delta{self._of_body('v', body, alone).latex(bold=True)}"
 
     def component(self, part: str) -> str:
         """Of a component of that jump."""

@@ -11,12 +11,15 @@ from typing import Any, TypeAlias
 from freebody.core import CompiledModel, FreeBodies, Load, State
 from freebody.symbolic.printers import line_breaking
 from freebody.symbolic.printers.latex import latex
+from freebody.symbolic.printers.text import columns
+from freebody.symbolic.printers.typeset import formula
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.names import letter
+from freebody.views.diagram.names import letter, spoken
 from freebody.views.draw import UNNAMED
 
 _EM = 10.0  # pt, of a formula below a diagram
+_EN = 0.42  # em, of a column of text, much of which is small
 _LEAST = 12.0  # em of a line
 _ON_AXIS = 1e-9
 _SPACE = re.compile(r"(\\text\{[^}]*\})|(?<=[\w})]) (?=[\w\\(])")
@@ -59,7 +62,8 @@ class Laws:
         if size is None:
             law = self._of_length(load)
         else:
-            law = line_breaking.lines(latex(size), max(_LEAST, room - line_breaking.width(rf"\text{{where }}{action.label} = ")))
+            lead = _EN * columns(f"where {spoken(action.label)} = ")
+            law = [latex(line) for line in line_breaking.lines(formula(size), max(_LEAST, room - lead))]
         if law and law[0] != action.label:
             law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""
             yield f"${action.label} = {_plain(law[0])}$"
@@ -103,7 +107,7 @@ class Laws:
         length = rf"\overline{{{' '.join(map(self._end, fields['between']))}}}"
         if load.card.name == "damper":
             return [_times(damping, rf"\frac{{d}}{{dt}}{length}")]
-        stretch = length if is_zero(rest) else rf"\left({length} - {latex(rest)}\right)"
+        stretch = length if is_zero(rest) else rf"\left({length} - {latex(formula(rest))}\right)"
         return [_times(stiffness, stretch)]
 
     def _end(self, point: str) -> str:
@@ -122,9 +126,9 @@ def _quantity(given: Any) -> Tree | None:
 
 
 def _times(factor: Tree, rest: str) -> str:
-    return rest if factor == number(1) else rf"{latex(factor)}\,{rest}"
+    return rest if factor == number(1) else rf"{latex(formula(factor))}\,{rest}"
 
 
 def _plain(line: str) -> str:
-    """As mathtext knows it, which has no space between letters of its own."""
-    return _SPACE.sub(lambda found: found[1] or r"\,", line.replace(r"\tfrac", r"\frac"))
+    """As mathtext knows it, which has no space between letters of its own, and no brackets in sizes of their own."""
+    return _SPACE.sub(lambda found: found[1] or r"\,", re.sub(r"\\[bB]ig[lr]", "", line).replace(r"\tfrac", r"\frac"))

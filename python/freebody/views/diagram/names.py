@@ -8,8 +8,8 @@ from typing import ClassVar
 
 from freebody.core import Load
 from freebody.solve.symbols import Naming
-from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.printers.text import columns, text
+from freebody.symbolic.printers.typeset import latex
 from freebody.symbolic.symbols import Name, unicode_name
 from freebody.symbolic.tree import Add, Sym, is_zero, symbols
 
@@ -67,7 +67,7 @@ class Labels:
 
     def acceleration(self, body: str, alone: bool) -> str:
         """Of the acceleration of a body's mass centre, by itself or among several."""
-        return replace(self._of_body("a", body, alone), stem="@").latex().replace("@", r"\mathbf{a}")
+        return self._of_body("a", body, alone).latex(bold=True)
 
     def component(self, part: str) -> str:
         """Of a component, x or y, of the acceleration of a body's mass centre."""

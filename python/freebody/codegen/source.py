@@ -1,4 +1,4 @@
-"""What the printers of source code have in common: numbers, brackets, and the sharing of subexpressions."""
+"""What the languages of generated code have in common: numbers, brackets, and the sharing of subexpressions."""
 
 from __future__ import annotations
 
@@ -6,9 +6,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from freebody.symbolic.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, children
+
+if TYPE_CHECKING:
+    from freebody.codegen.systems import Systems
 
 _SUM, _PRODUCT, _ATOM = range(3)
 _LONGEST_POWER = 4  # whole powers up to it are products
@@ -17,8 +20,12 @@ Step = tuple[str, str]
 
 
 class Language(ABC):
-    """Spelling of numbers, functions and files."""
+    """A language: the ``word`` that asks for it, the ``ending`` of its files, and what it is in a few words; how its ``functions`` are
+    called."""
 
+    word: ClassVar[str]
+    ending: ClassVar[str]
+    doc: ClassVar[str]
     functions: ClassVar[Mapping[str, str]]
 
     def call(self, name: str, args: Sequence[str]) -> str:
@@ -35,7 +42,11 @@ class Language(ABC):
 
     @abstractmethod
     def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
-        """The whole source."""
+        """Functions below a comment."""
+
+    @abstractmethod
+    def solvers(self, systems: Systems) -> str:
+        """What solves the equations of a mechanism by such functions: names and numbers, accelerations, reactions, first-order form."""
 
 
 class Writer:

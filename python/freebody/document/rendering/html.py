@@ -1,0 +1,65 @@
+"""Documents as HTML, formulas as MathML; how blocks look is in ``templates/blocks.html``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import markupsafe
+
+from freebody.document.blocks import Block, Equation, Figure, Heading
+from freebody.document.rendering.format import Format
+from freebody.document.rendering.markup import Markup, side_formula
+from freebody.document.rendering.text import words_text
+from freebody.document.templates import template
+from freebody.symbolic.formula import EQUALS, Formula
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers.mathml import broken, mathml
+
+
+class Html(Markup):
+    """A fragment of a page."""
+
+    kind = markupsafe.Markup
+
+    @property
+    def _blocks(self) -> Any:
+        return template(__package__, "blocks.html").module
+
+    def plain(self, text: str) -> str:
+        return markupsafe.escape(text)
+
+    def inline(self, formula: Formula) -> str:
+        return self.kind(mathml(formula))
+
+    def equation(self, block: Equation) -> str:
+        left, right = (side_formula(side, self.letters) for side in (block.left, block.right))
+        return self.display([((), (*left, EQUALS, *right))], block.label)
+
+    def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
+        [(_, whole)] = rows
+        return self._blocks.display(self.kind(broken(whole)), label)
+
+    def heading(self, title: str, level: int) -> str:
+        return self._blocks.heading(title, level)
+
+    def paragraph(self, words: str) -> str:
+        return self._blocks.paragraph(words)
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return self._blocks.bullets(items)
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        return self._blocks.table(heads, rows, caption)
+
+    def figure(self, figure: Figure, caption: str) -> str:
+        return self._blocks.figure(self.kind(figure.picture.inline()), caption)
+
+
+def page(blocks: Sequence[Block], letters: Letters, around: str = "page.html") -> str:
+    """A whole page, which needs nothing from elsewhere, or a ``fragment.html`` of one."""
+    titles = (words_text(block.words, letters) for block in blocks if isinstance(block, Heading))
+    return template(__package__, around).render(title=next(titles, "Equations"), body=Html(letters).render(blocks))
+
+
+FORMAT = Format("html", "html", "A page for a browser.", lambda blocks, letters, beside: page(blocks, letters))

@@ -1,0 +1,48 @@
+"""Documents as Markdown with LaTeX between dollars."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from freebody.document.blocks import Figure
+from freebody.document.rendering.format import Format
+from freebody.document.rendering.markup import Markup
+from freebody.symbolic.formula import Formula
+from freebody.symbolic.printers.latex import aligned, latex
+
+
+class Markdown(Markup):
+    """Markdown with dollars."""
+
+    def plain(self, text: str) -> str:
+        return re.sub(r"([\\`*_\[\]<>$#|])", r"\\\1", text)
+
+    def inline(self, formula: Formula) -> str:
+        return f"${latex(formula)}$"
+
+    def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
+        return f"$$\n{aligned(rows)}{f' {chr(92)}tag{{{label}}}' if label else ''}\n$$"
+
+    def heading(self, title: str, level: int) -> str:
+        return f"{'#' * level} {title}"
+
+    def paragraph(self, words: str) -> str:
+        return words
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return "\n".join(f"- {item}" for item in items)
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        lines = [f"| {' | '.join(row)} |" for row in (heads, ["---"] * len(heads), *rows)]
+        return "\n".join(([caption, ""] if caption else []) + lines)
+
+    def figure(self, figure: Figure, caption: str) -> str:
+        if not self.beside:
+            return self.plain(f"[Figure: {figure.picture.description}]")
+        return f"![{self.plain(figure.picture.description)}](<{self.beside}-{figure.name}.svg>)\n\n{caption}"
+
+
+FORMAT = Format(
+    "md", "markdown", "Markdown.", lambda blocks, letters, beside: Markdown(letters, beside).render(blocks), figures=".svg"
+)

@@ -1,0 +1,152 @@
+"""Documents as plain text."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from freebody.document.blocks import Block, Equation, Figure, Matrices, Side, Vector, Words, Written, is_tree
+from freebody.document.rendering.format import Format
+from freebody.document.rendering.markup import Markup
+from freebody.document.rendering.matrices import has_matrices
+from freebody.symbolic.formula import Formula
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers.text import columns, equation_text, folded, printer, text
+
+_INDENT = "    "
+_TIE = "\u00a0"
+_CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
+
+
+def side_text(side: Side, letters: Letters, *, ascii: bool = False) -> str:
+    """One side of an equation, or mathematics in a sentence."""
+    if isinstance(side, Written):
+        return side.text
+    return printer(letters, ascii).vector(side.components) if isinstance(side, Vector) else text(side, letters, ascii=ascii)
+
+
+def words_text(words: Words, letters: Letters) -> str:
+    """A sentence on one line."""
+    return Text(letters).words(words).replace(_TIE, " ")
+
+
+@dataclass(frozen=True)
+class Text(Markup):
+    """Lines of at most ``width`` columns, as far as equations can be broken."""
+
+    ascii: bool = False
+    width: int = 100
+    gap = "\n"
+
+    @property
+    def across(self) -> int:
+        """Columns that an equation of matrices may take beside its label."""
+        return self.width - len(_INDENT) - 8
+
+    def render(self, blocks: Sequence[Block]) -> str:
+        made, above = "", None
+        for block in blocks:
+            if shown := self.block(block):
+                made += (_space(above, block) if above else "") + shown
+                above = block
+        return made.replace(_TIE, " ") + "\n"
+
+    def plain(self, text: str) -> str:
+        return text
+
+    def math(self, side: Side) -> str:
+        # A line ends at plus and minus signs only.
+        shown = side_text(side, self.letters, ascii=self.ascii)
+        return re.sub(rf" (?![+−-]{_TIE})", _TIE, re.sub(r"(?<= [+−-]) ", _TIE, shown))
+
+    def heading(self, title: str, level: int) -> str:
+        return f"{title}\n{('=' if level == 1 else '-') * columns(title)}" if level < 3 else title
+
+    def paragraph(self, words: str, lead: str = "") -> str:
+        return textwrap.fill(
+            words,
+            self.width,
+            initial_indent=lead,
+            subsequent_indent=" " * len(lead),
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return "\n".join(self.paragraph(item, "- ") for item in items)
+
+    def equation(self, block: Equation) -> str:
+        lines = textwrap.indent(self._spread(block) if has_matrices(block) else self._folded(block), _INDENT).split("\n")
+        if block.label:
+            lines[-1] += " " * max(2, self.width - columns(lines[-1]) - len(block.label) - 2) + f"({block.label})"
+        return "\n".join(lines)
+
+    def _folded(self, block: Equation) -> str:
+        room = self.width - len(_INDENT) - (len(block.label) + 4 if block.label else 0)
+        left, right = block.left, block.right
+        if is_tree(left) and is_tree(right):
+            return equation_text(left, right, self.letters, ascii=self.ascii, width=room)
+        left, right = (side_text(side, self.letters, ascii=self.ascii) for side in (left, right))
+        return folded(f"{left} = ", right, room)
+
+    def _spread(self, block: Equation) -> str:
+        """Matrices side by side, over several lines."""
+        parts = [self._grid(side) for side in (block.left, block.right)]
+        height = max(map(len, parts))
+        left, right = (_padded(part, height) for part in parts)
+        middle = (height - 1) // 2
+        return "\n".join(f"{a} {'=' if i == middle else ' '} {b}" for i, (a, b) in enumerate(zip(left, right, strict=True)))
+
+    def _grid(self, side: Side) -> list[str]:
+        """The lines of a product of matrices, or of a letter."""
+        if not isinstance(side, Matrices):
+            return [side_text(side, self.letters, ascii=self.ascii)]
+        shown = ([[text(tree, self.letters, ascii=self.ascii) for tree in row] for row in each.rows] for each in side.factors)
+        parts = [self._bracketed(rows) for rows in shown]
+        height = max(map(len, parts))
+        return [" ".join(row) for row in zip(*(_padded(part, height) for part in parts), strict=True)]
+
+    def _bracketed(self, rows: Sequence[Sequence[str]]) -> list[str]:
+        widths = [max(map(columns, column)) for column in zip(*rows, strict=True)]
+        top, middle, bottom, single = _CORNERS[self.ascii]
+        edges = [single] if len(rows) == 1 else [top, *[middle] * (len(rows) - 2), bottom]
+        lines = ("  ".join(_centred(cell, width) for cell, width in zip(row, widths, strict=True)) for row in rows)
+        return [f"{left} {line} {right}" for (left, right), line in zip(edges, lines, strict=True)]
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        widths = [max(map(columns, column)) for column in zip(heads, *rows, strict=True)]
+        lines = [
+            "  ".join(cell + " " * (width - columns(cell)) for cell, width in zip(row, widths, strict=True)).rstrip()
+            for row in (heads, ["-" * width for width in widths], *rows)
+        ]
+        return "\n".join(([caption] if caption else []) + lines)
+
+    def figure(self, figure: Figure, caption: str) -> str:
+        return ""
+
+    def inline(self, formula: Formula) -> str:
+        raise NotImplementedError("text is printed from trees")
+
+    display = inline
+
+
+def _space(above: Block, below: Block) -> str:
+    """Equations without words between them stand together."""
+    equations = isinstance(above, Equation) and isinstance(below, Equation) and not above.note and not below.name
+    return "\n" if equations and not has_matrices(above) and not has_matrices(below) else "\n\n"
+
+
+def _padded(lines: list[str], height: int) -> list[str]:
+    """The lines in the middle of some more."""
+    blank, spare = " " * columns(lines[0]), height - len(lines)
+    return [blank] * (spare // 2) + lines + [blank] * (spare - spare // 2)
+
+
+def _centred(cell: str, width: int) -> str:
+    spare = width - columns(cell)
+    return " " * (spare // 2) + cell + " " * (spare - spare // 2)
+
+
+FORMAT = Format("txt", "text", "Plain text.", lambda blocks, letters, beside: Text(letters).render(blocks))
