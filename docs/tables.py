@@ -1,4 +1,5 @@
-"""Writes the tables of docs/*.md that come from the cards of the core and from the list of topics: `.venv/bin/python docs/tables.py`.
+"""Writes the tables of docs/*.md that come from the cards of the core and from the lists of topics, output formats
+and languages: `.venv/bin/python docs/tables.py`.
 
 A table stands between `<!-- joints -->` and `<!-- /joints -->`; the word says which.
 """
@@ -7,7 +8,9 @@ import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from freebody.codegen.languages import LANGUAGES
 from freebody.core import cards
+from freebody.document.rendering import FORMATS
 from freebody.equations.topics import TOPICS, described
 
 DOCS = Path(__file__).parent
@@ -32,6 +35,21 @@ def forces() -> str:
 def topics() -> str:
     """What every topic derives, and its options."""
     return _table(("form", "what it derives", "options"), ((f"`{name}`", *described(name)) for name in TOPICS))
+
+
+def formats() -> str:
+    """Output formats of documents."""
+    beside = {"": "–"}
+    rows = (
+        (f"`--{f.word}`", f"`.{f.ending}`", f.doc.rstrip("."), beside.get(f.figures, f"`FILE-sketch{f.figures}`"))
+        for f in FORMATS.values()
+    )
+    return _table(("option", "file", "what it is", "its figures are files"), rows)
+
+
+def languages() -> str:
+    """Languages of generated code."""
+    return _table(("option", "file", "what it is"), ((f"`--{x.word}`", f"`.{x.ending}`", x.doc) for x in LANGUAGES.values()))
 
 
 def functions() -> str:
@@ -89,7 +107,8 @@ def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     return "".join([made[0], "|---" * len(heads) + "|\n", *made[1:]])
 
 
-TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in (joints, forces, functions, readings, methods, topics)}
+_MADE = (joints, forces, functions, readings, methods, topics, formats, languages)
+TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in _MADE}
 
 
 def written(text: str) -> str:

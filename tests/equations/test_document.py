@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
 import subprocess
@@ -10,6 +11,7 @@ from html.parser import HTMLParser
 import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
 
+from freebody.document.rendering import FORMATS
 from freebody.equations import (
     Bullets,
     Document,
@@ -84,6 +86,25 @@ def test_text():
 
 def test_ascii_text_is_ascii():
     assert DOCUMENT.text(ascii=True).isascii()
+
+
+@pytest.mark.parametrize("form", FORMATS.values(), ids=list(FORMATS))
+def test_every_format_shows_every_block(form, tmp_path):
+    path, *figures = DOCUMENT.save(tmp_path / f"made.{form.ending}")
+    shown = path.read_text()
+    assert shown == DOCUMENT.printed(form.ending, "made")
+    assert [figure.suffix for figure in figures] == [form.figures] * bool(form.figures)
+    for words in ("A pendulum", "AMB about the pivot", "The pin has no moment.", "the mass", "Some numbers", "what it is"):
+        assert words in shown
+
+
+def test_a_notebook_has_a_cell_for_each_section_with_its_figures():
+    made = json.loads(DOCUMENT.printed("ipynb"))
+    assert (made["nbformat"], [cell["cell_type"] for cell in made["cells"]]) == (4, ["markdown"])
+    [cell] = made["cells"]
+    [(name, picture)] = cell["attachments"].items()
+    assert f"](attachment:{name})" in cell["source"]
+    assert base64.b64decode(picture["image/svg+xml"]).decode() == DOCUMENT.blocks[-1].picture.inline()
 
 
 def test_markdown():

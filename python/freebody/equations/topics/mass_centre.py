@@ -9,6 +9,7 @@ from freebody.document.blocks import Block, Equation, Heading, Written
 from freebody.document.document import Document
 from freebody.equations.derivation.balance_text import Stated, blocks
 from freebody.equations.topics.common import document, group_of, subject_of
+from freebody.symbolic.symbols import Name
 
 if TYPE_CHECKING:
     from freebody.core import State
@@ -24,7 +25,7 @@ def mass_centre(mechanism: Builder, state: State, *, bodies: Sequence[str] | str
     places = {"x": {"along": "x"}, "y": {"along": "y"}, "the mass centre": {"about": "centre"}}
     found = subject.balances([{"ask": "equation", "bodies": group, **place} for place in places.values()])
     made: list[Block] = [Heading("Where it is")]
-    made += [Equation(Written(f"{axis}_G", f"{axis}_G"), tree) for axis, tree in zip("xy", found[-1].place.xy, strict=True)]
+    made += [Equation(Written.of(Name(axis, ("G",))), tree) for axis, tree in zip("xy", found[-1].place.xy, strict=True)]
     made.append(Heading("What moves it"))
     for number, (where, balance) in enumerate(zip(places, found, strict=True), 1):
         made += blocks(subject, Stated(balance, where, "about" if balance.turns else "along", str(number)))
