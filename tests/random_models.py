@@ -38,7 +38,7 @@ class Draw:
         self.model: dict[str, Any] = {
             "freebody": 1, "parameters": {}, "gravity": self.of("none", 9.81, [3.0, -8.0]), "bodies": self.bodies, "joints": {},
             "ground": {"points": {"S": [0.3, 1.7]}, "lines": {}, "curves": {"wave": {"x": "s", "y": "0.4*s^2 + 0.1*s"}}},
-            "forces": {}, "motions": {}, "contacts": {}, "strings": {}, "stops": {},
+            "forces": {}, "motions": {}, "contacts": {}, "strings": {}, "stops": {}, "events": {},
         }  # fmt: skip
 
     def of(self, *choices: Any) -> Any:
@@ -155,6 +155,10 @@ class Draw:
         )
         self.model["motions"]["drive"] = {"of": quote(coordinate), "is": law, "level": level, **self.engaged()}
 
+    def lock(self) -> None:
+        """A coordinate that is held from the start on."""
+        self.model["events"]["hold"] = {"at": "start", "then": {"lock": quote(self.of(*self.values))}}
+
     def limit(self) -> None:
         """A contact, string or stop that is closed at the values drawn."""
         kind, point = self.of(*LIMITS), self.point()
@@ -176,16 +180,29 @@ class Draw:
         model = self.model | {"initial": {**values, "at_rest": True}}
         if not loops:
             tree = {name: joint for name, joint in model["joints"].items() if "coordinates" in joint}
-            model |= {"joints": tree} | {word: {} for word in ("motions", "contacts", "strings", "stops", "forces")}
+            model |= {"joints": tree} | {word: {} for word in ("motions", "contacts", "strings", "stops", "forces", "events")}
         return fb.Mechanism.loads(json.dumps(model), "random")
 
 
 def drawn(seed: int) -> fb.Mechanism:
-    """A model of one to three bodies with up to one loop, motion and limit, and up to three forces."""
+    """A model of one to three bodies with up to one loop, motion, limit and lock, and up to three forces."""
+    return _drawn(seed).mechanism()
+
+
+def _drawn(seed: int) -> Draw:
     draw = Draw(seed)
     for _ in range(draw.rng.integers(1, 4)):
         draw.body()
-    for add, chance in ((draw.loop, 0.3), (draw.motion, 0.3), (draw.limit, 0.4), *(3 * [(draw.force, 0.6)])):
+    for add, chance in ((draw.loop, 0.3), (draw.motion, 0.3), (draw.limit, 0.4), *(3 * [(draw.force, 0.6)]), (draw.lock, 0.2)):
         if draw.rng.random() < chance:
             add()
-    return draw.mechanism()
+    return draw
+
+
+def locked(seed: int) -> tuple[fb.Mechanism, fb.Mechanism, str]:
+    """A model with a coordinate that is locked at the start; the same with a motion that keeps its rate at 0 instead; the coordinate."""
+    draw = _drawn(seed)
+    draw.lock()
+    held, coordinate = draw.mechanism(), draw.model["events"].pop("hold")["then"]["lock"]
+    draw.model["motions"]["hold"] = {"of": coordinate, "is": 0, "level": "velocity"}
+    return held, draw.mechanism(), coordinate

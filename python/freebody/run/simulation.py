@@ -194,7 +194,7 @@ class Run:
 
     def instant(self, t: float, route: str = "minimal") -> Instant:
         """The whole instant at a time within the run, with what is in place and holds then."""
-        q, u = self.motion.sample(np.array([t]))
+        q, u = self.motion.sample(np.array([t], float))
         return Instant(self.source, State(self.end.p, t, q[0], u[0]), route, self.motion)
 
     def before(self, text: str, t: float) -> float:
