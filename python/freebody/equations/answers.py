@@ -13,10 +13,8 @@ from freebody.core import State
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.document.document import Document
 from freebody.equations.balances.system import NotUnknown
-from freebody.equations.derivation.balance_text import blocks
 from freebody.equations.derivation.data import Row, SymbolicState
-from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.sentences import lettered
+from freebody.equations.derivation.sentences import joined, lettered
 from freebody.equations.immobile_coordinates import held_still
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.solve import TooLarge, limit, solve
@@ -108,7 +106,7 @@ def solve_in_letters(
         raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
     subject = SymbolicState(mechanism.source(), state, at_rest)
     _require_limits(subject, chosen, limits or {})
-    names = list(wanted) if wanted else [c["name"] for c in subject.coordinates]
+    names = list(wanted) if wanted else subject.names
     for given_more, named in _ways(subject, chosen, limits or {}):
         try:
             return _answers(subject, given_more, names, limits or {}, patience, named)
@@ -211,7 +209,7 @@ def _stated(subject: SymbolicState, system: SufficientSet, labels: dict[str, str
     for stated in system.stated:
         if stated.title not in labels:
             labels[stated.title] = str(len(labels) + 1)
-            made += blocks(subject, replace(stated, label=labels[stated.title]))
+            made += replace(stated, label=labels[stated.title]).blocks(subject)
     return made
 
 
@@ -276,12 +274,12 @@ def _shown(system: SufficientSet, solution: Mapping[Sym, Tree]) -> list[Block]:
 def _letter(subject: SymbolicState, name: str) -> Sym:
     """The letter of something wanted."""
     plain = name.removeprefix("accel(").removesuffix(")")
-    if plain in (c["name"] for c in subject.coordinates):
+    if plain in subject.names:
         return Sym(plain, 2)
     loads = [load for load in subject.free.loads if load.unknown and plain in (load.symbol, load.name)]
     exact = [load for load in loads if load.symbol == plain] or loads
     if len(exact) != 1:
-        every = [c["name"] for c in subject.coordinates] + [x.symbol for x in subject.free.loads if x.unknown]
+        every = subject.names + [x.symbol for x in subject.free.loads if x.unknown]
         many = [load.symbol for load in loads] or every
         raise NotUnknown(f"{name!r} is no coordinate and no single unknown load; there are {', '.join(many)}")
     return Sym(exact[0].symbol)

@@ -21,7 +21,7 @@ _HELD = 1e-7
 def held_still(subject: SymbolicState, chosen: Substitutions, states: Sequence[FreeBodies]) -> Substitutions:
     """The coordinates that nothing lets move, at all ``states``, as ``still``, and their places where these do not depend on any
     letter but those ``chosen``; and what ``follow`` from others."""
-    names = [c["name"] for c in subject.coordinates]
+    names = subject.names
     fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Substitutions({}, still=frozenset(names)))]
     free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
     still = frozenset(name for i, name in enumerate(names) if fixed and all(holds(rows, i) for rows in free))

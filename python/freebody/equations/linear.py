@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from freebody.symbolic.collect import divided
-from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, add, mul, negative, read, symbols
+from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, add, mul, read, symbols
 
 
 @dataclass(frozen=True)
@@ -22,13 +21,9 @@ class Linear:
         """From an answer."""
         return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
 
-    def negative(self) -> Linear:
-        """−1 times the expression."""
-        return Linear({x: negative(tree) for x, tree in self.coefficients.items()}, negative(self.rest))
-
-    def over(self, factor: Tree) -> Linear:
-        """The expression divided by a number."""
-        return Linear({x: divided(tree, factor) for x, tree in self.coefficients.items()}, divided(self.rest, factor))
+    def with_trees(self, put: Callable[[Tree], Tree]) -> Linear:
+        """The same, every expression as ``put``, which is linear, makes it."""
+        return Linear({x: put(tree) for x, tree in self.coefficients.items()}, put(self.rest))
 
 
 def linear_in(tree: Tree, unknowns: Collection[Sym]) -> Linear:

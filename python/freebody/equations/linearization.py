@@ -64,7 +64,7 @@ class Held:
 def linearised(subject: SymbolicState, put: Mapping[str, Tree]) -> Linearised:
     """The linear equations at the state of a subject, some letters being as ``put``. Loads of loops and motions stay letters."""
     stated = replace(subject, at_rest=False).ask([{"ask": "linear", "at": {}}])[0]  # rates must be letters for their slopes
-    names = tuple(c["name"] for c in subject.coordinates)
+    names = tuple(subject.names)
     words = zip(*(stated[word] for word in ("M", "C", "K", "left")), strict=True)
     rows = [[_put(read(entry), put) for entry in (*m, *c, *k, left)] for m, c, k, left in words]
     upright = [evaluate(row[i], subject.values, subject.tables) >= 0 for i, row in enumerate(rows)]

@@ -85,7 +85,7 @@ class Substitutions:
         None where it cannot be assembled."""
         from freebody.core import MotionError
 
-        source, state, names = subject.source, subject.state, [c["name"] for c in subject.coordinates]
+        source, state, names = subject.source, subject.state, subject.names
         p = self.parameters_near(subject, state, rng)
         set_to = self._consistent(_parameters(source.about, p))
         q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}

@@ -67,7 +67,7 @@ class Ratios:
 
 def ratios(subject: SymbolicState, put: Put, free: str) -> Ratios:
     """The ratios where loops leave one coordinate, which a motion may drive. Raises ``TooLarge`` where they leave more."""
-    names = [c["name"] for c in subject.coordinates]
+    names = subject.names
     found = Ratios(free, rates={free: ONE}, rests={free: ZERO})
     rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest))
             for row in subject.rows if row.kind != "motion"]  # fmt: skip

@@ -27,6 +27,16 @@ CLOSED = 1e-12
 """Gap over size of the mechanism below which what touches does so, and the reasons for zeros hold to round-off."""
 
 
+def independent(rows: Array) -> list[int]:
+    """The first rows of which none follows from those before."""
+    found: list[int] = []
+    for i in range(len(rows)):
+        sizes = np.linalg.svd(rows[[*found, i]], compute_uv=False)
+        if len(sizes) == len(found) + 1 and sizes[-1] > DEPENDENT * np.abs(rows).max():
+            found.append(i)
+    return found
+
+
 def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()) -> list[FreeBodies]:
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
     there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have

@@ -31,7 +31,7 @@ def numbers(subject: SymbolicState) -> dict[Sym, float]:
 
 def rate(tree: Tree, subject: SymbolicState, values: Mapping[Sym, float] | None = None) -> float:
     """d/dt of an expression of coordinates and rates along the true motion; all other letters, time too, stay as they are."""
-    values, names = values or numbers(subject), [c["name"] for c in subject.coordinates]
+    values, names = values or numbers(subject), subject.names
     bodies = subject.free.bodies.values()
     rates = [*(abs(values[Sym(n, 1)]) for n in names), *(abs(body.omega) for body in bodies)]
     changes = [*(abs(values[Sym(n, 2)]) for n in names), *(abs(body.alpha) for body in bodies)]

@@ -11,6 +11,7 @@ from freebody.document.blocks import Equation, is_tree
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.derive import FORMS
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import add, minus, mul
 
 UNDETERMINED = re.compile(r"\b(nan|NaN|None|inf)\b")
 CLOSE = 1e-9
@@ -83,8 +84,9 @@ def test_the_rate_of_energy_is_the_power_of_what_acts(model):
 
 def same_signs(found, moved, values, tables):
     """A row of the matrix form is its printed equation, also in sign: both are off alike where the unknowns are others."""
-    for part, row in zip(found.parts, found.content.system.residuals, strict=True):
-        printed, stated = (evaluate(tree, values | moved, tables) for tree in (part.residual, row))
+    for part, row, right in zip(found.parts, found.mass_matrix, found.right_hand_side, strict=True):
+        trees = (part.residual, minus(add(*map(mul, row, found.unknowns)), right))
+        printed, stated = (evaluate(tree, values | moved, tables) for tree in trees)
         assert stated == pytest.approx(printed, rel=1e-6, abs=1e-6), part.title
 
 

@@ -124,7 +124,7 @@ def test_stiffness_is_the_slope_of_accelerations_along_the_loop(name: str) -> No
     mechanism, subject, found = at_rest(CLOSED.get(name, lambda: slider_crank(theta="80 deg")))
     m, k = numbers(subject, found.equations.mass), numbers(subject, found.equations.stiffness)
     (free,) = found.equations.coordinates
-    names, s, h = [c["name"] for c in subject.coordinates], subject.state, 1e-5
+    names, s, h = subject.names, subject.state, 1e-5
     places = dict(zip(names, s.q.tolist(), strict=True))
     core = mechanism.compile()
 
@@ -141,7 +141,7 @@ def test_damping_is_the_slope_by_rates_along_the_loop() -> None:
     """M⁻¹ C of the free coordinate is the slope of its acceleration by its rate, the others following."""
     mechanism, subject, found = at_rest(lambda: leaning(DAMPED))
     (free,) = found.equations.coordinates
-    names, s, h = [c["name"] for c in subject.coordinates], subject.state, 1e-5
+    names, s, h = subject.names, subject.state, 1e-5
     ways = {free: 1.0} | {name: float(evaluate(way[0], {})) for name, way in found.follow.items()}
     rates = np.array([ways[name] for name in names])
     core = mechanism.compile()
@@ -156,7 +156,7 @@ def test_a_small_swing_has_the_period_of_the_eigenvalue(name: str) -> None:
     """Released beside the lowest place, it is there again after half a period, to the square of the amplitude."""
     mechanism, subject, found = at_rest(CLOSED[name])
     (free,) = found.equations.coordinates
-    lowest = float(subject.state.q[[c["name"] for c in subject.coordinates].index(free)])
+    lowest = float(subject.state.q[subject.names.index(free)])
     half, beside = np.pi / frequency(subject, found), 1e-3
     run = mechanism.simulate(
         2 * half, initial={free: lowest + beside, "at_rest": True, "guess": guess(subject, free)}, t_eval=[half, 2 * half]

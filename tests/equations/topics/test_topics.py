@@ -19,7 +19,7 @@ from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import linearised, numbers
 from freebody.equations.topics import TOPICS, NotHere, described, topic
-from freebody.equations.topics.common import moving_names, place_of, rate, rates
+from freebody.equations.topics.common import place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
 from freebody.symbolic.simplify import equal
@@ -121,7 +121,7 @@ def test_moving_frame(name: str) -> None:
             assert_allclose(np.add(parts["v_transport"], parts["v_relative"]), truth.v, atol=1e-10)
             whole = np.sum([parts[word] for word in ("a_transport", "a_relative", "a_coriolis")], axis=0)
             assert_allclose(whole, truth.a, atol=1e-8 * (1 + np.abs(truth.a).max()))
-            names = moving_names(subject)
+            names = subject.names
             v = rates(place_of(subject, f"{point}.G").xy, names)
             assert_allclose([value(subject, x) for x in v], truth.v, atol=1e-10)
             assert_allclose([value(subject, x) for x in rates(v, names)], truth.a, atol=1e-8 * (1 + np.abs(truth.a).max()))
@@ -137,7 +137,7 @@ def test_moments_about_a_moving_point(name: str) -> None:
     """Σ M is what the core's loads give, and dH/dt + v × L; without v × L it is wrong somewhere."""
     wrong = 0
     for subject in random_subjects(system(name), 2):
-        names = moving_names(subject)
+        names = subject.names
         for point in [name for name, (body, _, _) in subject.points.items() if body in subject.free.bodies]:
             of, x, y = subject.balances(
                 [{"ask": "equation", "bodies": [], **q} for q in ({"about": {"point": point}}, {"along": "x"}, {"along": "y"})]

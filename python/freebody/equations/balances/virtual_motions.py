@@ -119,7 +119,7 @@ def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[VirtualMo
         found.append((_about_point(f"{body}.G"), [system.free.bodies[body].G for system in problem.systems]))
     for name, (body, x, y) in points.items():
         if not name.endswith(".origin"):
-            found.append((_about_point(name), [_placed(system.free, body, x, y) for system in problem.systems]))
+            found.append((_about_point(name), [placed(system.free, body, x, y) for system in problem.systems]))
     return found
 
 
@@ -131,7 +131,8 @@ def _last_point(free: FreeBodies, load: int) -> Pair:
     return free.loads[load].on[-1].point
 
 
-def _placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
+def placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
+    """Where a point of a body, in its frame, is."""
     if body not in free.bodies:
         return x, y
     b = free.bodies[body]

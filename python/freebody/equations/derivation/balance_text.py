@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from freebody.core import Body, FreeBodies, Load
+from freebody.core import FreeBodies, Load, Pair
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.balances.reasons import Place, agree, why_absent
+from freebody.equations.balances.virtual_motions import placed
 from freebody.equations.derivation.data import Balance, SymbolicState
-from freebody.equations.derivation.meaning import joined
-from freebody.equations.linear import Linear
+from freebody.equations.derivation.form import Printed
+from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import collected, factored
 from freebody.symbolic.evaluate import evaluate
@@ -48,67 +50,48 @@ class Stated:
         """What it is."""
         return f"{self.kind} {self.word} {self.where} for {' + '.join(self.balance.bodies)}"
 
+    @cached_property
+    def _collected(self) -> tuple[Tree, Tree, bool]:
+        """Both sides, each unknown with one factor; and whether all their signs are changed, so that the acceleration that it is for
+        is positive, or, where it is for none, some term that has one, or some term."""
+        unknowns = list(self.balance.linear.coefficients)
+        left, right = collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
+        every = left.terms if isinstance(left, Add) else (left,)
+        terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
+        turned = self.own < 0 or (self.own == 0 and all(map(is_negative, terms)))
+        return (negative(left), negative(right), True) if turned else (left, right, False)
+
     @property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts, each unknown with one factor; ``is_turned`` where that reads better."""
-        left, right = self._collected
-        return (negative(left), negative(right)) if self.is_turned else (left, right)
+        """What is moved = what acts, with the signs that read better."""
+        return self._collected[:2]
 
     @property
-    def linear(self) -> Linear:
-        """The equation as linear in what is unknown, with the sign of its sides."""
-        return self.balance.linear.negative() if self.is_turned else self.balance.linear
+    def printed(self) -> Printed:
+        """The equation with its title, and as linear in what is unknown."""
+        linear = self.balance.linear
+        return Printed(self.title, *self.sides, linear.with_trees(negative) if self._collected[2] else linear)
 
-    @cached_property
-    def _collected(self) -> tuple[Tree, Tree]:
-        unknowns = list(self.balance.linear.coefficients)
-        return collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
-
-    @property
-    def is_turned(self) -> bool:
-        """Whether all signs are changed: so that its own acceleration is positive, or some acceleration."""
-        return self.own < 0 or (self.own == 0 and _all_negative(self._collected[0]))
-
-
-def _all_negative(side: Tree) -> bool:
-    """Whether all terms with accelerations are; where there are none, whether all terms are."""
-    every = side.terms if isinstance(side, Add) else (side,)
-    terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
-    return all(map(is_negative, terms))
-
-
-def blocks(subject: SymbolicState, stated: Stated) -> list[Block]:
-    """The equation with all that a reader needs to believe it."""
-    balance = stated.balance
-    made: list[Block] = [Heading(stated.title, 3)]
-    if reasons := absent(subject, stated):
-        made.append(Paragraph(f"Not in this equation: {'; '.join(reasons)}."))
-    what, sign = ("moments", "Σ M = Ḣ") if balance.turns else ("components", "Σ F = L̇")
-    unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
-    acting: list[Words] = [
-        [f"{load_words(subject.free.loads[c.load], balance.bodies)}: ", factored(c.tree)]
-        for c in balance.contributions
-        if not c.absent and c.load not in cancelled
-    ]
-    inertia: list[Words] = [
-        [f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in balance.inertia if not is_zero(tree)
-    ]
-    if acting:
-        made += [Paragraph(f"Applied {what}:"), Bullets(acting)]
-    else:
-        made.append(Paragraph("No other load enters this equation."))
-    if inertia:
-        rate = "angular momentum" if balance.turns else "momentum"
-        made += [Paragraph(f"Rate of change of {rate}:"), Bullets(inertia)]
-    turned = ", with all signs changed," if stated.is_turned else ""
-    made.append(Equation(*stated.sides, f"So {sign}{turned} is", stated.label))
-    return made
-
-
-def absent(subject: SymbolicState, stated: Stated) -> list[str]:
-    """Unknown loads that touch the bodies but are not in the equation, by reason: ``elbow.Fx and elbow.Fy (they act at elbow)``."""
-    found = dropped(subject, stated).items()
-    return [f"{joined([_symbol(load) for load in loads])} ({agree(why, len(loads))})" for why, loads in found]
+    def blocks(self, subject: SymbolicState) -> list[Block]:
+        """The equation with all that a reader needs to believe it."""
+        balance = self.balance
+        made: list[Block] = [Heading(self.title, 3)]
+        if absent := dropped(subject, self):
+            said = [f"{joined(list(map(_symbol, loads)))} ({agree(why, len(loads))})" for why, loads in absent.items()]
+            made.append(Paragraph(f"Not in this equation: {'; '.join(said)}."))
+        what, sign, rate = ("moments", "Σ M = Ḣ", "angular momentum") if balance.turns else ("components", "Σ F = L̇", "momentum")
+        unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
+        acting: list[Words] = [
+            [f"{load_words(subject.free.loads[c.load], balance.bodies)}: ", factored(c.tree)]
+            for c in balance.contributions
+            if not c.absent and c.load not in cancelled
+        ]
+        moved = [(body, tree) for body, tree in balance.inertia if not is_zero(tree)]
+        inertia: list[Words] = [[f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in moved]
+        made += [Paragraph(f"Applied {what}:"), Bullets(acting)] if acting else [Paragraph("No other load enters this equation.")]
+        made += [Paragraph(f"Rate of change of {rate}:"), Bullets(inertia)] if inertia else []
+        turned = ", with all signs changed," * self._collected[2]
+        return [*made, Equation(*self.sides, f"So {sign}{turned} is", self.label)]
 
 
 def _symbol(load: Load) -> str:
@@ -116,17 +99,25 @@ def _symbol(load: Load) -> str:
     return f"the friction of {load.name}" if load.follows else load.symbol
 
 
+def of_bodies(subject: SymbolicState, centre: str = "") -> list[Stated]:
+    """The three balances of every body, two of a particle; ``centre`` is what its mass centre is called."""
+    asked: list[dict[str, Any]] = []
+    for name, body in subject.free.bodies.items():
+        places = [{"along": "x"}, {"along": "y"}, *([] if body.particle else [{"about": "centre"}])]
+        asked += [{"ask": "equation", "bodies": [name], **place} for place in places]
+    found = zip(subject.balances(asked), asked, strict=True)
+    return [Stated(b, q.get("along") or centre or f"the mass centre of {b.bodies[0]}", "about" if b.turns else "along") for b, q in found]
+
+
 def dropped(subject: SymbolicState, stated: Stated) -> dict[str, list[Load]]:
     """Unknown loads that touch the bodies but are not in the equation, by reason, of one: ``it acts at elbow``."""
     found: dict[str, list[Load]] = {}
-    at = numbers(subject, stated.balance)
-    place = Place(stated.kind, stated.where, at, stated.constructed or stated.word == "across")
-    cancelled = cancelling(subject, stated.balance)
-    for contribution in stated.balance.contributions:
+    balance, cancelled = stated.balance, cancelling(subject, stated.balance)
+    place = Place(stated.kind, stated.where, numbers(subject, balance), stated.constructed or stated.word == "across")
+    for contribution in balance.contributions:
         load, summed = subject.free.loads[contribution.load], contribution.load in cancelled
         if load.unknown and (contribution.absent or summed) and not (summed and load.follows):
-            why = why_absent(load, stated.balance.bodies, place, size(subject), summed)
-            found.setdefault(why, []).append(load)
+            found.setdefault(why_absent(load, balance.bodies, place, extent(subject.free), summed), []).append(load)
     return found
 
 
@@ -139,17 +130,11 @@ def cancelling(subject: SymbolicState, balance: Balance) -> set[int]:
     return gone | {i for i in parts if (follows := loads[i].follows) and follows[0] in gone}
 
 
-def numbers(subject: SymbolicState, balance: Balance) -> tuple[float, float]:
+def numbers(subject: SymbolicState, balance: Balance) -> Pair:
     """The point (m), or the unit direction, of a balance at the state, in fixed axes."""
-    values = subject.values
-    x, y = (float(evaluate(tree, values, subject.tables)) for tree in balance.place.xy)
+    x, y = (float(evaluate(tree, subject.values, subject.tables)) for tree in balance.place.xy)
     length = 1.0 if balance.turns else float(np.hypot(x, y)) or 1.0
     return x / length, y / length
-
-
-def size(subject: SymbolicState) -> float:
-    """The size of the mechanism, m."""
-    return extent(subject.free)
 
 
 def extent(free: FreeBodies) -> float:
@@ -158,41 +143,27 @@ def extent(free: FreeBodies) -> float:
     return float(np.hypot(*np.ptp(points, axis=0))) or 1.0
 
 
-def named_place(subject: SymbolicState, at: tuple[float, float], bodies: Sequence[str]) -> str:
+def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:
     """The name of a point: a pin there, else a mass centre, else another named point of the bodies, by its own name if no other
     body has one of that name."""
-    free, near = subject.free, _SAME * size(subject)
+    free, near = subject.free, _SAME * extent(subject.free)
     for load in free.loads:
         if load.axis and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
             return pin(load.name)
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"
-    there = [
-        name for name, (body, x, y) in subject.points.items() if body in bodies and _near(free.bodies[body], (x, y), at) < near
-    ]
-    own = sorted(there, key=lambda name: name.rpartition(".")[2] in _GIVEN)
-    return _short(subject, own[0]) if own else ""
+    last = {name: name.rpartition(".")[2] for name in subject.points}
+    there = [name for name, point in subject.points.items() if point[0] in bodies and is_at(free, point, at)]
+    own = sorted(there, key=lambda name: last[name] in _GIVEN)
+    return next((last[name] if [*last.values()].count(last[name]) == 1 else name for name in own), "")
 
 
-def is_at(free: FreeBodies, point: tuple[str, float, float], at: tuple[float, float]) -> bool:
+def is_at(free: FreeBodies, point: tuple[str, float, float], at: Pair) -> bool:
     """Whether a point (body, x, y in its frame) is at a place."""
-    body, *where = point
-    return body in free.bodies and _near(free.bodies[body], (where[0], where[1]), at) < _SAME * extent(free)
+    return point[0] in free.bodies and float(np.hypot(*np.subtract(placed(free, *point), at))) < _SAME * extent(free)
 
 
 def pin(name: str) -> str:
     """A hinge as a point; not ``the pin pin``."""
     return name if "pin" in name.lower() else f"the pin {name}"
-
-
-def _near(body: Body, point: tuple[float, float], at: tuple[float, float]) -> float:
-    """How far a point of a body, in its frame, is from a place."""
-    c, s = np.cos(body.angle), np.sin(body.angle)
-    x, y = point
-    return float(np.hypot(*np.subtract((body.at[0] + c * x - s * y, body.at[1] + s * x + c * y), at)))
-
-
-def _short(subject: SymbolicState, point: str) -> str:
-    last = point.rpartition(".")[2]
-    return last if [name.rpartition(".")[2] for name in subject.points].count(last) == 1 else point

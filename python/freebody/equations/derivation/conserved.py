@@ -5,67 +5,47 @@ from __future__ import annotations
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.derivation import momenta
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import clause, joined
 from freebody.symbolic.formula import Script, typed, word
-from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Sym, Tree, add, read, symbols
-
-_CONSERVED = "Their sum is conserved: all forces have potentials, and the reactions of joints and contacts do no work."
 
 
 def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
     """Every quantity that stays constant, with its reason, or why none does; ``in_letters``: and what it is in the coordinates."""
-    made: list[Block] = [Heading("Conserved quantities"), *(_energy(subject) if in_letters else _energy_words(subject))]
-    return made + momenta.section(subject, in_letters)
+    kinetic, potential, why = energy(subject)
+    reason = f"not conserved: {why}." if why else "conserved: all forces have potentials, and the reactions of joints and contacts do no work."
+    made: list[Block] = [Heading("Conserved quantities")]
+    if in_letters:
+        left, right = energies(subject)
+        made += [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
+    lead = "Their sum" if in_letters else "The sum of kinetic and potential energy"
+    return [*made, Paragraph(f"{lead} is {reason}"), *momenta.section(subject, in_letters)]
 
 
 def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:
     """Kinetic and potential energy, and why their sum is not constant (empty if it is)."""
-    stated = subject.ask([{"ask": "energy"}])[0]
+    [stated] = subject.ask([{"ask": "energy"}])
     kinetic, potential = read(stated["kinetic"]), read(stated["potential"])
-    return kinetic, potential, _losses(subject, stated["without_potential"], symbols(kinetic, potential))
+    loads, laws, why = subject.free.loads, {letter.name for letter, _ in subject.laws}, []
+    if names := stated["without_potential"]:
+        why.append(f"{clause(names, 'does', 'do')} work that has no potential")
+    if motions := list(dict.fromkeys(load.name for load in loads if load.kind == "motion")):
+        why.append(f"the motion of {joined(motions)} is prescribed, which takes work")
+    if rough := list(dict.fromkeys(load.name for load in loads if load.follows or load.symbol in laws)):
+        why.append(f"{clause(rough, 'has', 'have')} friction")
+    if Sym("t") in symbols(kinetic, potential):
+        why.append("the potential depends on time")
+    return kinetic, potential, "; ".join(why)
 
 
 def energies(subject: SymbolicState) -> tuple[Written, Written]:
     """How the kinetic and the potential energy are written."""
-    kinetic, potential = (subject.symbols.quantity(f"E_{word[0]}", f"{word} energy") for word in ("kinetic", "potential"))
-    return _energy_name(kinetic), _energy_name(potential)
-
-
-def _energy_name(name: Name) -> Written:
-    """What is below E is the beginning of a word, which is upright."""
-    usual = name.stem == "E" and len(name.below) == 1
-    return Written(name.unicode(), (Script(typed("E"), word(name.below[0])),) if usual else name.formula())
-
-
-def _losses(subject: SymbolicState, without: list[str], letters: set[Sym]) -> str:
-    motions = [load.name for load in subject.free.loads if load.kind == "motion"]
-    laws = {letter.name for letter, _ in subject.laws}
-    has_friction = list(dict.fromkeys(load.name for load in subject.free.loads if load.follows or load.symbol in laws))
-    why = [f"{joined(names)} {'does' if len(names) == 1 else 'do'} work that has no potential" for names in [without] if names]
-    why += [f"the motion of {joined(list(dict.fromkeys(motions)))} is prescribed, which takes work"] if motions else []
-    why += [f"{joined(has_friction)} {'has' if len(has_friction) == 1 else 'have'} friction"] if has_friction else []
-    why += ["the potential depends on time"] if Sym("t") in letters else []
-    return "; ".join(why)
-
-
-def _energy(subject: SymbolicState) -> list[Block]:
-    kinetic, potential, why = energy(subject)
-    left, right = energies(subject)
-    made: list[Block] = [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
-    if why:
-        return [*made, Paragraph(f"Their sum is not conserved: {why}.")]
-    return [*made, Paragraph(_CONSERVED)]
-
-
-def _energy_words(subject: SymbolicState) -> list[Block]:
-    *_, why = energy(subject)
-    said = (
-        f"is not conserved: {why}."
-        if why
-        else "is conserved: all forces have potentials, and the reactions of joints and contacts do no work."
+    names = (subject.symbols.quantity(f"E_{kind[0]}", f"{kind} energy") for kind in ("kinetic", "potential"))
+    kinetic, potential = (
+        Written(x.unicode(), (Script(typed("E"), word(x.below[0])),) if x.stem == "E" and len(x.below) == 1 else x.formula())
+        for x in names  # what is below E is the beginning of a word, which is upright
     )
-    return [Paragraph(f"The sum of kinetic and potential energy {said}")]
+    return kinetic, potential
 
 
 def total(subject: SymbolicState) -> Tree | None:

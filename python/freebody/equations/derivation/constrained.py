@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from freebody.document.blocks import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.data import Row, SymbolicState
-from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.system import System
+from freebody.equations.derivation.form import Form, Printed, System
 from freebody.equations.linear import Linear
 from freebody.symbolic.formula import GAP, NEGATIVE, Grid, typed
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name, Renamed
-from freebody.symbolic.tree import Tree, is_zero, negative, read
+from freebody.symbolic.tree import is_zero, negative, read
 
 _BLOCKS = Written(
     "[M −W; G 0] [a; λ]",
@@ -25,7 +23,10 @@ _LEGEND = (
     "M has the masses and inertias, W what a unit of each unknown force does to the bodies, G what the constraints ask of the "
     "accelerations a; λ are the unknown forces, f the known ones, c what of the constraints depends on velocities and time. "
 )
-
+_INTRODUCTION = (
+    "Each body is placed by itself, by x and y of its mass centre and its angle φ (a particle by x and y): "
+    "{} coordinates. What the joints hold is told by constraints."
+)
 _CAPTION = "Every body by itself: its mass centre from the origin, its angle from the x axis. What is 0 now is drawn a little further on."
 
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
@@ -35,26 +36,22 @@ _STARTS = {"place_x": "x", "place_y": "y", "angle": "phi", "x": "x", "y": "y", "
 
 def constrained(subject: SymbolicState) -> tuple[Form, Letters]:
     """The form of a subject, and its letters: the places of the bodies are the coordinates here."""
-    stated = subject.ask([{"ask": "constraints"}])[0]
-    names = stated["coordinates"]
-    rows = [Row.read(each) for each in stated["rows"]]
-    equations = [_balance(each) for each in stated["balances"]]
-    made: list[Block] = [Heading("Coordinates"), Paragraph(_introduction(names)), _sketch(subject)]
-    if rows:
-        made += loop_closure.section(rows, names, everywhere=True)
-    made.append(Heading("Balance equations"))
-    made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
-    letters = _letters(names, subject)
-    form = Form.of(letters, equations + loop_closure.printed(rows), [])
-    made += _in_blocks(form.system, len(equations))
-    return replace(form, blocks=tuple(made)), letters
-
-
-def _sketch(subject: SymbolicState) -> Figure:
-    """The mechanism with the place of every body."""
     from freebody.views.diagram.configuration import Places
 
-    return Figure(Places(subject.source, subject.state), _CAPTION, "sketch")
+    [stated] = subject.ask([{"ask": "constraints"}])
+    names, rows = stated["coordinates"], list(map(Row.read, stated["rows"]))
+    equations = []
+    for data in stated["balances"]:
+        title = f"{data['kind'].replace('about G', 'about its mass centre')} for {data['body']}"
+        equations.append(Printed(title, read(data["right"]), read(data["left"]), Linear.read(data["linear"])))
+    letters = _letters(names, subject)
+    form = Form.of(letters, equations + loop_closure.printed(rows))
+    made: list[Block] = [Heading("Coordinates"), Paragraph(_INTRODUCTION.format(len(names)))]
+    made.append(Figure(Places(subject.source, subject.state), _CAPTION, "sketch"))
+    made += loop_closure.section(rows, names, everywhere=True) if rows else []
+    made.append(Heading("Balance equations"))
+    made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
+    return replace(form, blocks=(*made, *_in_blocks(form.system, len(equations)))), letters
 
 
 def _in_blocks(system: System, balances: int) -> list[Block]:
@@ -63,43 +60,17 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
     above, below = system.matrix[:balances], system.matrix[balances:]
     order = sorted(range(moving), key=lambda column: [is_zero(row[column]) for row in above])
     masses, held = ([[row[column] for column in order] for row in rows] for rows in (above, below))
+    a, forces = [system.unknowns[column] for column in order], system.unknowns[moving:]
+    legend = Paragraph([_LEGEND, "a = (", *listed(a), "), λ = (", *listed(forces), ")."])
+    made: list[Block] = [Heading("Matrix form"), Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system"), legend]
+    off = any(not is_zero(entry) for i, row in enumerate(masses) for j, entry in enumerate(row) if i != j)
+    if masses and not off and len(masses) == len(order):
+        made.append(Paragraph(["M = diag(", *listed(row[i] for i, row in enumerate(masses)), ")"]))
+        masses = []
     loads = [[negative(entry) for entry in row[moving:]] for row in above]
-    made: list[Block] = [Heading("Matrix form"), Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system")]
-    made.append(
-        Paragraph(
-            [
-                _LEGEND,
-                "a = (",
-                *listed([system.unknowns[column] for column in order]),
-                "), λ = (",
-                *listed(system.unknowns[moving:]),
-                ").",
-            ]
-        )
-    )
-    diagonal = _diagonal(masses)
-    if diagonal:
-        made.append(Paragraph(["M = diag(", *listed(diagonal), ")"]))
-    columns = (("f", system.right[:balances]), ("c", system.right[balances:]))
-    blocks = [
-        ("M", masses if not diagonal else []),
-        ("W", loads),
-        ("G", held),
-        *((name, [[x] for x in side]) for name, side in columns),
-    ]
+    f, c = ([[x] for x in side] for side in (system.right[:balances], system.right[balances:]))
+    blocks = (("M", masses), ("W", loads), ("G", held), ("f", f), ("c", c))
     return made + [Equation(Written(name, typed(name)), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]]
-
-
-def _diagonal(rows: Sequence[Sequence[Tree]]) -> list[Tree]:
-    """The diagonal of a matrix that has nothing else; else nothing."""
-    off = any(not is_zero(entry) for i, row in enumerate(rows) for j, entry in enumerate(row) if i != j)
-    return [] if off or any(len(row) != len(rows) for row in rows) else [row[i] for i, row in enumerate(rows)]
-
-
-def _balance(data: dict) -> Printed:
-    left, right = read(data["right"]), read(data["left"])
-    where = data["kind"].replace("about G", "about its mass centre")
-    return Printed(f"{where} for {data['body']}", left, right, Linear.read(data["linear"]))
 
 
 def _letters(names: list[str], subject: SymbolicState) -> Letters:
@@ -107,18 +78,10 @@ def _letters(names: list[str], subject: SymbolicState) -> Letters:
     known, renamed = subject.letters, dict(subject.letters.renamed)
     for name in names:
         word, body = next((word, name.removeprefix(f"{start}_")) for start, word in _STARTS.items() if name.startswith(f"{start}_"))
-        unit, doc = _WHAT[word]
+        unit, doc, usual = *_WHAT[word], f"{word}_{body}"
         found[name] = Letter(name, "coordinate", unit, doc.format(body))
-        usual = f"{word}_{body}"
         if name != usual:
             renamed[name] = Renamed(Name.parse(usual), f"the parameter {usual}", doc.format(body), Name.parse(name))
     rest = {letter.name: letter for letter in known.values() if letter.kind != "coordinate"}
     rest |= {letter.name: replace(letter, kind="parameter") for letter in known.values() if letter.written and letter.name not in rest}
     return Letters(found | rest, renamed)
-
-
-def _introduction(names: list[str]) -> str:
-    return (
-        "Each body is placed by itself, by x and y of its mass centre and its angle φ (a particle by x and y): "
-        f"{len(names)} coordinates. What the joints hold is told by constraints."
-    )

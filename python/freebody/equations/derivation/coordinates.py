@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from freebody.core.cards import Coordinate, joints
+from freebody.core.cards import Card, Coordinate, joints
 from freebody.equations.derivation.balance_text import Stated, named_place, numbers, pin
 from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.symbolic.evaluate import evaluate
@@ -16,66 +17,55 @@ from freebody.symbolic.tree import ZERO, Sym, is_zero
 
 def stated(subject: SymbolicState) -> list[Stated]:
     """One equation for every coordinate of the tree; no reaction of a joint of the tree is in any of them."""
-    asked = [_question(subject, coordinate) for coordinate in subject.coordinates]
-    found = subject.balances(asked)
-    return [
-        Stated(balance, *_place(subject, coordinate, balance), own=_sense(subject, coordinate["name"], balance))
-        for coordinate, balance in zip(subject.coordinates, found, strict=True)
-    ]
+    own = [_Coordinate.of(subject, coordinate) for coordinate in subject.coordinates]
+    found = subject.balances([each.question(subject) for each in own])
+    made = []
+    for each, balance in zip(own, found, strict=True):
+        inertia = balance.linear.coefficients.get(Sym(each.name, 2), ZERO)
+        sense = int(np.sign(evaluate(inertia, subject.values, subject.tables)))  # 0 where nothing is moved
+        made.append(Stated(balance, *each.place(subject, balance), own=sense))
+    return made
 
 
-def _sense(subject: SymbolicState, name: str, balance: Balance) -> int:
-    """The sign with which the acceleration of a coordinate stands in its balance: 0 where nothing is moved."""
-    inertia = balance.linear.coefficients.get(Sym(name, 2), ZERO)
-    return int(np.sign(evaluate(inertia, subject.values, subject.tables)))
+@dataclass(frozen=True)
+class _Coordinate:
+    """A coordinate by ``name``, the joint that has it, and the cards of both."""
 
+    name: str
+    joint: Mapping[str, Any]
+    card: Card
+    moves: Coordinate
 
-def _question(subject: SymbolicState, coordinate: Mapping[str, Any]) -> dict[str, Any]:
-    joint = _joint(subject, coordinate)
-    if _card(joint, coordinate).across and joint.get("reaction") and (carried := _particle(subject, joint)):
-        return {"ask": "equation", "bodies": [carried], "along": {"across": _load(subject, joint["name"])}}
-    return {"ask": "coordinate", "name": coordinate["name"]}
+    @classmethod
+    def of(cls, subject: SymbolicState, coordinate: Mapping[str, Any]) -> _Coordinate:
+        free = {"type": "free", "name": coordinate["joint"]}
+        joint = next((j for j in subject.source.about["joints"] if j["name"] == coordinate["joint"]), free)
+        card = joints()[joint["type"]]
+        return cls(coordinate["name"], joint, card, next(c for c in card.coordinates if c.name == coordinate["word"]))
 
+    def question(self, subject: SymbolicState) -> dict[str, Any]:
+        """For the balance; of a particle that carries nothing, and is moved across a line, that across the force of the joint."""
+        joint, about = self.joint, subject.source.about
+        if self.moves.across and joint.get("reaction"):
+            name = joint["second"]
+            particle = any(body["name"] == name and body["particle"] for body in about["bodies"])
+            carries = any(other["first"] == name or (other["second"] == name and other is not joint) for other in about["joints"])
+            if particle and not carries:
+                loads = enumerate(subject.free.loads)
+                place = next(i for i, load in loads if load.kind == "joint" and load.name == joint["name"])
+                return {"ask": "equation", "bodies": [name], "along": {"across": place}}
+        return {"ask": "coordinate", "name": self.name}
 
-def _particle(subject: SymbolicState, joint: Mapping[str, Any]) -> str | None:
-    """The second body of a joint, if it is a particle that carries nothing."""
-    name, about = joint["second"], subject.source.about
-    particle = any(body["name"] == name and body["particle"] for body in about["bodies"])
-    carries = any(other["first"] == name or (other["second"] == name and other is not joint) for other in about["joints"])
-    return name if particle and not carries else None
-
-
-def _load(subject: SymbolicState, joint: str) -> int:
-    return next(i for i, load in enumerate(subject.free.loads) if load.kind == "joint" and load.name == joint)
-
-
-def _joint(subject: SymbolicState, coordinate: Mapping[str, Any]) -> Mapping[str, Any]:
-    joints = subject.source.about["joints"]
-    free = {"type": "free", "name": coordinate["joint"]}
-    return next((joint for joint in joints if joint["name"] == coordinate["joint"]), free)
-
-
-def _place(subject: SymbolicState, coordinate: Mapping[str, Any], balance: Balance) -> tuple[str, str]:
-    """The point or direction in words, and the word before it."""
-    joint = _joint(subject, coordinate)
-    card, name = joints()[joint["type"]], joint["name"]
-    if balance.turns:
-        named = pin(name) if card.hinged else named_place(subject, numbers(subject, balance), balance.bodies)
-        touches = any(row.tangent for row in card.rows)
-        return named or ("the point of contact" if touches else f"the point of {name}"), "about"
-    moves = _card(joint, coordinate)
-    if moves.across:
-        return moves.line.format(name), "across"
-    x, y = balance.place.xy
-    if is_zero(x) or is_zero(y):
-        return _axis(*numbers(subject, balance)), "along"
-    return subject.lines.get(name) or (moves.line or "the direction of {}").format(name), "along"
-
-
-def _card(joint: Mapping[str, Any], coordinate: Mapping[str, Any]) -> Coordinate:
-    return next(c for c in joints()[joint["type"]].coordinates if c.name == coordinate["word"])
-
-
-def _axis(x: float, y: float) -> str:
-    """A fixed axis, or the direction against it."""
-    return ("−" if x + y < 0 else "") + ("x" if abs(x) > abs(y) else "y")
+    def place(self, subject: SymbolicState, balance: Balance) -> tuple[str, str]:
+        """The point or direction in words, and the word before it."""
+        name, line = self.joint["name"], self.moves.line
+        if balance.turns:
+            named = pin(name) if self.card.hinged else named_place(subject, numbers(subject, balance), balance.bodies)
+            touches = any(row.tangent for row in self.card.rows)
+            return named or ("the point of contact" if touches else f"the point of {name}"), "about"
+        if self.moves.across:
+            return line.format(name), "across"
+        if any(map(is_zero, balance.place.xy)):  # a fixed axis, or the direction against it
+            x, y = numbers(subject, balance)
+            return ("−" if x + y < 0 else "") + ("x" if abs(x) > abs(y) else "y"), "along"
+        return subject.lines.get(name) or (line or "the direction of {}").format(name), "along"

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
-from freebody.equations.derivation.meaning import plain
 from freebody.equations.linear import Linear
 from freebody.solve.perturbed_states import nearby
 from freebody.solve.symbols import Symbols, load_words
-from freebody.symbolic.collect import divided
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name
-from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, negative, read
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
 
 Question = Mapping[str, Any]
 _SEED, _OTHERS = 5, 3
@@ -105,18 +103,16 @@ class Balance:
             return self
         kept = tuple(replace(each, tree=ZERO) if each.load in loads else each for each in self.contributions)
         left = add(*(each.tree for each in kept if not each.internal))
-        coefficients = {x: tree for x, tree in self.linear.coefficients.items() if x.dots or x.name not in letters}
-        linear = Linear(coefficients, self.linear.rest)
+        linear = Linear({x: c for x, c in self.linear.coefficients.items() if x.dots or x.name not in letters}, self.linear.rest)
         return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
 
     def with_trees(self, put: Callable[[Tree], Tree]) -> Balance:
         """The same, every expression as ``put`` makes it; what is unknown and vanishes is left out."""
         loads = tuple(replace(each, tree=put(each.tree)) for each in self.contributions)
         inertia = tuple((body, put(tree)) for body, tree in self.inertia)
-        momentum, left, right, residual = map(put, (self.momentum, self.left, self.right, self.residual))
+        trees = map(put, (self.momentum, self.left, self.right, self.residual))
         kept = {x: put(tree) for x, tree in self.linear.coefficients.items() if not is_zero(put(mul(tree, x)))}
-        linear = Linear(kept, put(self.linear.rest))
-        return Balance(self.bodies, self.turns, self.place, loads, inertia, momentum, left, right, residual, linear)
+        return Balance(self.bodies, self.turns, self.place, loads, inertia, *trees, Linear(kept, put(self.linear.rest)))
 
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> Balance:
@@ -142,18 +138,10 @@ class Row:
     acceleration: Tree
     linear: Linear
 
-    @property
-    def negative(self) -> Row:
-        """The same with all signs changed."""
-        value, rate = (None if tree is None else negative(tree) for tree in (self.value, self.rate))
-        return replace(self, value=value, rate=rate, acceleration=negative(self.acceleration), linear=self.linear.negative())
-
-    def over(self, factor: Tree) -> Row:
-        """The same with everything divided by a number."""
-        value, rate = (None if tree is None else divided(tree, factor) for tree in (self.value, self.rate))
-        return replace(
-            self, value=value, rate=rate, acceleration=divided(self.acceleration, factor), linear=self.linear.over(factor)
-        )
+    def with_trees(self, put: Callable[[Tree], Tree]) -> Row:
+        """The same, every expression as ``put`` makes it."""
+        levels = (None if tree is None else put(tree) for tree in (self.value, self.rate, self.acceleration))
+        return Row(self.name, self.kind, *levels, self.linear.with_trees(put))
 
     @property
     def says_nothing(self) -> bool:
@@ -178,9 +166,9 @@ class SymbolicState:
 
     def with_numbers(self, names: Sequence[str]) -> SymbolicState:
         """The same with some coordinates and parameters as the numbers that they are at the state."""
-        places = {c["name"]: float(x) for c, x in zip(self.coordinates, self.state.q, strict=True)}
-        places |= {p["name"]: float(x) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)}
-        return replace(self, numbers={name: places[name] for name in names})
+        parameters = [p["name"] for p in self.source.about["parameters"]]
+        known = zip(self.names + parameters, [*self.state.q.tolist(), *self.state.p.tolist()], strict=True)
+        return replace(self, numbers={name: x for name, x in known if name in names})
 
     def ask(self, questions: Sequence[Question]) -> list[Any]:
         """The answers of the core, as data. Raises ``MotionError``."""
@@ -189,6 +177,11 @@ class SymbolicState:
     def balances(self, questions: Sequence[Question]) -> list[Balance]:
         """Answers about balances."""
         return list(map(Balance.read, self.ask(questions)))
+
+    @cached_property
+    def names(self) -> list[str]:
+        """The names of the coordinates."""
+        return [c["name"] for c in self.coordinates]
 
     @property
     def coordinates(self) -> list[dict[str, Any]]:
@@ -205,15 +198,10 @@ class SymbolicState:
         """The free bodies at the state and at others near by, with other parameters, as far as these are letters: so what drops out
         of a balance there does so whatever the letters are."""
         rng, fixed = np.random.default_rng(_SEED), self.numbers or {}
-        given = [(p["name"], float(x)) for p, x in zip(self.source.about["parameters"], self.state.p, strict=True)]
+        names, given = [p["name"] for p in self.source.about["parameters"]], self.state.p.tolist()
         parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
-        changed = [
-            self.source.bind(
-                {name: x if name in fixed else part * (x or _NEAR) for (name, x), part in zip(given, row, strict=True)}
-            )
-            for row in parts
-        ]
-        return nearby(self.source, self.state, changed)
+        changed = [{n: x if n in fixed else k * (x or _NEAR) for n, x, k in zip(names, given, row, strict=True)} for row in parts]
+        return nearby(self.source, self.state, list(map(self.source.bind, changed)))
 
     @cached_property
     def rows(self) -> list[Row]:
@@ -223,12 +211,9 @@ class SymbolicState:
     @cached_property
     def motions(self) -> list[Motion]:
         """Of every body."""
-        arrows, trees = ("r", "v", "a"), ("mass", "inertia", "angle", "omega", "alpha")
-        stated = self.ask([{"ask": "kinematics"}])[0]
-        return [
-            Motion(b["body"], b["particle"], **{w: read(b[w]) for w in trees}, **{w: Arrow.read(b[w]) for w in arrows})
-            for b in stated
-        ]
+        trees = ("mass", "inertia", "angle", "omega", "alpha")
+        [stated] = self.ask([{"ask": "kinematics"}])
+        return [Motion(b["body"], b["particle"], *(read(b[w]) for w in trees), *(Arrow.read(b[w]) for w in "rva")) for b in stated]
 
     @cached_property
     def table(self) -> dict[str, dict[str, Any]]:
@@ -249,39 +234,34 @@ class SymbolicState:
     def letters(self) -> Letters:
         """All letters in the order of the model: coordinates, parameters, what the model leaves without a name, unknowns, time."""
         table, written = self.table, self.symbols.names
-        found = {c["name"]: Letter(c["name"], "coordinate", c["dimension"] or "", plain(c["doc"])) for c in self.coordinates}
-        given = [p["name"] for p in self.source.about["parameters"]]
-        unnamed = [name for name, entry in table.items() if entry["kind"] == "number"]
-        found |= {name: Letter(name, "parameter", table[name]["unit"]) for name in given if name in table}
-        found |= {name: Letter(name, "constant", table[name]["unit"], table[name]["doc"]) for name in unnamed}
-        found = {name: letter if written[name] == Name.parse(name) else replace(letter, written=written[name])
-                 for name, letter in found.items()}  # fmt: skip
+        given = [p["name"] for p in self.source.about["parameters"] if p["name"] in table]
+        made = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in self.coordinates]
+        made += [Letter(name, "parameter", table[name]["unit"]) for name in given]
+        made += [Letter(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"]
+        made = [x if written[x.name] == Name.parse(x.name) else replace(x, written=written[x.name]) for x in made]
         for load in self.free.loads:
             if load.unknown and not load.follows:
                 unit, doc = "N*m" if load.card.couple else "", f"{load_words(load)} ({load.symbol})"
-                found[load.symbol] = Letter(load.symbol, "unknown", unit, doc, self.symbols.loads[load.symbol])
-        return Letters(found | {"t": Letter("t", "time", "s", "time")}, self.symbols.renamed)
+                made.append(Letter(load.symbol, "unknown", unit, doc, self.symbols.loads[load.symbol]))
+        return Letters({x.name: x for x in (*made, Letter("t", "time", "s", "time"))}, self.symbols.renamed)
 
     @cached_property
     def values(self) -> dict[Sym, float]:
         """The numbers of all letters at the state."""
-        s, free, names = self.state, self.free, [c["name"] for c in self.coordinates]
         found = {Sym(name): entry["value"] for name, entry in self.table.items()}
-        found |= {Sym(load.symbol): load.value for load in free.loads if load.unknown}
-        found |= {Sym(name): float(x) for name, x in zip(names, s.q, strict=True)}
-        found |= {Sym(name, 1): float(x) for name, x in zip(names, s.u, strict=True)}
-        return found | {Sym(name, 2): x for name, x in free.accelerations.items()}
+        found |= {Sym(load.symbol): load.value for load in self.free.loads if load.unknown}
+        for dots, numbers in enumerate((self.state.q, self.state.u)):
+            found |= {Sym(name, dots): x for name, x in zip(self.names, numbers.tolist(), strict=True)}
+        return found | {Sym(name, 2): x for name, x in self.free.accelerations.items()}
 
     @cached_property
     def tables(self) -> dict[str, Callable[..., float]]:
         """The functions of the model that are given by points."""
-        s, core = self.state, self.source
-        names = [table["name"] for table in self.source.spec.get("tables", [])]
 
-        def table(name: str) -> Callable[..., float]:
-            return lambda x: float(core.evaluate([f"{name}({float(x)!r})"], s)[0])
+        def at(name: str, x: float) -> float:
+            return float(self.source.evaluate([f"{name}({float(x)!r})"], self.state)[0])
 
-        return {name: table(name) for name in names}
+        return {table["name"]: partial(at, table["name"]) for table in self.source.spec.get("tables", [])}
 
     @cached_property
     def points(self) -> Mapping[str, tuple[str, float, float]]:
@@ -291,9 +271,13 @@ class SymbolicState:
     @cached_property
     def lines(self) -> Mapping[str, str]:
         """The lines along which joints move, in the words of the model: joint → ``the slope``, ``the track of rod``."""
-        joints = self.source.model.get("joints") or {}
-        along = {name: joint.get("along") for name, joint in joints.items()}
-        return {name: _line_words(*text.rpartition(".")[::2]) for name, text in along.items() if isinstance(text, str)}
+        found = {}
+        for joint, given in (self.source.model.get("joints") or {}).items():
+            if isinstance(given.get("along"), str):
+                body, _, line = given["along"].rpartition(".")
+                name = f"the {line}" if len(line) > 1 else f"the line {line}"
+                found[joint] = name if body in ("", GROUND) else f"{name} of {body}"
+        return found
 
     def line(self, direction: str) -> str:
         """A direction that is named after a joint by the name of its line: ``the normal of the slope``."""
@@ -302,8 +286,3 @@ class SymbolicState:
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
         return self.source.letters(self.state, questions, self.at_rest, self.numbers)
-
-
-def _line_words(body: str, line: str) -> str:
-    name = f"the {line}" if len(line) > 1 else f"the line {line}"
-    return name if body in ("", GROUND) else f"{name} of {body}"

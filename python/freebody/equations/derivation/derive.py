@@ -1,45 +1,52 @@
-"""The equations of a mechanism as an object that prints."""
+"""The equations of a mechanism as a document: configuration, symbols, kinematics, balances, matrix form, what is conserved."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from freebody.document.blocks import Block, Equation, Heading
+import numpy as np
+
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Words, listed
 from freebody.document.document import Document
-from freebody.equations.derivation import conserved, matrices, preamble
+from freebody.equations.derivation import conserved, preamble
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
 from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.derivation.form import Form, Printed
 from freebody.equations.derivation.minimal import minimal
-from freebody.equations.derivation.result import Form, Printed
-from freebody.equations.derivation.sentences import lettered
+from freebody.equations.derivation.sentences import lettered, readable
 from freebody.equations.derivation.single_unknown import wanted
-from freebody.equations.derivation.size_limits import readable
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.collect import quotient
+from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, Tree, symbols
 
 if TYPE_CHECKING:
     import sympy
 
-FORMS = ("minimal", "brute", "constraints")
-_TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
+FORMS = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
+"""The forms of the equations of motion, and what they are called."""
+_ELSEWHERE = "it is among the equations as data and in the generated code"
+_SAME = 1e-9
+"""Part of the largest entry of a matrix by which two are no longer equal."""
+_LOPSIDED = "That it is not symmetric is no slip: its rows are these balances, not Lagrange's equations."
 
 
 @dataclass(frozen=True)
-class Equations:
+class Equations(Document):
     """The equations of motion in one ``form``: minimal, brute or constraints; or the fewest for something wanted.
 
     ``print`` shows the derivation; a notebook typesets it. ``parts`` are the equations with titles, in the order of the rows of
     the matrix form A x = b."""
 
-    form: str
-    letters: Letters
-    document: Document = field(repr=False)
-    content: Form = field(repr=False)
+    form: str = field(kw_only=True)
+    content: Form = field(kw_only=True, repr=False)
+
+    @property
+    def document(self) -> Document:
+        """The derivation."""
+        return Document(self.blocks, self.letters)
 
     @property
     def parts(self) -> tuple[Printed, ...]:
@@ -77,103 +84,69 @@ class Equations:
 
         return matrix(self.mass_matrix), matrix([[x] for x in self.unknowns]), matrix([[b] for b in self.right_hand_side])
 
-    def text(self, *, width: int = 100, ascii: bool = False) -> str:
-        """The derivation as plain text."""
-        return self.document.text(width=width, ascii=ascii)
-
-    def latex(self) -> str:
-        """The derivation as a fragment of a LaTeX article."""
-        return self.document.latex()
-
-    def markdown(self) -> str:
-        """The derivation as Markdown with LaTeX between dollars."""
-        return self.document.markdown()
-
-    def printed(self, kind: str) -> str:
-        """By the ending of a file: txt, tex, md, html or json. Raises ``KeyError`` for any other."""
-        return self.document.printed(kind)
-
-    def save(self, path: str | Path, kind: str = "") -> list[Path]:
-        """Write a file by its ending or ``kind``, see ``printed``, and beside it the sketch for Markdown (.svg) and LaTeX (.pdf).
-        Returns all that is written."""
-        return self.document.save(path, kind or Path(path).suffix.removeprefix("."))
-
-    def json(self) -> str:
-        """The derivation as JSON: letters, and blocks with trees."""
-        return self.document.json()
-
-    def __str__(self) -> str:
-        return self.text()
-
-    def html(self) -> str:
-        """The derivation as a page of HTML, formulas as MathML."""
-        return self.document.html()
-
-    def _repr_html_(self) -> str:
-        return self.document._repr_html_()
-
-    def _repr_latex_(self) -> str:
-        return self.latex()
-
 
 def derive(subject: SymbolicState, form: str = "minimal", want: str | None = None) -> Equations:
     """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
+    letters, title = subject.letters, FORMS.get(form)
     if want is not None:
-        content = wanted(subject, want)
-        return Equations(
-            "wanted", subject.letters, _Writer(subject, f"the fewest for {want}", subject.letters, content).document, content
-        )
-    if form not in FORMS:
-        raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
-    letters = subject.letters
-    if form == "constraints":
+        form, title, content = "wanted", f"the fewest for {want}", wanted(subject, want)
+    elif form == "constraints":
         content, letters = constrained(subject)
-    else:
+    elif form in FORMS:
         content = (minimal if form == "minimal" else brute)(subject)
-    return Equations(form, letters, _Writer(subject, form, letters, content).document, content)
+    else:
+        raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
+    own = form != "constraints"  # else the places of the bodies are the coordinates
+    body: list[Block] = [*content.blocks]
+    if form in FORMS:
+        law = "The law of friction, as the joint slides now"
+        body = [*preamble.kinematics(subject)] * own + body
+        body += [Equation(load, tree, "" if i else law) for i, (load, tree) in enumerate(subject.laws)]
+        body += [*_matrix_form(form, content, subject), *conserved.section(subject, in_letters=own)]
+    first = [Heading(f"{subject.source.name}: equations, {title}", 1), *(preamble.configuration(subject) if own else [])]
+    blocks = (*first, *preamble.letters(letters, used(body)), *body)
+    return Equations(tuple(lettered(readable(block, _ELSEWHERE), letters) for block in blocks), letters, form=form, content=content)
 
 
-@dataclass(frozen=True)
-class _Writer:
-    subject: SymbolicState
-    form: str
-    letters: Letters
-    content: Form
+def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block]:
+    """Matrix form, which that with constraints has as blocks of its own, and first-order form."""
+    system = content.system
+    moving = [x for x in system.unknowns if x.dots]
+    made: list[Block] = []
+    if system.unknowns and form != "constraints":
+        only_moves = system.is_square and len(moving) == len(system.unknowns) and not subject.rows
+        letter, name = ("M", "Mass matrix and right-hand side") if only_moves else ("A", "The equations together")
+        made = [Heading("Matrix form"), MatrixEquation(system.matrix, system.unknowns, system.right, name, letter=letter)]
+        if only_moves:
+            values, tables = subject.values, subject.tables
+            rows = np.array([[evaluate(entry, values, tables) for entry in row] for row in system.matrix], float)
+            made += [Paragraph(_LOPSIDED)] * bool(np.abs(rows - rows.T).max() > _SAME * np.abs(rows).max())
+    if system.unknowns and not system.is_square:
+        made.append(Paragraph(_uneven(len(system.matrix), len(system.unknowns), len(subject.laws))))
+    if moving:
+        places, rates = (listed([Sym(x.name, x.dots - fewer) for x in moving]) for fewer in (2, 1))
+        said: Words = ["For integration the state is z = (", *places, ", ", *rates, "). Its rate is (", *rates, ", ", *listed(moving)]
+        rest = "), of which the first half is in the state and the second solves the equations above at each instant."
+        made += [Heading("First-order form"), Paragraph([*said, rest])]
+        if len(system.unknowns) == len(system.matrix) == 1:
+            made.append(Equation(moving[0], quotient(system.right[0], system.matrix[0][0]), "Here this is"))
+    return made
 
-    @cached_property
-    def document(self) -> Document:
-        body = (
-            [*self._body(), *conserved.section(self.subject, in_letters=self.form != "constraints")]
-            if self.form in FORMS
-            else list(self.content.blocks)
-        )
-        first: list[Block] = [Heading(f"{self.subject.source.name}: equations, {_TITLES.get(self.form, self.form)}", 1)]
-        if self.form != "constraints":
-            first += preamble.configuration(self.subject)
-        blocks = (*first, *preamble.letters(self.letters, used(body)), *body)
-        return Document(tuple(lettered(readable(block), self.letters) for block in blocks), self.letters)
 
-    def _body(self) -> list[Block]:
-        kinematics = [] if self.form == "constraints" else preamble.kinematics(self.subject)
-        laws = [
-            Equation(*law, "The law of friction, as the joint slides now" if not i else "")
-            for i, law in enumerate(self.subject.laws)
-        ]
-        return [*kinematics, *self.content.blocks, *laws, *matrices.section(self.form, self.content, self.subject)]
+def _uneven(equations: int, unknowns: int, laws: int) -> str:
+    these = f"This is one equation in {unknowns} unknowns" if equations == 1 else f"These are {equations} equations in {unknowns} unknowns"
+    if laws and equations + laws == unknowns:
+        return f"{these}: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
+    if equations < unknowns:
+        return f"{these}: redundant constraints, or friction, takes a law of its own besides the balances."
+    return f"{these}: some follow from the others."
 
 
 def used(blocks: Any) -> set[str]:
     """Names of all letters in blocks, and in whatever these hold."""
-    found: set[str] = set()
-    waiting = [blocks]
-    while waiting:
-        each = waiting.pop()
-        if isinstance(each, Tree):
-            found |= {letter.name for letter in symbols(each)}
-        elif isinstance(each, list | tuple):
-            waiting += each
-        elif hasattr(each, "__dataclass_fields__"):
-            waiting += [getattr(each, name) for name in each.__dataclass_fields__]
-    return found
+    if isinstance(blocks, Tree):
+        return {letter.name for letter in symbols(blocks)}
+    fields = [getattr(blocks, name) for name in getattr(blocks, "__dataclass_fields__", ())]
+    return set().union(*map(used, blocks if isinstance(blocks, list | tuple) else fields))

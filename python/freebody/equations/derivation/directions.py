@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from freebody.document.blocks import Vector, Words, Written
 from freebody.equations.derivation.data import Arrow, Motion
-from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import joined
 from freebody.symbolic.collect import factored
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import Name, Taken, direction, subscript, unicode_name
@@ -63,18 +63,17 @@ class Direction:
 
     def sentence(self, axes: Sequence[str]) -> Words:
         """What it is, where the unit vectors along x, along y and across the plane are called ``axes``."""
+        angle, where = self.angle, ""
         if self.link:
-            quarters = self.quarters - 4 * (self.quarters == 3)
-            where = [f"along {self.link.name}, from {self.link.first} to {self.link.second}, "]
-            angle = add(self.angle, mul(number(Fraction(quarters, 2)), Sym(PI)))
-        else:
-            angle, where = self.angle, []
-            if self.owners:
-                where = [f"along the x axis of {joined(self.owners)}, "]
-            elif self.turning:
-                where = [f"(turning with {joined(self.turning)}) "]
-        across = [unit(self.across), f" = {axes[2]} × ", unit(self.along), "."]
-        return [unit(self.along), " points ", *where, "at the angle ", angle, f" from {axes[0]}, counter-clockwise; ", *across]
+            where = f"along {self.link.name}, from {self.link.first} to {self.link.second}, "
+            angle = add(angle, mul(number(Fraction(self.quarters - 4 * (self.quarters == 3), 2)), Sym(PI)))
+        elif self.owners:
+            where = f"along the x axis of {joined(self.owners)}, "
+        elif self.turning:
+            where = f"(turning with {joined(self.turning)}) "
+        along, across = (Written(name, direction(name)) for name in (self.along, self.across))
+        turned = [f" from {axes[0]}, counter-clockwise; ", across, f" = {axes[2]} × ", along, "."]
+        return [along, f" points {where}at the angle ", angle, *turned]
 
 
 @dataclass(frozen=True)
@@ -103,20 +102,20 @@ class Directions:
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
         bodies = [body for body in motions if not body.particle]
         owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
-        turning = {angle: _turning(angle, bodies, moving) for angle in angles}
+        spins = {angle: angle_rate(angle, moving) for angle in angles}
+        turning = {a: tuple(b.body for b in bodies if w is not None and not is_zero(w) and b.omega == w) for a, w in spins.items()}
         angles.sort(key=lambda angle: next((i for i, b in enumerate(bodies) if b.body in turning[angle]), len(bodies)))
         made: list[Direction] = []
         for angle in angles:
             alone = links if not (owners[angle] or turning[angle]) else ()
-            link, quarters = next(
-                ((x, k) for x in alone if (k := x.quarters(angle, moving, values or {})) is not None), (None, 0)
-            )
+            quarters = ((link, link.quarters(angle, moving, values or {})) for link in alone)
+            link, ahead = next(((link, k) for link, k in quarters if k is not None), (None, 0))
             named = [_word(body) for body in (*owners[angle], *turning[angle], *([link.name] if link else []))]
             named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
             taken = {pair.below for pair in made}
             taken |= {word for word in named if any(symbols.owner(Name(stem, (word,))) for stem in "λn")}
             below = next((word for word in named if word not in taken), str(len(made) + 1))
-            made.append(Direction(below, angle, owners[angle], turning[angle], link, quarters))
+            made.append(Direction(below, angle, owners[angle], turning[angle], link, ahead))
         return cls(tuple(made), frozenset(moving), axes(symbols))
 
     def vector(self, arrow: Arrow) -> Vector:
@@ -137,8 +136,8 @@ class Directions:
             rate = angle_rate(pair.angle, self.moving)
             if rate is None or is_zero(rate):
                 continue
-            found.append((_rate(pair.along), Vector(((rate, pair.across),))))
-            found.append((_rate(pair.across), Vector(((mul(number(-1), rate), pair.along),))))
+            for name, size, to in ((pair.along, rate, pair.across), (pair.across, mul(number(-1), rate), pair.along)):
+                found.append((Written(f"d{name}/dt", direction(name, 1)), Vector(((size, to),))))
         return found
 
 
@@ -150,38 +149,17 @@ def axes(symbols: Taken) -> tuple[str, str, str]:
     return x, y, z
 
 
-def unit(name: str) -> Written:
-    """A unit direction in a sentence."""
-    return Written(name, direction(name))
-
-
 def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
     """The rate of a sum of letters with numbers, of which some are ``moving``; None for any other angle."""
-    terms = angle.terms if isinstance(angle, Add) else (angle,)
-    rates = [_term_rate(term, moving) for term in terms]
-    return None if None in rates else add(*rates)
-
-
-def _turning(angle: Tree, bodies: Sequence[Motion], moving: Collection[str]) -> tuple[str, ...]:
-    """The bodies that turn as an angle does."""
-    rate = angle_rate(angle, moving)
-    return tuple(body.body for body in bodies if rate is not None and not is_zero(rate) and body.omega == rate)
-
-
-def _term_rate(term: Tree, moving: Collection[str]) -> Tree | None:
-    changing = [letter for letter in symbols(term) if letter.name in moving]
-    if not changing:
-        return number(0)
-    factors = term.factors if isinstance(term, Mul) else (term,)
-    if len(changing) > 1 or changing[0] not in factors:
-        return None
-    letter = changing[0]
-    return mul(*(Sym(letter.name, letter.dots + 1) if factor == letter else factor for factor in factors))
+    rates: list[Tree] = []
+    for term in angle.terms if isinstance(angle, Add) else (angle,):
+        changing = [letter for letter in symbols(term) if letter.name in moving]
+        factors = term.factors if isinstance(term, Mul) else (term,)
+        if len(changing) > 1 or any(letter not in factors for letter in changing):
+            return None
+        rates += [mul(*(Sym(f.name, f.dots + 1) if f == x else f for f in factors)) for x in changing]
+    return add(*rates)
 
 
 def _word(name: str) -> str:
     return re.sub(r"\W+", "", re.sub(r"\[(\d+)\]", lambda found: subscript(found[1]), name)) or "1"
-
-
-def _rate(name: str) -> Written:
-    return Written(f"d{name}/dt", direction(name, 1))

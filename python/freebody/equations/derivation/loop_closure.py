@@ -6,34 +6,51 @@ from collections.abc import Collection, Sequence
 
 from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph
 from freebody.equations.derivation.data import Row
-from freebody.equations.derivation.meaning import joined
-from freebody.equations.derivation.result import Printed
-from freebody.equations.derivation.system import System
+from freebody.equations.derivation.form import Printed, System
+from freebody.equations.derivation.sentences import clause, joined
 from freebody.equations.linear import Linear, linear_in
-from freebody.symbolic.collect import common_number
-from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, symbols
+from freebody.symbolic.collect import common_number, divided
+from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, negative, symbols
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
     "coupling": ("couples motions", "couple motions"), "lock": ("holds", "hold"), "contact": ("holds", "hold"), "string": ("is taut", "are taut"),
     "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
 }  # fmt: skip
-
 _HELD = ("contact", "string", "stop", "friction")
 _STUCK = ("holds and does not slide", "hold and do not slide")
-
-_AGAIN = "Differentiated once more, for the accelerations"
+_TITLES = {
+    "Loop closure": {"joint"}, "couplings": {"coupling"}, "locks": {"lock"}, "contacts": {*_HELD}, "prescribed motions": {"motion"},
+}  # fmt: skip
 
 
 def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = False) -> list[Block]:
     """The rows at all levels, the derivatives as matrix equations; ``everywhere``: every joint has rows, not those of loops only."""
-    made: list[Block] = [Heading("Constraints" if everywhere else _title(rows)), Paragraph(_why(rows, everywhere))]
+    title = "Constraints"
+    if not everywhere:  # loops, motions, and what touches, as far as there are any
+        title = joined([name for name, kinds in _TITLES.items() if kinds & {row.kind for row in rows}])
+    made: list[Block] = [Heading(title[0].upper() + title[1:]), Paragraph(_why(rows, everywhere))]
     rows = written(rows)
-    made += _positions(rows)
-    made += _velocities(rows, coordinates)
-    system = System.of([row.linear for row in rows], coordinates)
-    above = any(row.rate is not None for row in rows)
-    return made + _together(system, _AGAIN if above else "For the accelerations")
+    held, moving = ([row for row in rows if getattr(row, level) is not None] for level in ("value", "rate"))
+    made += [Equation(row.value, ZERO, "" if i else "For the positions") for i, row in enumerate(held)]
+    try:
+        rates = System.of([_in_rates(row, coordinates) for row in moving], coordinates)
+        made += _together(rates, "Differentiated, for the velocities" if held else "For the velocities")
+    except ValueError:
+        made += [Equation(row.rate, ZERO, "" if i else "Their rates") for i, row in enumerate(moving)]
+    name = "Differentiated once more, for the accelerations" if moving else "For the accelerations"
+    return made + accelerations(rows, coordinates, name)
+
+
+def accelerations(rows: Sequence[Row], coordinates: Sequence[str], name: str = "") -> list[Block]:
+    """Rows, as they are written, at the level of accelerations."""
+    return _together(System.of([row.linear for row in rows], coordinates), name)
+
+
+def _in_rates(row: Row, coordinates: Sequence[str]) -> Linear:
+    """The rate of a row, with the factors of its acceleration, which are the same. Raises ``ValueError`` where it is not linear."""
+    found = linear_in(row.rate, [Sym(name, 1) for name in coordinates])
+    return Linear({Sym(x.name, 1): tree for x, tree in row.linear.coefficients.items() if x.dots == 2}, found.rest)
 
 
 def _together(system: System, name: str) -> list[Block]:
@@ -42,8 +59,7 @@ def _together(system: System, name: str) -> list[Block]:
         return []
     if len(system.matrix) > 1:
         return [MatrixEquation(system.matrix, system.unknowns, system.right, name, letter="J")]
-    left = add(*(mul(entry, x) for entry, x in zip(system.matrix[0], system.unknowns, strict=True)))
-    return [Equation(left, system.right[0], name)]
+    return [Equation(add(*map(mul, system.matrix[0], system.unknowns)), system.right[0], name)]
 
 
 def printed(rows: Sequence[Row]) -> list[Printed]:
@@ -52,72 +68,40 @@ def printed(rows: Sequence[Row]) -> list[Printed]:
 
 
 def written(rows: Sequence[Row]) -> list[Row]:
-    """The rows as a person writes them: without those that say nothing, and with no more minus signs than need be."""
-    said = [_without_common_number(row) for row in rows if not row.says_nothing]
-    return [row.negative if _reads_better_negative(row) else row for row in said]
-
-
-def _without_common_number(row: Row) -> Row:
-    """The row over what all its terms have in common and that has no letters: 0.03 cos(π/9) of the teeth of two gears."""
-    terms = [*row.linear.coefficients.values(), *([] if is_zero(row.linear.rest) else [row.linear.rest])]
-    common = common_number(terms)
-    return row if common == ONE else row.over(common)
-
-
-def _reads_better_negative(row: Row) -> bool:
-    """Whether most terms with coordinates are negative."""
-    tree = next(tree for tree in (row.value, row.rate, row.acceleration) if tree is not None)
-    moving = {x.name for x in row.linear.coefficients}
-    terms = tree.terms if isinstance(tree, Add) else (tree,)
-    signs = [is_negative(term) for term in terms if moving & {x.name for x in symbols(term)}]
-    return 2 * sum(signs) > len(signs)
-
-
-def _title(rows: Sequence[Row]) -> str:
-    """Loops, motions, and what touches, as far as there are any."""
-    kinds = {row.kind for row in rows}
-    named = (
-        ("Loop closure", {"joint"}),
-        ("couplings", {"coupling"}),
-        ("locks", {"lock"}),
-        ("contacts", set(_HELD)),
-        ("prescribed motions", {"motion"}),
-    )
-    found = joined([name for name, of in named if kinds & of])
-    return found[0].upper() + found[1:]
+    """The rows as a person writes them: without those that say nothing, without numbers that all terms have in common (0.03 cos(π/9)
+    of the teeth of two gears), and with signs by which most terms with coordinates are positive."""
+    made = []
+    for row in (row for row in rows if not row.says_nothing):
+        terms = [*row.linear.coefficients.values(), *([] if is_zero(row.linear.rest) else [row.linear.rest])]
+        if (common := common_number(terms)) != ONE:
+            row = row.with_trees(lambda tree, by=common: divided(tree, by))
+        tree = next(tree for tree in (row.value, row.rate, row.acceleration) if tree is not None)
+        parts = tree.terms if isinstance(tree, Add) else (tree,)
+        signs = [is_negative(part) for part in parts if _names(row) & {x.name for x in symbols(part)}]
+        made.append(row.with_trees(negative) if 2 * sum(signs) > len(signs) else row)
+    return made
 
 
 def _why(rows: Sequence[Row], everywhere: bool) -> str:
-    said = written(rows)
-    number = "This is one equation" if len(said) == 1 else f"These are {len(said)} equations"
-    return f"{what(rows, everywhere)}. {number} among the coordinates.{_of_rates(rows)}{_silent(rows)}"
-
-
-def _silent(rows: Sequence[Row]) -> str:
-    """Which rows say nothing."""
-    names = [row.name for row in rows if row.says_nothing]
-    counts = [
-        f"{'one more' if names.count(name) == 1 else f'{names.count(name)} more'} at {name}" for name in dict.fromkeys(names)
-    ]
-    return f" What would be {joined(counts)} holds by itself: other joints see to it." if names else ""
+    """What the rows are, how many equations, which have none for the positions where others have, and which say nothing."""
+    number = sum(not row.says_nothing for row in rows)
+    said = f"{what(rows, everywhere)}. {'This is one equation' if number == 1 else f'These are {number} equations'} among the coordinates."
+    rates = list(dict.fromkeys("sticking" if _sticks(row) else row.name for row in rows if row.value is None))
+    if rates and any(row.value is not None for row in rows):
+        said += f" Of these {clause(rates, 'has', 'have')} none for the positions."
+    if idle := [row.name for row in rows if row.says_nothing]:
+        counts = [f"{'one' if (n := idle.count(name)) == 1 else n} more at {name}" for name in dict.fromkeys(idle)]
+        said += f" What would be {joined(counts)} holds by itself: other joints see to it."
+    return said
 
 
 def what(rows: Sequence[Row], everywhere: bool = False) -> str:
     """What the rows stand for: ``C closes a loop; rope is taut``; ``everywhere``: joints of a tree have rows, too."""
     parts = []
-    for kind, (one, several) in _WHAT.items():
-        one, several = ("holds", "hold") if everywhere and kind == "joint" else (one, several)
+    for kind, words in _WHAT.items():
         if names := list(dict.fromkeys(row.name for row in rows if row.kind == kind)):
-            parts.append(f"{joined(names)} {one if len(names) == 1 else several}")
+            parts.append(clause(names, *(("holds", "hold") if everywhere and kind == "joint" else words)))
     return "; ".join(parts)
-
-
-def _of_rates(rows: Sequence[Row]) -> str:
-    """Which rows tell nothing of positions, where others do."""
-    silent = list(dict.fromkeys("sticking" if _sticks(row) else row.name for row in rows if row.value is None))
-    if not silent or all(row.value is None for row in rows):
-        return ""
-    return f" Of these {joined(silent)} {'has' if len(silent) == 1 else 'have'} none for the positions."
 
 
 def _sticks(row: Row) -> bool:
@@ -133,43 +117,16 @@ def holding(rows: Sequence[Row]) -> str:
         own = [row for row in held if row.name == name]
         words = _STUCK if {_sticks(row) for row in own} == {True, False} else _WHAT[own[0].kind]
         found.setdefault(words, []).append(name)
-    return joined([f"{joined(names)} {words[len(names) > 1]}" for words, names in found.items()]) if found else ""
+    return joined([clause(names, *words) for words, names in found.items()]) if found else ""
 
 
 def followers(rows: Sequence[Row], free: Collection[str], needed: Collection[str]) -> list[Row]:
     """The rows that tie accelerations of coordinates ``needed``, which are not ``free``, to each other and to free ones."""
     tied = set(needed) - set(free)
-    while more := {x.name for row in rows if tied & _names(row) for x in row.linear.coefficients} - tied - set(free):
+    while more := {name for row in rows if tied & _names(row) for name in _names(row)} - tied - set(free):
         tied |= more
     return [row for row in rows if tied & _names(row)]
 
 
-def accelerations(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
-    """Rows at the level of accelerations only."""
-    return _together(System.of([row.linear for row in written(rows)], coordinates), "")
-
-
 def _names(row: Row) -> set[str]:
     return {x.name for x in row.linear.coefficients}
-
-
-def _positions(rows: Sequence[Row]) -> list[Block]:
-    held = [row for row in rows if row.value is not None]
-    firsts = "For the positions"
-    return [Equation(row.value, ZERO, firsts if i == 0 else "") for i, row in enumerate(held)]
-
-
-def _velocities(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
-    held = [row for row in rows if row.rate is not None]
-    try:
-        system = System.of([_in_rates(row, coordinates) for row in held], coordinates)
-    except ValueError:
-        return [Equation(row.rate, ZERO, "Their rates" if i == 0 else "") for i, row in enumerate(held)]
-    above = any(row.value is not None for row in rows)
-    return _together(system, "Differentiated, for the velocities" if above else "For the velocities")
-
-
-def _in_rates(row: Row, coordinates: Sequence[str]) -> Linear:
-    """The rate of a row, with the factors of its acceleration, which are the same. Raises ``ValueError`` where it is not linear."""
-    found = linear_in(row.rate, [Sym(name, 1) for name in coordinates])
-    return Linear({Sym(x.name, 1): tree for x, tree in row.linear.coefficients.items() if x.dots == 2}, found.rest)

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.core import Load
 from freebody.document.blocks import Block, Equation, Paragraph, Written
 from freebody.equations.balances.conserved_momenta import ConservedMomentum, independent, lasting
 from freebody.equations.balances.reasons import Place, agree, why_absent
-from freebody.equations.derivation.balance_text import size
+from freebody.equations.derivation.balance_text import extent
 from freebody.equations.derivation.data import Balance, SymbolicState
-from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import joined
 from freebody.solve.perturbed_states import wandering
 from freebody.solve.symbols import load_words
 from freebody.symbolic.collect import factored, quotient
@@ -24,7 +23,6 @@ from freebody.symbolic.tree import Add, Tree, add, is_negative, is_zero, negativ
 _ABSENT = 1e-9
 """Part of a load below which it has none in a balance."""
 _NONE = "No momentum of bodies that are joined is conserved: along no direction, about no fixed point and about no mass centre."
-_CANCEL = "in this they cancel each other"
 
 
 @dataclass(frozen=True)
@@ -49,8 +47,7 @@ def momenta(subject: SymbolicState) -> list[Momentum]:
 def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> bool:
     """Whether a balance has no loads symbolically; or has none in numbers, and loops and contacts are closed, which letters do not see.
     The numbers are enough only if they were taken at several places."""
-    moving = {c["name"] for c in subject.coordinates}
-    stands = found.twist.question == {"about": "centre"} or not any(x.name in moving for x in symbols(*balance.place.xy))
+    stands = found.twist.question == {"about": "centre"} or not any(x.name in subject.names for x in symbols(*balance.place.xy))
     return (is_zero(balance.left) and stands) or (found.elsewhere and bool(subject.rows))
 
 
@@ -58,9 +55,16 @@ def section(subject: SymbolicState, in_letters: bool) -> list[Block]:
     """Each with its reason; ``in_letters``: and what it is in the coordinates."""
     made: list[Block] = []
     for each in momenta(subject):
-        made.append(Paragraph(_sentence(subject, each)))
+        found, of = each.found, ""
+        if not 1 < len(found.bodies) == len(subject.free.bodies):
+            of = f" of {' + '.join(found.bodies)}"
+        where = found.twist.name if found.turns else subject.line(found.twist.name)
+        if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
+            where = "its mass centre"
+        what = f"angular momentum{of} about" if found.turns else f"momentum{of} along"
+        made.append(Paragraph(f"The {what} {where} is conserved: {_reason(subject, found, where)}."))
         if in_letters:
-            made.append(Equation(_letter(subject, each.found), each.momentum))
+            made.append(Equation(_letter(subject, found), each.momentum))
     return made or [Paragraph(_NONE)]
 
 
@@ -70,12 +74,10 @@ def _letter(subject: SymbolicState, found: ConservedMomentum) -> Written:
     about, along = question.get("about"), question.get("along")
     whole = len(found.bodies) == len(subject.free.bodies)
     point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
-    if whole and isinstance(along, str):
-        name = subject.symbols.quantity(f"L_{along}", f"momentum along {along}")
-        return Written.of(name)
-    if whole and point:
+    if whole and point and not isinstance(along, str):
         return Written(f"H/{point}", (Script(typed("H"), typed("/", word(point))),))
-    name = subject.symbols.quantity(*("H", "angular momentum") if found.turns else ("L", "momentum"))
+    usual = ("H", "angular momentum") if found.turns else ("L", "momentum")
+    name = subject.symbols.quantity(*((f"L_{along}", f"momentum along {along}") if whole and isinstance(along, str) else usual))
     return Written.of(name)
 
 
@@ -90,38 +92,22 @@ def _written(subject: SymbolicState, balance: Balance) -> Tree:
     return negative(made) if not isinstance(made, Add) and is_negative(made) else made
 
 
-def _sentence(subject: SymbolicState, each: Momentum) -> str:
-    bodies = each.found.bodies
-    whole = 1 < len(bodies) == len(subject.free.bodies)
-    of = "" if whole else f" of {' + '.join(bodies)}"
-    what = "angular momentum" if each.found.turns else "momentum"
-    where = f"{'about' if each.found.turns else 'along'} {_name(subject, each.found)}"
-    return f"The {what}{of} {where} is conserved: {_reason(subject, each.found)}."
-
-
-def _name(subject: SymbolicState, found: ConservedMomentum) -> str:
-    if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
-        return "its mass centre"
-    return found.twist.name if found.turns else subject.line(found.twist.name)
-
-
-def _reason(subject: SymbolicState, found: ConservedMomentum) -> str:
-    place = Place("AMB" if found.turns else "LMB", _name(subject, found), found.at, False)
+def _reason(subject: SymbolicState, found: ConservedMomentum, where: str) -> str:
+    """Why no load from outside changes it; known loads that each would are said to cancel."""
+    place, length = Place("AMB" if found.turns else "LMB", where, found.at, False), extent(subject.free)
     said: dict[str, list[str]] = {}
     for i, load in enumerate(subject.free.loads):
         if load.follows or load.inside(found.bodies) or not np.any(load.unit(found.bodies)):
             continue
-        has_friction = any(other.follows and other.follows[0] == i for other in subject.free.loads)
-        why = why_absent(load, found.bodies, place, size(subject), has_friction) if load.unknown or not _works(load, found) else _CANCEL
+        x, y, moment = load.unit(found.bodies, found.at if found.turns else (0.0, 0.0))
+        part = moment if found.turns else x * found.at[0] + y * found.at[1]
+        if not load.unknown and abs(part) > _ABSENT * max(1.0, abs(x), abs(y), abs(moment)):
+            why = "in this they cancel each other"
+        else:
+            has_friction = any(other.follows and other.follows[0] == i for other in subject.free.loads)
+            why = why_absent(load, found.bodies, place, length, has_friction)
         said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load, found.bodies))
     if not said:
         return "nothing acts from outside"
     verb = "acts" if sum(map(len, said.values())) == 1 else "act"
     return f"from outside {verb} {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"
-
-
-def _works(load: Load, found: ConservedMomentum) -> bool:
-    """Whether a known load has a part in the balance by itself."""
-    x, y, moment = load.unit(found.bodies, found.at if found.turns else (0.0, 0.0))
-    power = moment if found.turns else x * found.at[0] + y * found.at[1]
-    return bool(abs(power) > _ABSENT * max(1.0, abs(x), abs(y), abs(moment)))

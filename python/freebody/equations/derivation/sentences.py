@@ -1,40 +1,87 @@
-"""Loads in sentences have the letters that they have in the equations."""
+"""Sentences of a derivation: lists of names, loads by their letters in the equations, and what is too long to be printed."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 
-from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Words, pieces
+from freebody.document.blocks import (
+    Block,
+    Bullets,
+    Equation,
+    Heading,
+    Matrices,
+    Matrix,
+    MatrixEquation,
+    Paragraph,
+    Words,
+    is_tree,
+    pieces,
+)
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.tree import Sym
+from freebody.symbolic.tree import Sym, walk
+
+LONGEST = 2500
+"""Letters, numbers and operations of an expression beyond which nobody reads it."""
+
+
+def joined(words: Sequence[str]) -> str:
+    """``a, b and c``."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def clause(names: Sequence[str], one: str, several: str) -> str:
+    """The names with a verb in their number: ``a and b are``."""
+    return f"{joined(names)} {one if len(names) == 1 else several}"
 
 
 def lettered(block: Block, letters: Letters) -> Block:
     """The block with every unknown load that its sentences name by its symbol, ``track.Fn``, as a letter."""
     symbols = sorted(letters.of_kind("unknown"), key=len, reverse=True)
-    if not symbols:
-        return block
     named = re.compile(rf"(?<![\w.])({'|'.join(map(re.escape, symbols))})(?![\w])")
+
+    def put(words: Words) -> Words:
+        said, found = [piece for piece in pieces(words) if piece != ""], []
+        for piece in said:
+            parts = named.split(piece) if isinstance(piece, str) else [piece]
+            found += [Sym(part) if place % 2 else part for place, part in enumerate(parts) if part != ""]
+        return words if found == said else found
+
     match block:
-        case Heading(words) | Paragraph(words):
-            return replace(block, words=_lettered(words, named))
+        case Heading(words) | Paragraph(words) if symbols:
+            return replace(block, words=put(words))
+        case Bullets(items) if symbols:
+            return Bullets([put(item) for item in items])
+        case Equation() if symbols:
+            return replace(block, name=put(block.name), note=put(block.note))
+    return block
+
+
+def readable(block: Block, elsewhere: str) -> Block:
+    """The block, or a sentence in its place where an expression in it is too long; ``elsewhere`` says where it is."""
+    match block:
         case Bullets(items):
-            return Bullets([_lettered(item, named) for item in items])
-        case Equation():
-            return replace(block, name=_lettered(block.name, named), note=_lettered(block.note, named))
+            sizes = [_signs(pieces(item)) for item in items]
+            shown = zip(items, sizes, strict=True)
+            return Bullets([words if size <= LONGEST else [*_texts(words), f"an expression of {size} signs"] for words, size in shown])
+        case Equation(_, Matrices((Matrix(rows),))):
+            size = max(map(_signs, rows), default=0)
+        case Equation(left, right):
+            size = _signs([left, right])
+        case MatrixEquation(matrix, _, right):
+            size = max(map(_signs, [*matrix, right]), default=0)
         case _:
             return block
+    if size <= LONGEST:
+        return block
+    name = [*pieces(block.name), ": "] if block.name else []
+    return Paragraph([*name, f"an expression of {size} signs, too long to be read; {elsewhere}."])
 
 
-def _lettered(words: Words, named: re.Pattern[str]) -> Words:
-    if not any(isinstance(piece, str) and named.search(piece) for piece in pieces(words)):
-        return words
-    found: list = []
-    for piece in pieces(words):
-        if not isinstance(piece, str):
-            found.append(piece)
-            continue
-        for place, part in enumerate(named.split(piece)):
-            found += [Sym(part) if place % 2 else part] if part else []
-    return found
+def _texts(words: Words) -> list[str]:
+    return [piece for piece in pieces(words) if isinstance(piece, str)]
+
+
+def _signs(parts: Sequence[object]) -> int:
+    return sum(1 for tree in parts if is_tree(tree) for _ in walk(tree))

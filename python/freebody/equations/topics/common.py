@@ -10,8 +10,7 @@ from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.data import Arrow, SymbolicState
 from freebody.equations.derivation.derive import used
-from freebody.equations.derivation.sentences import lettered
-from freebody.equations.derivation.size_limits import readable
+from freebody.equations.derivation.sentences import lettered, readable
 from freebody.symbolic.collect import factored, pythagorean
 from freebody.symbolic.differentiate import derivative
 from freebody.symbolic.letters import Letter, Letters
@@ -43,11 +42,6 @@ def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: 
     short = [readable(block, _ELSEWHERE) for block in blocks]
     made = (first, *preamble.configuration(subject), *preamble.letters(letters, used(short)), *short)
     return Document(tuple(lettered(block, letters) for block in made), letters)
-
-
-def moving_names(subject: SymbolicState) -> list[str]:
-    """The names of the coordinates."""
-    return [c["name"] for c in subject.coordinates]
 
 
 def rate(tree: Tree, coordinates: Collection[str]) -> Tree:

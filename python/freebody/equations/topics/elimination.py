@@ -12,7 +12,7 @@ from freebody.equations.derivation import conserved
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import linear_system, solve
-from freebody.equations.topics.common import NotHere, brief, document, moving_names, rate, subject_of
+from freebody.equations.topics.common import NotHere, brief, document, rate, subject_of
 from freebody.equations.topics.lagrange import Lagrange, equations
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.symbols import unicode_name
@@ -48,7 +48,7 @@ def eliminated(subject: SymbolicState) -> Eliminated:
     constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}
     rates = _rates(subject, gone, constants)
     kept = [each for each in found if each not in gone]
-    names = moving_names(subject)
+    names = subject.names
     second = {Sym(x.name, 2): rate(tree, [n for n in names if n not in constants]) for x, tree in rates.items()}
     left = {each.coordinate: _bare(subject, _put(subject, each.residual, rates, second)) for each in kept}
     total = conserved.total(subject)
@@ -100,7 +100,7 @@ def _bare(subject: SymbolicState, tree: Tree) -> Tree:
     kept = sympy.Mul(
         *(factor**n for factor, n in sympy.factor_list(above)[1] if not {str(x) for x in factor.free_symbols} <= fixed)
     )
-    moving = [Sym(name, 2) for name in moving_names(subject)]
+    moving = [Sym(name, 2) for name in subject.names]
     parts = linear_in(from_sympy(sympy.expand(kept)), moving)
     terms = [mul(brief(factor, subject.letters), x) for x, factor in parts.coefficients.items()]
     return add(*terms, brief(parts.rest, subject.letters))

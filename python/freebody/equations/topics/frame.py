@@ -11,7 +11,7 @@ from freebody.equations.derivation import preamble
 from freebody.equations.derivation.data import Arrow, Direction, SymbolicState
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.linear import linear_in
-from freebody.equations.topics.common import NotHere, document, known, moving_names, place_of, rates, spread, subject_of
+from freebody.equations.topics.common import NotHere, document, known, place_of, rates, spread, subject_of
 from freebody.symbolic.collect import factored, quotient
 from freebody.symbolic.formula import Atom, Script, bold
 from freebody.symbolic.simplify import equal
@@ -102,7 +102,7 @@ def _prescribed(subject: SymbolicState, directions: Directions, arrows: Mapping[
 
 def _given(tree: Tree | None, subject: SymbolicState, dots: int) -> tuple[Sym, Tree] | None:
     """A rate or acceleration that is all that stands in what vanishes, and what it is."""
-    unknown = [x for x in (Sym(name, dots) for name in moving_names(subject)) if tree is not None and x in symbols(tree)]
+    unknown = [x for x in (Sym(name, dots) for name in subject.names) if tree is not None and x in symbols(tree)]
     if tree is None or len(unknown) != 1:
         return None
     parts = linear_in(tree, unknown)
@@ -116,7 +116,7 @@ def _with(arrow: Arrow, known: Mapping[Sym, Tree]) -> Arrow:
 
 
 def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
-    names = moving_names(subject)
+    names = subject.names
     v = rates(place.xy, names)
     a = rates(v, names)
     gap = [axis for axis in (0, 1) for found, word in ((v, "v"), (a, "a")) if not equal(found[axis], arrows[word].xy[axis])]

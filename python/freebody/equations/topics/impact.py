@@ -13,9 +13,9 @@ from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, 
 from freebody.document.document import Document
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
-from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import joined
 from freebody.equations.solve import Singular, TooLarge
-from freebody.equations.topics.common import document, moving_names
+from freebody.equations.topics.common import document
 from freebody.equations.topics.impact_equations import Impact, after, blow, hammered
 from freebody.equations.topics.impact_rows import Rows
 from freebody.equations.topics.impulse_momentum import Solution, jumps
@@ -127,7 +127,7 @@ def _of_bodies(found: Impact, stated: Sequence[Stated]) -> list[Block]:
 
 
 def _with_impulses(found: Impact, each: Stated) -> Equation:
-    unknown = [Sym(after(name), 1) for name in moving_names(found.subject)]
+    unknown = [Sym(after(name), 1) for name in found.subject.names]
     left = collected(found.acting(each.balance), list(found.impulses.values()))
     return Equation(left, collected(found.jump(each.balance), unknown), _title(each.title), note=_left_out(found, each))
 
@@ -221,7 +221,7 @@ def _matrix(found: Impact) -> list[Block]:
     """All equations together in numbers."""
     rows = Rows.of(found)
     matrix, right = rows.matrix(found)
-    unknowns = [Sym(after(name), 1) for name in moving_names(found.subject)] + rows.impulses
+    unknowns = [Sym(after(name), 1) for name in found.subject.names] + rows.impulses
     name = "The balances of the coordinates, then what holds, in numbers (SI) at this impact"
     return [MatrixEquation([list(map(_figure, row)) for row in matrix], unknowns, list(map(_figure, right)), name)]
 

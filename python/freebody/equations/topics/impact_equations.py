@@ -17,7 +17,7 @@ from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.data import Balance, Row, SymbolicState
 from freebody.equations.linear import linear_in
-from freebody.equations.topics.common import NotHere, moving_names
+from freebody.equations.topics.common import NotHere
 from freebody.impact.impacts import Impulsive, NoImpact
 from freebody.impact.symbols import ImpulseNaming
 from freebody.solve.symbols import load_words
@@ -147,7 +147,7 @@ class Impact:
 
     def after(self, tree: Tree) -> Tree:
         """An expression with the rates after the impact."""
-        return put(tree, {Sym(name, 1): Sym(after(name), 1) for name in moving_names(self.subject)})
+        return put(tree, {Sym(name, 1): Sym(after(name), 1) for name in self.subject.names})
 
     def jump(self, balance: Balance) -> Tree:
         """Momentum after less momentum before; what is struck from outside stood still."""
@@ -192,7 +192,7 @@ class Impact:
     @cached_property
     def zeros(self) -> dict[Sym, Tree]:
         """Coordinates, and rates before the impact, that are 0 there; and coordinates that are then as long as what holds."""
-        state, names = self.subject.state, moving_names(self.subject)
+        state, names = self.subject.state, self.subject.names
         found = [Sym(name) for name, x in zip(names, state.q, strict=True) if abs(x) < _NOTHING]
         found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
         zeros: dict[Sym, Tree] = dict.fromkeys(found, ZERO)
@@ -203,7 +203,7 @@ class Impact:
         under = to_sympy(put(root[0], zeros))
         factor, square = under.as_coeff_Mul()
         letter = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
-        if not isinstance(letter, Sym) or letter.name not in moving_names(self.subject):
+        if not isinstance(letter, Sym) or letter.name not in self.subject.names:
             return None
         size = mul(root[1], from_sympy(factor ** (-to_sympy(Num(_HALF)))))
         return letter, size if self.subject.values[letter] > 0 else negative(size)
@@ -230,7 +230,7 @@ class Impact:
         made = [
             *(
                 Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the impact")
-                for name in moving_names(self.subject)
+                for name in self.subject.names
             ),
             *(self._letter(load) for load in self.subject.blow.acting),
             *(Letter(self.coefficients[name].name, "parameter", "", f"restitution at {name}") for name in own),

@@ -9,7 +9,6 @@ import numpy as np
 
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import TooLarge
-from freebody.equations.topics.common import moving_names
 from freebody.equations.topics.impact_equations import Condition, Impact, after
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, mul, operations
@@ -33,7 +32,7 @@ class Rows:
     @classmethod
     def of(cls, found: Impact) -> Rows:
         """Those of an impact, without impulses that no coordinate feels, and without conditions that hold by themselves."""
-        before = [Sym(name, 1) for name in moving_names(found.subject)]
+        before = [Sym(name, 1) for name in found.subject.names]
         now, impulses = [Sym(after(x.name), 1) for x in before], list(found.impulses.values())
         balances = [each.balance for each in found.of_coordinates()]
         gives = [_row(found.acting(each), impulses) for each in balances]
@@ -56,7 +55,7 @@ class Rows:
     def matrix(self, found: Impact) -> tuple[list[list[float]], list[float]]:
         """A and b of A (rates after, impulses) = b, in numbers."""
         n, m, values, tables = len(self.mass), len(self.impulses), found.values, found.subject.tables
-        before = np.array([values[Sym(name, 1)] for name in moving_names(found.subject)])
+        before = np.array([values[Sym(name, 1)] for name in found.subject.names])
 
         def number(tree: Tree) -> float:
             return float(evaluate(tree, values, tables))

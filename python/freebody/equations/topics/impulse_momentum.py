@@ -11,7 +11,7 @@ from freebody.equations.answers import with_positive_divisors
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.abbreviations import Names
-from freebody.equations.topics.common import moving_names, spread
+from freebody.equations.topics.common import spread
 from freebody.equations.topics.impact_equations import Impact, after
 from freebody.equations.topics.impact_rows import MOST_OPERATIONS, Row, Rows, require_brief
 from freebody.symbolic.collect import factored, quotient, without_circles
@@ -102,7 +102,7 @@ class _System:
     def __init__(self, found: Impact, rows: Rows) -> None:
         self.found = found
         self.names = Names(frozenset(found.letters))
-        self.before = [Sym(name, 1) for name in moving_names(found.subject)]
+        self.before = [Sym(name, 1) for name in found.subject.names]
         self.after = [Sym(after(x.name), 1) for x in self.before]
         self.known = self._bound(found.rates_held_before(), self.before)
         self.follow = self._follow([each.rate for each, _ in rows.conditions if is_zero(each.back)])

@@ -17,10 +17,10 @@ from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import joined
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, solve
-from freebody.equations.topics.common import document, moving_names, subject_of
+from freebody.equations.topics.common import document, subject_of
 from freebody.symbolic.collect import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import typed
@@ -65,7 +65,7 @@ def equations(subject: SymbolicState) -> tuple[Tree, Tree, list[Lagrange]]:
 
 def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequence[Stated]) -> list[list[Tree]] | None:
     """Factors S such that equation i is Σ S[i][j] balance j, confirmed at random values; None where none are found symbolically."""
-    accelerations = [Sym(name, 2) for name in moving_names(subject)]
+    accelerations = [Sym(name, 2) for name in subject.names]
     inertia = [[balance.balance.linear.coefficients.get(x, ZERO) for x in accelerations] for balance in balances]
     made: list[list[Tree]] = []
     for each in of:

@@ -12,7 +12,7 @@ from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragra
 from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.derivation.meaning import joined
+from freebody.equations.derivation.sentences import joined
 from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.solve import TooLarge
 from freebody.equations.substitutions import Substitutions, given
@@ -88,7 +88,7 @@ def _require_stillness(subject: SymbolicState) -> None:
 
 def _require_regular(subject: SymbolicState) -> None:
     """Raises ``NotHere`` where loops hold less than beside it."""
-    names = [c["name"] for c in subject.coordinates]
+    names = subject.names
     ranks = [
         len(independent(np.array([[row.coefficients[name] for name in names] for row in free.rows])))
         for free in nearby(subject.source, subject.state)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from freebody.document.blocks import Block, Equation, Heading, Written
 from freebody.document.document import Document
-from freebody.equations.derivation.balance_text import Stated, blocks
+from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.topics.common import document, group_of, subject_of
 from freebody.symbolic.symbols import Name
 
@@ -28,5 +28,5 @@ def mass_centre(mechanism: Builder, state: State, *, bodies: Sequence[str] | str
     made += [Equation(Written.of(Name(axis, ("G",))), tree) for axis, tree in zip("xy", found[-1].place.xy, strict=True)]
     made.append(Heading("What moves it"))
     for number, (where, balance) in enumerate(zip(places, found, strict=True), 1):
-        made += blocks(subject, Stated(balance, where, "about" if balance.turns else "along", str(number)))
+        made += Stated(balance, where, "about" if balance.turns else "along", str(number)).blocks(subject)
     return document(subject, f"the mass centre of {' + '.join(group or subject.free.bodies)}", made)

@@ -9,19 +9,7 @@ from freebody.core import GROUND
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
 from freebody.equations.derivation.data import Balance, SymbolicState
-from freebody.equations.topics.common import (
-    NotHere,
-    cross,
-    document,
-    group_of,
-    known,
-    moving_names,
-    place_of,
-    rate,
-    rates,
-    spread,
-    subject_of,
-)
+from freebody.equations.topics.common import NotHere, cross, document, group_of, known, place_of, rate, rates, spread, subject_of
 from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
 from freebody.symbolic.simplify import equal
 from freebody.symbolic.symbols import name_formula
@@ -46,7 +34,7 @@ def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies
 
 
 def _first_moving(subject: SymbolicState) -> str:
-    names = moving_names(subject)
+    names = subject.names
     for name, (body, _, _) in subject.points.items():
         if body != GROUND and not all(is_zero(part) for part in rates(place_of(subject, name).xy, names)):
             return name
@@ -54,7 +42,7 @@ def _first_moving(subject: SymbolicState) -> str:
 
 
 def _blocks(subject: SymbolicState, group: list[str], point: str) -> list[Block]:
-    names = moving_names(subject)
+    names = subject.names
     questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
     of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])
     v = rates(of.place.xy, names)
