@@ -25,8 +25,8 @@ from freebody.symbolic.tree import Sym, Tree, symbols
 if TYPE_CHECKING:
     import sympy
 
-FORMS = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
-"""The forms of the equations of motion, and what they are called."""
+_TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
+FORMS = tuple(_TITLES)
 _ELSEWHERE = "it is among the equations as data and in the generated code"
 _SAME = 1e-9
 """Part of the largest entry of a matrix by which two are no longer equal."""
@@ -89,7 +89,7 @@ def derive(subject: SymbolicState, form: str = "minimal", want: str | None = Non
     """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
-    letters, title = subject.letters, FORMS.get(form)
+    letters, title = subject.letters, _TITLES.get(form)
     if want is not None:
         form, title, content = "wanted", f"the fewest for {want}", wanted(subject, want)
     elif form == "constraints":
