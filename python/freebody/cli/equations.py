@@ -99,7 +99,9 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
 
     if form in TOPICS:
         if want or at_rest:
-            raise UserError(f"--for and --at-rest are not for --form {form}", f"by --set it takes {described(form)[1] or 'no options'}")
+            raise UserError(
+                f"--for and --at-rest are not for --form {form}", f"by --set it takes {described(form)[1] or 'no options'}"
+            )
         return topic(mechanism, form, **fixed)
     if form not in FORMS:
         raise UserError(f"there is no form {form!r}", f"there are {', '.join((*FORMS, SOLVED, *TOPICS))}")

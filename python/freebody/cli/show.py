@@ -9,13 +9,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from freebody.core import Indeterminate
 from freebody.solve.rich_tables import table
-from freebody.views.peaks import Peak, peak_reactions
+from freebody.views.peaks import peak_reactions
 
 if TYPE_CHECKING:
     from freebody.core import Change
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3
-_LATER = {True: "", False: "comes later"}
 
 
 def dumped(data: Any) -> str:
@@ -57,27 +56,32 @@ def put(*things: Any) -> None:
 def runs(done: Sequence[tuple[Run, Sequence[Path]]], as_json: bool) -> None:
     """Runs one after the other, each with the files that were made; of several, JSON is a list."""
     if as_json:
-        data = [_run_as_dict(each, peak_reactions(each), files) for each, files in done]
+        data = [_run_as_dict(each, files) for each, files in done]
         print(dumped(data if len(data) > 1 else data[0]))
         return
     for each, files in done:
-        run(each, files)
+        run(each)
+        written(files)
 
 
-def run(done: Run, files: Sequence[Path]) -> None:
-    """What happened, what was asked for, whether the energy adds up, the largest reactions, what was written."""
-    peaks = peak_reactions(done)
+def run(done: Run) -> None:
+    """What happened, what was asked for, whether the energy adds up, the largest reactions."""
+    reported = [(label, each.value, each.unit, each.t, each.note) for label, each in done.report.items()]
+    ledger = [(name, float(values[0]), float(values[-1])) for name, values in done.energy.entries.items()]
+    peaks = [
+        (peak.joint, peak.body, peak.size if peak.determinate else math.nan, peak.t, peak.couple, peak.t_couple)
+        for peak in peak_reactions(done)
+    ]
     put(
         _ending(done),
         *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
         table("mode changes", ["t [s]", "kind", "what", "energy lost [J]", ""], switch_rows(done.changes)),
-        table("report", ["quantity", "value", "unit", "t [s]", ""], map(_report_row, done.report.items())),
-        table("energy", ["", "start [J]", "end [J]"], _ledger_rows(done)),
+        table("report", ["quantity", "value", "unit", "t [s]", ""], reported),
+        table("energy", ["", "start [J]", "end [J]"], ledger),
         f"Energy error below {closure(done):.1e} of the largest entry.\n",
-        table("largest reactions", ["", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], map(_peak_row, peaks)),
+        table("largest reactions", ["", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], peaks),
     )
-    written(files)
 
 
 def _ending(done: Run) -> Text:
@@ -99,7 +103,7 @@ def closure(done: Run) -> float:
     return float(worst / entries) if entries else float(worst)
 
 
-def _run_as_dict(done: Run, peaks: Sequence[Peak], files: Sequence[Path]) -> dict[str, Any]:
+def _run_as_dict(done: Run, files: Sequence[Path]) -> dict[str, Any]:
     return {
         "name": done.name,
         "outcome": asdict(done.outcome),
@@ -107,7 +111,7 @@ def _run_as_dict(done: Run, peaks: Sequence[Peak], files: Sequence[Path]) -> dic
         "changes": [asdict(change) for change in done.changes],
         "report": {label: asdict(reported) for label, reported in done.report.items()},
         "energy": {"balance": float(abs(done.energy.balance).max(initial=0.0)), "relative": closure(done)},
-        "peaks": [asdict(peak) for peak in peaks],
+        "peaks": [asdict(peak) for peak in peak_reactions(done)],
         "stats": done.stats,
         "files": [str(path) for path in files],
     }
@@ -121,22 +125,6 @@ def switch_rows(changes: Sequence[Change]) -> list[Row]:
     return [*rows[:_FIRST], ("…", f"{len(rows) - _FIRST - _LAST} more", f"of {len(rows)}", "", ""), *rows[-_LAST:]]
 
 
-def _report_row(item: tuple[str, Any]) -> Row:
-    label, reported = item
-    blank = [reported.value, reported.unit, reported.t, reported.note]
-    return label, *("" if cell is None else cell for cell in blank)
-
-
-def _ledger_rows(done: Run) -> list[Row]:
-    return [(name, float(values[0]), float(values[-1])) for name, values in done.energy.entries.items()]
-
-
-def _peak_row(peak: Peak) -> Row:
-    if not peak.determinate:
-        return peak.joint, peak.body, "indeterminate", "", "", ""
-    return peak.joint, peak.body, *("" if x is None else x for x in (peak.size, peak.t, peak.couple, peak.t_couple))
-
-
 # One instant
 
 
@@ -144,61 +132,58 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
     """The first instant whole; the others, by other routes, by how far they are from it; what events at the start make of it."""
     first, *others = solved
     if as_json:
-        after = {"after_opening": _opening_as_dict(opening, joint_axes)} if opening else {}
+        after: dict[str, Any] = {}
+        if opening:
+            changes = {"changes": [asdict(change) for change in opened(opening)]}
+            after["after_opening"] = changes | _instant_as_dict(opening.instant(opening.start.t), joint_axes)
         data = [_instant_as_dict(instant, joint_axes) | after for instant in solved]
         print(dumped(data if others else data[0]))
         return
-    accelerations, reactions, *limits, residuals = first.tables()
     if opening:
         put(Text("just before the events at the start\n", "bold"))
-    put(accelerations, reactions_along(first.reactions) if joint_axes else reactions, *limits)
+    put(*_tables(first, joint_axes))
     if balance:
-        put(residuals, f"Largest relative residual: {first.residual:.1e}")
+        put(first.tables()[-1], f"Largest relative residual: {first.residual:.1e}")
     put(first.explanation, *first.self_stress)
     for other in others:
         put(f"{other.route} agrees with {first.route} to {apart(first, other):.1e}")
     if opening:
         after = opening.instant(first.state.t)
-        accelerations, reactions, *limits, _ = after.tables()
         put(Text("\njust after the events at the start\n", "bold"))
         put(table("mode changes", ["kind", "what"], [(c.kind, ", ".join(c.of)) for c in opened(opening)]))
-        put(accelerations, reactions_along(after.reactions) if joint_axes else reactions, *limits, after.explanation)
+        put(*_tables(after, joint_axes), after.explanation)
 
 
-def reactions_along(reactions: Mapping[str, Reaction]) -> Table:
-    """Reactions along and across the line of each joint's first body, on the second body."""
-    carrying = [reaction for reaction in reactions.values() if reaction.carries]
-    rows = [(r.name, r.second, *_parts(r, True).values()) for r in carrying]
-    shown = [["indeterminate" if cell is None else cell for cell in row] for row in rows]
-    for row, reaction in zip(shown, carrying, strict=True):
-        row[-1] = row[-1] if reaction.has_couple else ""
-    return table("reactions in joint axes", ["joint", "on", "along [N]", "across [N]", "couple [N·m]"], shown)
+def _tables(instant: Instant, joint_axes: bool) -> list[Table]:
+    """Those of an instant but the residuals; in joint axes, reactions along and across the line of each joint's first body, on the
+    second body."""
+    accelerations, reactions, *limits, _ = instant.tables()
+    if joint_axes:
+        rows: list[Row] = []
+        for each in (each for each in instant.reactions.values() if each.carries):
+            along, across, couple = _parts(each, True).values()
+            rows.append((each.name, each.second, along, across, couple if each.has_couple else None))
+        reactions = table("reactions in joint axes", ["joint", "on", "along [N]", "across [N]", "couple [N·m]"], rows)
+    return [accelerations, reactions, *limits]
 
 
 def apart(a: Instant, b: Instant) -> float:
     """Largest difference of accelerations or determinate reactions, relative to the largest of its kind."""
-    kinds = [
-        [(a.accelerations[name], b.accelerations[name]) for name in a.accelerations],
-        [pair for name in a.reactions for pair in _determinate_pairs(a.reactions[name], b.reactions[name])],
-    ]
-    return max((_relative(pairs) for pairs in kinds if pairs), default=0.0)
-
-
-def _determinate_pairs(a: Reaction, b: Reaction) -> list[tuple[float, float]]:
-    parts = zip(_parts(a, False).values(), _parts(b, False).values(), strict=True)
-    return [(x, y) for x, y in parts if x is not None and y is not None]
-
-
-def _relative(pairs: Sequence[tuple[float, float]]) -> float:
-    largest = max(max(abs(x), abs(y)) for x, y in pairs)
-    return max(abs(x - y) for x, y in pairs) / largest if largest else 0.0
+    accelerations = [list(instant.accelerations.values()) for instant in (a, b)]
+    reactions = [[part for r in instant.reactions.values() for part in _parts(r, False).values()] for instant in (a, b)]
+    found = 0.0
+    for one, other in map(np.array, (accelerations, reactions)):
+        known = ~np.isnan(one - other)
+        if largest := np.abs([one[known], other[known]]).max(initial=0.0):
+            found = max(found, float(np.abs(one - other)[known].max() / largest))
+    return found
 
 
 def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
     return {
         "route": instant.route,
         "accelerations": instant.accelerations,
-        "reactions": _reactions_as_dict(instant.reactions, joint_axes),
+        "reactions": {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()},
         "limits": {name: asdict(limit) for name, limit in instant.limits.items()},
         "motions": instant.motions,
         "couplings": instant.couplings,
@@ -216,26 +201,11 @@ def opened(opening: Run) -> list[Change]:
     return [change for change in opening.changes if change.t == opening.start.t]
 
 
-def _opening_as_dict(opening: Run, joint_axes: bool) -> dict[str, Any]:
-    changes = [asdict(change) for change in opened(opening)]
-    return {"changes": changes} | _instant_as_dict(opening.instant(opening.start.t), joint_axes)
-
-
-def _reactions_as_dict(reactions: Mapping[str, Reaction], joint_axes: bool) -> dict[str, Any]:
-    return {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in reactions.values()}
-
-
-def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float | None]:
-    """Components on the second body; None where indeterminate."""
-    names = ("Fs", "Fn", "M") if joint_axes else ("Fx", "Fy", "M")
-    return {name: _part(reaction, name) for name in names}
-
-
-def _part(reaction: Reaction, name: str) -> float | None:
-    try:
-        return float(getattr(reaction, name))
-    except Indeterminate:
-        return None
+def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float]:
+    """Components on the second body; NaN where indeterminate."""
+    x, y, couple = np.where(reaction.determined, reaction.values, np.nan).tolist()
+    along, across = reaction.local().tolist() if joint_axes else (x, y)
+    return {"Fs": along, "Fn": across, "M": couple} if joint_axes else {"Fx": x, "Fy": y, "M": couple}
 
 
 # A mechanism, a comparison, files
@@ -247,43 +217,29 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
         print(dumped(about))
         return
     bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in about["bodies"]]
-    joints = [
-        (j["name"], j["type"], f"{j['first']} – {j['second']}", "closes a loop" if j["cut"] else "", _LATER[j["engaged"]])
-        for j in about["joints"]
-    ]
+    coordinates = [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]]
+    joints = [(j["name"], j["type"], _ends(j), "closes a loop" if j["cut"] else "", _later(j)) for j in about["joints"]]
+    limits = [(x["name"], x["type"], "" if x["type"] == "stop" else _ends(x), _later(x)) for x in about["limits"]]
+    forces = [(f["name"], f["type"], _later(f)) for f in about["forces"]]
+    motions = [(m["name"], m["level"], "" if m["ideal"] else "does work of its own", _later(m)) for m in about["motions"]]
     put(
         table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
-        table(
-            "coordinates",
-            ["coordinate", "unit", "meaning"],
-            [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]],
-        ),
+        table("coordinates", ["coordinate", "unit", "meaning"], coordinates),
         table("joints", ["joint", "type", "between", "", ""], joints),
-        table(
-            "contacts, strings and stops",
-            ["", "type", "between", ""],
-            [
-                (
-                    x["name"],
-                    x["type"],
-                    "" if x["type"] == "stop" else f"{x['first']} – {x['second']}",
-                    _LATER[x["engaged"]],
-                )
-                for x in about["limits"]
-            ],
-        ),
-        table("forces", ["force", "type", ""], [(f["name"], f["type"], _LATER[f["engaged"]]) for f in about["forces"]]),
-        table(
-            "prescribed motions",
-            ["motion", "level", "", ""],
-            [
-                (m["name"], m["level"], "" if m["ideal"] else "does work of its own", _LATER[m["engaged"]])
-                for m in about["motions"]
-            ],
-        ),
+        table("contacts, strings and stops", ["", "type", "between", ""], limits),
+        table("forces", ["force", "type", ""], forces),
+        table("prescribed motions", ["motion", "level", "", ""], motions),
         freedom,
         *(f"• {note}" for note in about["notes"]),
     )
+
+
+def _ends(part: Mapping[str, Any]) -> str:
+    return f"{part['first']} – {part['second']}"
+
+
+def _later(part: Mapping[str, Any]) -> str:
+    return "" if part["engaged"] else "comes later"
 
 
 def comparison(found: Comparison, as_json: bool) -> None:

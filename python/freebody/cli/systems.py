@@ -23,9 +23,7 @@ def systems(
     stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
     output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
-    symbolic: Annotated[
-        bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")
-    ] = False,
+    symbolic: Annotated[bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")] = False,
 ) -> None:
     """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
     from freebody import catalogue

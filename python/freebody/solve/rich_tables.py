@@ -32,9 +32,11 @@ class PlainText:
         return f'<div style="white-space: pre-wrap">{html.escape(str(self))}</div>'
 
 
-def table(title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], figures: Collection[str] = (), edge: bool = False) -> Table:
+def table(
+    title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], figures: Collection[str] = (), edge: bool = False
+) -> Table:
     """A table for rich: words to the left, figures to the right. Figures are floats, what stands below a unit in brackets, and the
-    columns with the heads ``figures``. Names come from the model, so nothing is taken for markup."""
+    columns with the heads ``figures``; None is left blank. Names come from the model, so nothing is taken for markup."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -45,7 +47,8 @@ def table(title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], figur
         right = "[" in head or head in figures or any(isinstance(row[i], float) for row in rows)
         made.add_column(Text(head), justify="right" if right else "left")
     for row in rows:
-        made.add_row(*(cell if isinstance(cell, Text) else Text(figure(cell) if isinstance(cell, float) else str(cell)) for cell in row))
+        texts = (figure(cell) if isinstance(cell, float) else "" if cell is None else cell for cell in row)
+        made.add_row(*(text if isinstance(text, Text) else Text(str(text)) for text in texts))
     return made
 
 
@@ -66,7 +69,7 @@ def of_reactions(reactions: Iterable[Reaction]) -> Table:
         for body in (joint.second, joint.first) if joint.carries else ():
             side = joint.on(body)
             x, y, couple = np.where(side.determined, side.values, np.nan).tolist()
-            rows.append((joint.name if body == joint.second else "", body, x, y, couple if joint.has_couple else ""))
+            rows.append((joint.name if body == joint.second else "", body, x, y, couple if joint.has_couple else None))
     return table("reactions", ["joint", "on", "Fx [N]", "Fy [N]", "M [N·m]"], rows)
 
 
@@ -76,7 +79,7 @@ def of_limits(limits: Iterable[Limit]) -> Table:
     for limit in limits:
         turns = limit.dimension == "rad"
         held = (f"{figure(limit.gap)} rad", f"{figure(limit.N)} N·m") if turns else (limit.gap, limit.N)
-        rows.append((limit.name, limit.state, *held, limit.T if limit.kind == "contact" else ""))
+        rows.append((limit.name, limit.state, *held, limit.T if limit.kind == "contact" else None))
     return table("contacts, strings and stops", ["", "state", "gap [m]", "force [N]", "friction [N]"], rows)
 
 
@@ -86,5 +89,5 @@ def of_forces(limits: Iterable[Limit]) -> Table:
     for limit in limits:
         if limit.kind != "stop" and limit.N != 0:
             force = [0.0 if abs(f) <= _ROUND_OFF * abs(limit.N) else f for f in (limit.Fx, limit.Fy)]
-            rows.append((limit.name, limit.first, *force, *(limit.at or ("", ""))))
+            rows.append((limit.name, limit.first, *force, *(limit.at or (None, None))))
     return table("their forces", ["", "on", "Fx [N]", "Fy [N]", "at x [m]", "at y [m]"], rows)
