@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "python/freebody"
-CORE = {"core", "symbolic"}
+CORE = {"core", "symbolic", "formats"}
 SOLVED = CORE | {"model", "solve", "run", "impact"}
 MAY_USE = {
     "core": set(),

@@ -10,6 +10,7 @@ import pytest
 from freebody.views import animate as animation
 from freebody.views import plots, shapes
 from freebody.views.animate import animate
+from freebody.views.diagram import diagram
 from freebody.views.draw import drawing
 from freebody.views.scene import of_run, of_state
 
@@ -68,6 +69,8 @@ def test_names_that_look_like_mathematics_are_drawn():
     run = run_double_pendulum(until=0.1, upper="50% $a_b^c\\d")
     plots.series(run).figure.canvas.draw()
     drawing(run.source, run.start).figure.canvas.draw()
+    free = run.instant(0.0).free_bodies()
+    assert "<svg" in diagram(run.source, run.start, free).svg()
 
 
 def test_rounded_hull_keeps_its_distance():

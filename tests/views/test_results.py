@@ -5,7 +5,7 @@ import pytest
 
 from freebody.core import Indeterminate
 from freebody.run.compare import compare
-from freebody.run.records import ReportItem, Window, integral, maximum, plain, quote, symbol, unit_of
+from freebody.run.records import ReportItem, Window, integral, maximum, plain, quote, unit_of
 from freebody.run.simulation import output_times
 from freebody.solve.instant import Instant
 
@@ -144,8 +144,6 @@ def test_words_and_symbols():
         "'two words'[3]",
     ]
     assert plain("arm.theta2") == "arm.θ2"
-    assert symbol("phi1", "ddot") == r"\ddot{\phi}_{1}" and symbol("rod.x") == r"x_{\mathrm{rod}}"
-    assert symbol("a$b^c").count("$") == 0
     units = ["speed(rod.B)", "t", "2*theta", "kinetic()"]
     about = dict.fromkeys(("joints", "forces", "motions", "locks", "limits"), ())
     assert [unit_of(text, (), about) for text in units] == ["m/s", "s", "", "J"]

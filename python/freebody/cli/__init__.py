@@ -13,7 +13,7 @@ from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.models import moment, obtained, opened, pairs, simulated
-from freebody.cli.options import AsJson, Changes, Model, Until
+from freebody.cli.options import AsJson, Changes, Command, Model, Until
 from freebody.cli.systems import systems
 from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
 
@@ -35,10 +35,10 @@ Method = Annotated[str | None, typer.Option(help="Integrator, like dop853; a wro
 Rtol = Annotated[float | None, typer.Option(help="Relative tolerance.")]
 
 
-@app.command()
+@app.command(cls=Command)
 def run(
     model: Model,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Save the run: .nc or .csv.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Save the run: {run.storage}.")] = None,
     changes: Changes = None,
     until: Until = None,
     method: Method = None,
@@ -58,7 +58,7 @@ def run(
         raise typer.Exit(NOT_TRUE)
 
 
-@app.command()
+@app.command(cls=Command)
 def solve(
     model: Model,
     at: Annotated[list[str] | None, typer.Option(metavar="NAME=VALUE", help="A coordinate, like 'theta=30 deg'.")] = None,
@@ -77,15 +77,18 @@ def solve(
     show.instants(solved, mechanism.opening(**state), axes == "joint", balance, as_json)
 
 
-@app.command()
+@app.command(cls=Command)
 def validate(
     model: Model,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Labelled drawing: .svg, .png or .pdf.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Labelled drawing: {views.diagram.picture}.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Say what is modelled, ignored and assumed; draw the labelled mechanism."""
     from freebody.cli import show
+    from freebody.views.diagram.picture import FORMATS
 
+    if output:
+        FORMATS.of(output)
     mechanism = opened(model)
     show.mechanism(mechanism.compile().about, mechanism.solve().explanation, as_json)
     if output:
@@ -94,11 +97,11 @@ def validate(
             show.written([output])
 
 
-@app.command()
+@app.command(cls=Command)
 def diagram(
     model: Model,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="The picture: .svg, .png or .pdf; fbd.svg by default.")
+        Path | None, typer.Option("-o", "--output", help="The picture: {views.diagram.picture}; fbd.svg by default.")
     ] = None,
     of: Annotated[
         list[str] | None, typer.Option(metavar="BODIES", help="A body, a group like crank+rod, or all; repeatable.")
@@ -134,10 +137,12 @@ def diagram(
             show.written([saved])
 
 
-@app.command()
+@app.command(cls=Command)
 def animate(
     model: Model,
-    output: Annotated[Path, typer.Option("-o", "--output", help="A .gif, an .mp4 (needs ffmpeg), or .svg for one file a frame.")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="{views.animate}; an .mp4 needs ffmpeg, .svg is one file a frame.")
+    ],
     changes: Changes = None,
     until: Until = None,
 ) -> None:
@@ -148,9 +153,9 @@ def animate(
     show.written([film(simulated(model, changes, until=until), output)])
 
 
-@app.command()
+@app.command(cls=Command)
 def compare(
-    a: Annotated[Path, typer.Argument(metavar="A", help="A saved run (.nc, .csv) or a model.")],
+    a: Annotated[Path, typer.Argument(metavar="A", help="A saved run ({run.storage}) or a model.")],
     b: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
     as_json: AsJson = False,
 ) -> None:
@@ -162,12 +167,12 @@ def compare(
 
 
 app.command()(systems)
-app.command()(equations)
+app.command(cls=Command)(equations)
 app.command()(code)
 app.command()(check)
 
 
-@app.command()
+@app.command(cls=Command)
 def schema() -> None:
     """Print the JSON Schema of the model file."""
     from freebody.model.schema import schema as model_schema
@@ -175,7 +180,7 @@ def schema() -> None:
     typer.echo(json.dumps(model_schema(), ensure_ascii=False, indent=1))
 
 
-@app.command()
+@app.command(cls=Command)
 def version() -> None:
     """Print the version."""
     from importlib.metadata import version as installed

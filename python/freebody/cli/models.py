@@ -45,11 +45,10 @@ def simulated(path: Path, changes: list[str] | None = None, **settings: Any) -> 
 
 def obtained(path: Path) -> Run:
     """A saved run, or the run of a model."""
-    if path.suffix not in (".nc", ".csv"):
-        return simulated(path)
     from freebody.run.simulation import Run
+    from freebody.run.storage import FORMATS
 
-    return Run.load(path)
+    return Run.load(path) if path.suffix in FORMATS else simulated(path)
 
 
 def pairs(texts: list[str] | None) -> dict[str, str]:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
 Model = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")]
 Changes = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")]
@@ -27,3 +30,15 @@ def offering(choices: Mapping[str, str]) -> Callable[[Callable[..., None]], Call
         return command
 
     return with_options
+
+
+class Command(TyperCommand):
+    """A command in whose help ``{run.storage}`` stands for the kinds of files there, read only when the help is asked for."""
+
+    def format_help(self, *where: Any) -> None:
+        for option in self.params:
+            stated: str = getattr(option, "help", None) or ""
+            for home in re.findall(r"\{([a-z.]+)\}", stated):
+                stated = stated.replace(f"{{{home}}}", str(import_module(f"freebody.{home}").FORMATS))
+                option.help = stated  # type: ignore[attr-defined]
+        super().format_help(*where)

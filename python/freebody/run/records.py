@@ -12,10 +12,10 @@ import numpy as np
 
 from freebody.core import Array, cards, quote
 from freebody.symbolic.alphabet import GREEK
+from freebody.symbolic.symbols import Name
 
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
-PARTS = ("Fx", "Fy", "M")
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
 """Of columns, in their order."""
 BEFORE = "before "
@@ -28,24 +28,6 @@ _RARE = ("work of parameter changes", "work of impacts", "work of friction")
 def plain(name: str) -> str:
     """The name with Greek letters as such: ``phi1`` → ``φ1``, ``arm.theta`` → ``arm.θ``."""
     return re.sub(r"[^\W\d_]+", lambda word: GREEK.get(word[0], word[0]), name)
-
-
-def symbol(name: str, dot: str = "") -> str:
-    r"""LaTeX of a name, without dollars: ``phi1`` → ``\phi_{1}``, ``arm.x`` → ``x_{\mathrm{arm}}``; ``dot``: ``dot`` or ``ddot``."""
-    owner, _, last = name.rpartition(".")
-    found = re.fullmatch(r"([^\W\d_]+)_?(\d*)", last)
-    stem, digits = (found[1], found[2]) if found else (last, "")
-    letter = f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else roman(stem)
-    letter = rf"\{dot}{{{letter}}}" if dot else letter
-    below = ",".join(part for part in (digits, roman(owner)) if part)
-    return f"{letter}_{{{below}}}" if below else letter
-
-
-def roman(text: str) -> str:
-    """Upright LaTeX of any text; signs that mathtext would take for commands are left out or escaped."""
-    kept = re.sub(r"[\\^~{}$]", " ", text).strip()
-    escaped = re.sub(r"([_%#& ])", r"\\\1", kept)
-    return rf"\mathrm{{{escaped}}}" if kept else ""
 
 
 @dataclass(frozen=True)
@@ -240,59 +222,39 @@ def reduce(how: str, signal: Signal, window: Window) -> tuple[float | None, floa
     raise ValueError(f"no such reduction: {how!r}; there are max, min, mean, rms, integral")
 
 
-def columns_of(kind: str, about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
-    """The columns of one kind, in the order of the core's arrays."""
-    coordinates = [(c["name"], c["dimension"]) for c in about["coordinates"]]
-    if kind == "coordinate":
-        return [Column(quote(name), symbol(name), unit, kind) for name, unit in coordinates]
-    if kind == "rate":
-        return [Column(f"rate({quote(name)})", symbol(name, "dot"), f"{unit}/s", kind) for name, unit in coordinates]
-    if kind == "acceleration":
-        return [Column(f"accel({quote(name)})", symbol(name, "ddot"), f"{unit}/s^2", kind) for name, unit in coordinates]
-    if kind == "reaction":
-        return [_reaction_column(j["name"], part) for j in about["joints"] for part in PARTS]
-    if kind == "limit":
-        return [column for limit in about["limits"] for column in _limit_columns(limit)] + [*map(_lock_column, about["locks"])]
-    if kind == "energy":
-        return [_energy_column(name) for name in ledger]
-    axes = (("x({0}.origin)", "x", "m"), ("y({0}.origin)", "y", "m"), ("angle({0})", r"\varphi", "rad"))
-    bodies = [b["name"] for b in about["bodies"]]
-    return [Column(text.format(quote(b)), f"{sign}_{{{roman(b)}}}", unit, kind) for b in bodies for text, sign, unit in axes]
+def columns_of(about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
+    """All columns, kind by kind, in the order of the core's arrays; ``ledger`` names the entries of the energy ledger."""
+    made: list[Column] = []
 
+    def add(kind: str, text: str, sign: Name, unit: str, dots: int = 0) -> None:
+        made.append(Column(text, sign.latex(dots), unit, kind))
 
-def _reaction_column(joint: str, part: str) -> Column:
-    below = "" if part == "M" else f"_{part[1]}"
-    return Column(f"{quote(joint)}.{part}", f"{part[0]}{below}^{{{roman(joint)}}}", "N*m" if part == "M" else "N", "reaction")
-
-
-def _limit_columns(limit: Mapping[str, Any]) -> list[Column]:
-    """What a contact (normal force, friction, gap), string (tension, slack) or stop (force, gap) does."""
-    name, length = limit["name"], limit["dimension"]
-    force = {"m": "N", "rad": "N*m"}.get(length, "")
-    parts = {"contact": ("N", "T"), "string": ("tension",), "stop": ("N",)}[limit["type"]]
-    forces = [(part, part[0].upper(), force) for part in parts]
-    return [
-        Column(f"{quote(name)}.{part}", f"{sign}_{{{roman(name)}}}", unit, "limit")
-        for part, sign, unit in [*forces, ("gap", "g", length)]
-    ]
-
-
-def _lock_column(lock: Mapping[str, Any]) -> Column:
-    """The force or torque along what a lock holds; 0 where it is not in place."""
-    name = lock["name"]
-    return Column(f"{quote(name)}.force", f"F_{{{roman(name)}}}", "N*m" if lock["turns"] else "N", "limit")
-
-
-def _energy_column(name: str) -> Column:
-    signs = {
-        "kinetic": ("kinetic()", "T"),
-        "potential": ("potential()", "V"),
-        "friction": ("friction_work()", r"W_{\mathrm{friction}}"),
+    rates = (("coordinate", "{}", ""), ("rate", "rate({})", "/s"), ("acceleration", "accel({})", "/s^2"))
+    for dots, (kind, text, per) in enumerate(rates):
+        for each in about["coordinates"]:
+            add(kind, text.format(quote(each["name"])), Name.parse(each["name"]), each["dimension"] + per, dots)
+    for joint in (each["name"] for each in about["joints"]):
+        add("reaction", f"{quote(joint)}.Fx", Name(joint, ("x",)), "N")
+        add("reaction", f"{quote(joint)}.Fy", Name(joint, ("y",)), "N")
+        add("reaction", f"{quote(joint)}.M", Name("M", (joint,)), "N*m")
+    for limit in about["limits"]:
+        name, length = limit["name"], limit["dimension"]
+        for word in {"contact": ("N", "T"), "string": ("tension",), "stop": ("N",)}[limit["type"]]:
+            add("limit", f"{quote(name)}.{word}", Name(word[0].upper(), (name,)), {"m": "N", "rad": "N*m"}.get(length, ""))
+        add("limit", f"{quote(name)}.gap", Name("g", (name,)), length)
+    for lock in about["locks"]:
+        add("limit", f"{quote(lock['name'])}.force", Name("F", (lock["name"],)), "N*m" if lock["turns"] else "N")
+    own = {"kinetic": ("kinetic()", Name("T")), "potential": ("potential()", Name("V"))} | {
+        each: (each, Name(each)) for each in ENTRIES
     }
-    signs |= {entry: (entry, roman(entry)) for entry in ENTRIES}
-    owner = name.removesuffix(".work")
-    text, sign = signs.get(name, (f"{quote(owner)}.work", f"W_{{{roman(owner)}}}"))
-    return Column(text, sign, "J", "energy")
+    own |= {"friction": ("friction_work()", Name("W", ("friction",)))}
+    for entry in ledger:
+        of = entry.removesuffix(".work")
+        add("energy", *own.get(entry, (f"{quote(of)}.work", Name("W", (of,)))), "J")
+    for body in (each["name"] for each in about["bodies"]):
+        for text, stem, unit in (("x({}.origin)", "x", "m"), ("y({}.origin)", "y", "m"), ("angle({})", "phi", "rad")):
+            add("pose", text.format(quote(body)), Name(stem, (body,)), unit)
+    return made
 
 
 def unit_of(text: str, columns: Sequence[Column], about: Mapping[str, Any]) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Change, CompiledModel, Event, Motion, Outcome, Settings, Spec, State, Trajectory
+from freebody.core import Change, CompiledModel, Event, Motion, Outcome, Settings, State, Trajectory
 from freebody.run import storage
 from freebody.run.records import (
     BEFORE,
@@ -248,7 +248,7 @@ class Run:
     @cached_property
     def columns(self) -> list[Column]:
         """Everything that is kept over ``t``, in the order of ``blocks``."""
-        return [column for kind in KINDS for column in columns_of(kind, self.about, self.energy.names)]
+        return columns_of(self.about, self.energy.names)
 
     @property
     def blocks(self) -> dict[str, Array]:
@@ -270,10 +270,11 @@ class Run:
         return storage.save(self, Path(path))
 
     @staticmethod
-    def load(path: str | Path, mechanism: Callable[[Spec], CompiledModel] = CompiledModel.of) -> Run:
-        """A run from a file. It knows its saved times; ``again()`` knows all. ``mechanism`` compiles its model (default: the core)."""
-        source, start, settings, motion, report = storage.load(Path(path), mechanism)
-        return Run(source, start, settings, motion, motion.saved_times, report)
+    def load(path: str | Path) -> Run:
+        """A run from a file. It knows its saved times; ``again()`` knows all."""
+        source, motion = storage.load(Path(path))
+        stated = motion.header
+        return Run(source, stated.start, stated.settings, motion, motion.saved_times, stated.report)
 
     # On from here
 
@@ -327,7 +328,7 @@ class Run:
 
     @cached_property
     def _limits(self) -> Array:
-        texts = [column.name for column in columns_of("limit", self.about, ())]
+        texts = [column.name for column in columns_of(self.about, ()) if column.kind == "limit"]
         return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
 
     def _least(self, i: int) -> Array:

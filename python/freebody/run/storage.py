@@ -5,16 +5,17 @@ from __future__ import annotations
 import csv
 import json
 import platform
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from importlib import import_module, metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import CompiledModel, Motion, Settings, Spec, State
-from freebody.run.records import KINDS, PARTS, Array, Reported, ReportItem
+from freebody.core import Array, CompiledModel, Motion, Settings, State
+from freebody.formats import Formats
+from freebody.run.records import KINDS, Column, Reported, ReportItem
 
 if TYPE_CHECKING:
     import pandas
@@ -24,46 +25,88 @@ if TYPE_CHECKING:
 
 FORMAT = 1
 TITLE = "freebody run"
-_EXTRA = "this needs {}, which is not installed: pip install freebody[table]"
-_DIMENSIONS = {
-    "coordinate": ("time", "coordinate"),
-    "rate": ("time", "coordinate"),
-    "acceleration": ("time", "coordinate"),
-    "reaction": ("time", "joint", "part"),
-    "limit": ("time", "limit"),
-    "energy": ("time", "ledger"),
-    "pose": ("time", "body", "place"),
+_VARIABLES = {
+    "coordinate": ("q", ("coordinate",), "coordinates, m or rad"),
+    "rate": ("u", ("coordinate",), "rates of the coordinates, m/s or rad/s"),
+    "acceleration": ("acceleration", ("coordinate",), "second time derivatives of the coordinates, m/s^2 or rad/s^2"),
+    "reaction": (
+        "reaction",
+        ("joint", "part"),
+        "reaction on the joint's second body: N, N, N*m about the joint's point; NaN where indeterminate",
+    ),
+    "limit": (
+        "limits",
+        ("limit",),
+        "forces (N) and gaps (m) of contacts, strings and stops, forces of locks; N*m and rad at an angle",
+    ),
+    "energy": ("energy", ("ledger",), "energy ledger, J"),
+    "pose": ("pose", ("body", "place"), "frame origin x, y (m) and angle (rad) of the bodies"),
 }
-_VARIABLE = {
-    "coordinate": "q",
-    "rate": "u",
-    "acceleration": "acceleration",
-    "reaction": "reaction",
-    "limit": "limits",
-    "energy": "energy",
-    "pose": "pose",
-}
-_MEANING = {
-    "coordinate": "coordinates, m or rad",
-    "rate": "rates of the coordinates, m/s or rad/s",
-    "acceleration": "second time derivatives of the coordinates, m/s^2 or rad/s^2",
-    "reaction": "reaction on the joint's second body: N, N, N*m about the joint's point; NaN where indeterminate",
-    "limit": "forces (N) and gaps (m) of contacts, strings and stops, forces of locks; N*m and rad at an angle",
-    "energy": "energy ledger, J",
-    "pose": "frame origin x, y (m) and angle (rad) of the bodies",
-}
+"""Of each kind of columns: its variable in a Dataset, the dimensions beside time, and what it is."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """All that a file holds of a run beside its columns; ``spec`` and ``model`` are JSON, the last but two the core's plain data."""
+
+    format: int
+    versions: Mapping[str, str]
+    spec: str
+    model: str
+    report_items: tuple[ReportItem, ...]
+    report: Mapping[str, Reported]
+    settings: Settings
+    start: State
+    end: State
+    steps: Array
+    events: list[Any]
+    changes: list[Any]
+    outcome: Mapping[str, Any]
+    stats: Mapping[str, Any]
+    ledger: list[str]
+    columns: list[Column]
+
+    @classmethod
+    def of(cls, run: Run) -> Header:
+        """That of a run."""
+        source, motion, parts = run.source, run.motion, ("events", "changes", "outcome", "stats")
+        texts = json.dumps(source.spec), json.dumps(source.model)
+        asked = source.report, run.report, run.settings, run.start, run.end, motion.steps
+        return cls(
+            FORMAT, versions(), *texts, *asked, *(motion.record[part] for part in parts), list(run.energy.names), run.columns
+        )
+
+    def write(self) -> str:
+        """As JSON."""
+        return json.dumps(asdict(self), default=np.ndarray.tolist)
+
+    @classmethod
+    def read(cls, text: str) -> Header:
+        """From JSON."""
+        made = cls(**json.loads(text))
+        start, end = (
+            {key: np.array(value) if key != "t" else value for key, value in each.items()} for each in (made.start, made.end)
+        )
+        return replace(
+            made,
+            report_items=tuple(ReportItem(**item | {"over": item["over"] and tuple(item["over"])}) for item in made.report_items),
+            report={label: Reported(**value) for label, value in made.report.items()},
+            settings=Settings(**made.settings),
+            start=State(**start),
+            end=State(**end),
+            steps=np.array(made.steps),
+            columns=[Column(**column) for column in made.columns],
+        )
 
 
 class Recorded(Motion):
     """What a file holds of a motion: everything at the saved times (nt,), nothing between them."""
 
-    def __init__(
-        self, saved_times: Array, names: Sequence[str], blocks: Mapping[str, Array], meta: Mapping[str, Any], about: Any
-    ) -> None:
-        super().__init__(meta, about)
-        self.saved_times, self.names, self.blocks, self.meta = saved_times, names, blocks, meta
-        self.steps = np.array(meta["steps"])
-        """Times of the accepted steps."""
+    def __init__(self, saved_times: Array, blocks: Mapping[str, Array], header: Header, about: Mapping[str, Any]) -> None:
+        super().__init__(vars(header), about)
+        self.saved_times, self.blocks, self.header = saved_times, blocks, header
+        self.names = [column.name for column in header.columns]
+        self.steps, self.end = header.steps, header.end
 
     def sample(self, times: Array) -> tuple[Array, Array]:
         """Coordinates and rates (nt, n) at saved times."""
@@ -92,12 +135,7 @@ class Recorded(Motion):
 
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """The energy ledger at saved times."""
-        return list(self.meta["ledger"]), self.blocks["energy"][self._rows(times)]
-
-    @property
-    def end(self) -> State:
-        """The state at the end."""
-        return _state(self.meta["end"])
+        return self.header.ledger, self.blocks["energy"][self._rows(times)]
 
     def _rows(self, times: Array) -> Any:
         rows = np.searchsorted(self.saved_times, times).clip(max=len(self.saved_times) - 1)
@@ -116,107 +154,63 @@ def need(module: str) -> Any:
     try:
         return import_module(module)
     except ImportError:
-        raise ImportError(_EXTRA.format(module)) from None
+        raise ImportError(f"this needs {module}, which is not installed: pip install freebody[table]") from None
 
 
 def to_pandas(run: Run) -> pandas.DataFrame:
     """One row a time, one column each of ``run.columns``; the reported quantities in ``attrs``."""
-    names = [column.name for column in run.columns]
-    table = need("pandas").DataFrame(_matrix(run), columns=names, index=need("pandas").Index(run.t, name="t"))
-    table.attrs.update(title=run.name, units={c.name: c.unit for c in run.columns}, report=_report(run))
+    units = {column.name: column.unit for column in run.columns}
+    table = need("pandas").DataFrame(_matrix(run), columns=list(units), index=need("pandas").Index(run.t, name="t"))
+    table.attrs.update(title=run.name, units=units, report={label: asdict(value) for label, value in run.report.items()})
     return table
 
 
 def to_xarray(run: Run) -> xarray.Dataset:
     """A Dataset with one variable a kind of column; ``units`` of coordinates and ledger stand beside their names."""
-    ledger = [column.name for column in run.columns if column.kind == "energy"]
+    names = {kind: [column.name for column in run.columns if column.kind == kind] for kind in KINDS}
     labels: dict[str, Any] = {
         "time": run.t,
         "coordinate": run.coordinates,
         "joint": [joint["name"] for joint in run.about["joints"]],
-        "part": list(PARTS),
-        "limit": [column.name for column in run.columns if column.kind == "limit"],
-        "ledger": ledger,
+        "part": ["Fx", "Fy", "M"],
+        "limit": names["limit"],
+        "ledger": names["energy"],
         "body": run.bodies,
         "place": ["x", "y", "angle"],
     }
-    sizes = {dimension: len(values) for dimension, values in labels.items()}
     variables: dict[str, Any] = {}
     for kind, block in run.blocks.items():
+        variable, dimensions, meaning = _VARIABLES[kind]
         if kind == "limit" and not labels["limit"]:
             continue  # netCDF 3 takes a dimension of length 0 for the one that grows
-        dimensions = _DIMENSIONS[kind]
-        shape = [sizes[dimension] for dimension in dimensions]
-        variables[_VARIABLE[kind]] = (dimensions, block.reshape(shape), {"long_name": _MEANING[kind]})
-    known = ~np.isnan(variables["reaction"][1])
-    variables["determinate"] = (_DIMENSIONS["reaction"], known, {"long_name": "whether the balances determine the reaction"})
+        shape = [len(run.t), *(len(labels[dimension]) for dimension in dimensions)]
+        variables[variable] = (("time", *dimensions), block.reshape(shape), {"long_name": meaning})
+    dimensions, values, _ = variables["reaction"]
+    variables["determinate"] = (dimensions, ~np.isnan(values), {"long_name": "whether the balances determine the reaction"})
     coordinates = {name: (name, np.array(values)) for name, values in labels.items() if len(values)}
-    data: xarray.Dataset = need("xarray").Dataset(variables, coordinates, {"title": run.name, "freebody": json.dumps(_meta(run))})
+    data: xarray.Dataset = need("xarray").Dataset(variables, coordinates, {"title": run.name, "freebody": Header.of(run).write()})
     data["time"].attrs["units"] = "s"
     data["energy"].attrs["units"] = "J"
     return data
 
 
 def save(run: Run, path: Path) -> Path:
-    """Write a run as netCDF (``.nc``) or CSV (``.csv``)."""
-    if path.suffix == ".nc":
-        to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
-    elif path.suffix == ".csv":
-        _write_csv(run, path)
-    else:
-        raise ValueError(f"a run is saved as .nc or .csv, not {path.suffix or 'without a suffix'!r}")
+    """Write a run as one of ``FORMATS``."""
+    write, _ = FORMATS.of(path)
+    write(run, path)
     return path
 
 
-def load(
-    path: Path, mechanism: Callable[[Spec], CompiledModel]
-) -> tuple[CompiledModel, State, Settings, Recorded, dict[str, Reported]]:
-    """What a file holds of a run: what was simulated, from where and how, the motion, what was reported; ``mechanism`` compiles
-    its model."""
-    readers = {".nc": _read_netcdf, ".csv": _read_csv}
-    if path.suffix not in readers:
-        raise ValueError(f"{path}: a saved run is a .nc or a .csv file")
-    t, names, blocks, meta = readers[path.suffix](path)
-    report = tuple(ReportItem(**{**item, "over": tuple(item["over"]) if item["over"] else None}) for item in meta["report_items"])
-    source = replace(mechanism(json.loads(meta["spec"])), model=json.loads(meta["model"]), report=report)
-    reported = {label: Reported(**value) for label, value in meta["report"].items()}
-    recorded = Recorded(t, names, blocks, meta, source.about)
-    return source, _state(meta["start"]), Settings(**meta["settings"]), recorded, reported
-
-
-def _state(data: Mapping[str, Any]) -> State:
-    return State(np.array(data["p"]), data["t"], np.array(data["q"]), np.array(data["u"]))
-
-
-def _plain(state: State) -> dict[str, Any]:
-    return {"p": state.p.tolist(), "t": state.t, "q": state.q.tolist(), "u": state.u.tolist()}
+def load(path: Path) -> tuple[CompiledModel, Recorded]:
+    """What a file holds of a run: what was simulated, and the motion."""
+    _, read = FORMATS.of(path)
+    t, blocks, header = read(path)
+    source = replace(CompiledModel.of(json.loads(header.spec)), model=json.loads(header.model), report=header.report_items)
+    return source, Recorded(t, blocks, header, source.about)
 
 
 def _matrix(run: Run) -> Array:
     return np.hstack(list(run.blocks.values()))
-
-
-def _report(run: Run) -> dict[str, Any]:
-    return {label: asdict(value) for label, value in run.report.items()}
-
-
-def _meta(run: Run) -> dict[str, Any]:
-    """Everything about a run that is no column, ready for JSON."""
-    return {
-        "format": FORMAT,
-        "versions": versions(),
-        "spec": json.dumps(run.source.spec),
-        "model": json.dumps(run.source.model),
-        "report_items": [asdict(item) for item in run.source.report],
-        "report": _report(run),
-        "settings": asdict(run.settings),
-        "start": _plain(run.start),
-        "end": _plain(run.end),
-        "steps": np.asarray(run.motion.steps).tolist(),
-        **{part: run.motion.record[part] for part in ("events", "changes", "outcome", "stats")},
-        "ledger": list(run.energy.names),
-        "columns": [asdict(column) for column in run.columns],
-    }
 
 
 def versions() -> dict[str, str]:
@@ -231,36 +225,38 @@ def versions() -> dict[str, str]:
 def _write_csv(run: Run, path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(f"# {TITLE}: time and columns in SI; indeterminate reactions are nan; the next line is the run as JSON\n")
-        file.write(f"# {json.dumps(_meta(run))}\n")
+        file.write(f"# {Header.of(run).write()}\n")
         writer = csv.writer(file)
         writer.writerow(["t", *(column.name for column in run.columns)])
         # repr gives the shortest text that reads back as the same number.
         writer.writerows([repr(float(x)) for x in row] for row in np.column_stack([run.t, _matrix(run)]))
 
 
-def _read_csv(path: Path) -> tuple[Array, list[str], dict[str, Array], dict[str, Any]]:
-    with path.open(newline="", encoding="utf-8") as file:
+def _read_csv(path: Path) -> tuple[Array, dict[str, Array], Header]:
+    with path.open(encoding="utf-8") as file:
         if not file.readline().startswith(f"# {TITLE}"):
             raise ValueError(f"{path} is no saved run: it does not begin with '# {TITLE}'")
-        meta = json.loads(file.readline()[2:])
-        rows = csv.reader(file)
-        next(rows)
-        table = np.array([[float(cell) for cell in row] for row in rows])
-    kinds = [column["kind"] for column in meta["columns"]]
-    blocks = {kind: table[:, 1:][:, _where(kinds, kind)] for kind in KINDS}
-    return table[:, 0], [column["name"] for column in meta["columns"]], blocks, meta
+        header = Header.read(file.readline()[2:])
+        t, *columns = np.loadtxt(file, delimiter=",", skiprows=1, ndmin=2).T
+    blocks = {kind: [y for y, column in zip(columns, header.columns, strict=True) if column.kind == kind] for kind in KINDS}
+    return t, {kind: np.reshape(values, (-1, len(t))).T for kind, values in blocks.items()}, header
 
 
-def _where(kinds: Iterable[str], kind: str) -> list[int]:
-    return [i for i, each in enumerate(kinds) if each == kind]
+def _write_netcdf(run: Run, path: Path) -> None:
+    to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
-def _read_netcdf(path: Path) -> tuple[Array, list[str], dict[str, Array], dict[str, Any]]:
+def _read_netcdf(path: Path) -> tuple[Array, dict[str, Array], Header]:
     with need("xarray").open_dataset(path, engine="scipy") as data:
         if "freebody" not in data.attrs:
             raise ValueError(f"{path} is no saved run: it has no attribute 'freebody'")
-        meta = json.loads(data.attrs["freebody"])
         t = data["time"].values.astype(float)
-        found = {kind: data[_VARIABLE[kind]].values if _VARIABLE[kind] in data else np.empty((len(t), 0)) for kind in KINDS}
-        blocks = {kind: values.reshape(len(t), -1) for kind, values in found.items()}
-    return t, [column["name"] for column in meta["columns"]], blocks, meta
+        found = {
+            kind: data[variable].values if variable in data else np.empty((len(t), 0))
+            for kind, (variable, *_) in _VARIABLES.items()
+        }
+        return t, {kind: values.reshape(len(t), -1) for kind, values in found.items()}, Header.read(data.attrs["freebody"])
+
+
+FORMATS = Formats("a run is saved as", {".nc": (_write_netcdf, _read_netcdf), ".csv": (_write_csv, _read_csv)})
+"""What writes and what reads each kind of file."""

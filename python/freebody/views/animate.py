@@ -9,15 +9,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.run.records import Array
+from freebody.core import Array
+from freebody.formats import Formats
 from freebody.views.impact_markers import LASTING
 from freebody.views.render import frame_axes, render, render_markers
 from freebody.views.scene import Scene, of_run
 from freebody.views.style import axes, colour, quiet
 
 if TYPE_CHECKING:
+    from matplotlib.animation import AbstractMovieWriter
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from freebody.run.simulation import Run
 
@@ -29,13 +32,11 @@ def animate(run: Run, path: str | Path, fps: int = 30, speed: float = 1.0, trace
     Returns the file, for frames the first one.
     """
     path = Path(path)
-    if path.suffix not in (".gif", ".mp4", ".svg"):
-        raise ValueError(f"an animation is .gif, .mp4 or .svg, not {path.suffix or 'without a suffix'!r}")
+    write = FORMATS.of(path)
     scene = of_run(run, frame_times(run, fps, speed), traces)
-    lasting = LASTING * speed
-    if path.suffix == ".svg":
-        return _write_frames(scene, path, lasting)
-    return _write_movie(scene, path, fps, lasting)
+    with quiet():
+        ax = _canvas(scene)
+        return write(path, ax.figure, _frames(scene, ax, LASTING * speed), len(scene.t), fps)
 
 
 def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
@@ -47,28 +48,36 @@ def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
     return np.unique(run.t[np.abs(run.t[:, None] - times).argmin(axis=0)])
 
 
-def _write_movie(scene: Scene, path: Path, fps: int, lasting: float) -> Path:
-    from matplotlib.animation import FFMpegWriter, PillowWriter
+def _write_gif(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
+    from matplotlib.animation import PillowWriter
 
-    if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
+    return _filmed(PillowWriter(fps=fps), path, figure, frames)
+
+
+def _write_mp4(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
+    from matplotlib.animation import FFMpegWriter
+
+    if not shutil.which("ffmpeg"):
         raise RuntimeError("an MP4 needs the program ffmpeg, which is not on PATH; a .gif needs nothing more")
-    with quiet():
-        ax = _canvas(scene)
-        writer = FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"]) if path.suffix == ".mp4" else PillowWriter(fps=fps)
-        with writer.saving(ax.figure, str(path), dpi=110):
-            for _ in _frames(scene, ax, lasting):
-                writer.grab_frame()
+    return _filmed(FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"]), path, figure, frames)
+
+
+def _filmed(writer: AbstractMovieWriter, path: Path, figure: Figure, frames: Iterator[None]) -> Path:
+    with writer.saving(figure, str(path), dpi=110):
+        for _ in frames:
+            writer.grab_frame()
     return path
 
 
-def _write_frames(scene: Scene, path: Path, lasting: float) -> Path:
-    digits = len(str(len(scene.t) - 1))
-    names = [path.with_name(f"{path.stem}_{k:0{digits}d}.svg") for k in range(len(scene.t))]
-    with quiet():
-        ax = _canvas(scene)
-        for k, _ in enumerate(_frames(scene, ax, lasting)):
-            ax.figure.savefig(names[k])
+def _write_frames(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
+    digits = len(str(count - 1))
+    names = [path.with_name(f"{path.stem}_{k:0{digits}d}.svg") for k in range(count)]
+    for name, _ in zip(names, frames, strict=True):
+        figure.savefig(name)
     return names[0]
+
+
+FORMATS = Formats("an animation is", {".gif": _write_gif, ".mp4": _write_mp4, ".svg": _write_frames})
 
 
 def _canvas(scene: Scene) -> Axes:

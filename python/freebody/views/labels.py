@@ -3,6 +3,7 @@ labels again and again. All lengths in pt; the same input gives the same places.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -26,6 +27,7 @@ _ALONG = np.linspace(0.1, 1.0, 8)  # of a leader, where it is looked at
 _CROSSED = 1e3  # what a leader through a label costs
 _OUTSIDE = 60.0  # what a pt beyond the frame costs
 _SWEEPS = 6
+_SIGN = re.compile(r"\\text(?:backslash|asciicircum|asciitilde)\{\}|\\[$#&]")
 
 
 @dataclass(frozen=True)
@@ -120,6 +122,11 @@ def _choice(label: Label, obstacles: Obstacles, frame: Array | None) -> _Choice:
     leaders[np.hypot(*(edges - anchors).T) <= _LED] = np.nan
     along = leaders[:, :1] + _ALONG[:, None] * (leaders[:, 1:] - leaders[:, :1])
     return _Choice(half, centres, leaders, along, cost)
+
+
+def mathtext(latex: str) -> str:
+    """LaTeX as matplotlib knows it, which has no ``\\tfrac`` and cannot write some signs of names."""
+    return _SIGN.sub(" ", latex).replace(r"\tfrac", r"\frac")
 
 
 def write(ax: Axes, labels: Sequence[Placed], to_data: Callable[[Array], Array]) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 import numpy as np
 
 from freebody.core import Array, quote
+from freebody.views.labels import mathtext
 from freebody.views.style import DASHES, GROUND, IMPACT, axes, colour, quiet
 
 if TYPE_CHECKING:
@@ -213,7 +214,7 @@ def overlay(a: Run, b: Run, names: Sequence[str], ax: Axes | None = None) -> Axe
 
 def label(run: Run, name: str) -> str:
     """A column's symbol; other expressions as they are written."""
-    symbols = {column.name: f"${column.symbol}$" for column in run.columns}
+    symbols = {column.name: f"${mathtext(column.symbol)}$" for column in run.columns}
     return symbols.get(name, name.replace("$", r"\$"))
 
 

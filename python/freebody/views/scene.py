@@ -68,8 +68,8 @@ class Scene:
             for stroke in (s for s in figure.strokes if s.is_there(frame)):
                 points = self.place(i, stroke.points, frame)
                 line = np.vstack([points, points[:1]]) if stroke.closed else points
-                middle = line.mean(axis=0)
-                found += [middle + part * (line - middle) for part in ((1.0, 0.7, 0.4) if stroke.style == "mass" else (1.0,))]
+                inside = (0.7, 0.4) if stroke.style == "mass" else ()
+                found += [line, *(line.mean(axis=0) + part * (line - line.mean(axis=0)) for part in inside)]
         return found
 
     def points(self) -> dict[str, tuple[int, tuple[float, float]]]:

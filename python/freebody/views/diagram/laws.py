@@ -17,6 +17,7 @@ from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, r
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.names import letter, spoken
 from freebody.views.draw import UNNAMED
+from freebody.views.labels import mathtext
 
 _EM = 10.0  # pt, of a formula below a diagram
 _EN = 0.42  # em, of a column of text, much of which is small
@@ -66,8 +67,8 @@ class Laws:
             law = [latex(line) for line in line_breaking.lines(formula(size), max(_LEAST, room - lead))]
         if law and law[0] != action.label:
             law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""
-            yield f"${action.label} = {_plain(law[0])}$"
-            yield from (rf"$\qquad {_plain(line)}$" for line in law[1:])
+            yield f"${action.label} = {_spaced(law[0])}$"
+            yield from (rf"$\qquad {_spaced(line)}$" for line in law[1:])
 
     def _has_cases(self, name: str) -> bool:
         return any(force["cases"] for force in self.source.about["forces"] if force["name"] == name)
@@ -129,6 +130,6 @@ def _times(factor: Tree, rest: str) -> str:
     return rest if factor == number(1) else rf"{latex(formula(factor))}\,{rest}"
 
 
-def _plain(line: str) -> str:
-    """As mathtext knows it, which has no space between letters of its own, and no brackets in sizes of their own."""
-    return _SPACE.sub(lambda found: found[1] or r"\,", re.sub(r"\\[bB]ig[lr]", "", line).replace(r"\tfrac", r"\frac"))
+def _spaced(line: str) -> str:
+    """For mathtext, which has no space between letters of its own, and no brackets in sizes of their own."""
+    return _SPACE.sub(lambda found: found[1] or r"\,", re.sub(r"\\[bB]ig[lr]", "", mathtext(line)))

@@ -12,7 +12,7 @@ from freebody.run.records import Array
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import Arrow, Mark, lines
 from freebody.views.diagram.scenery import Scenery
-from freebody.views.labels import Label, Obstacles, Placed, placed
+from freebody.views.labels import Label, Obstacles, Placed, mathtext, placed
 from freebody.views.shapes import dense
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK
@@ -65,7 +65,7 @@ class Panel:
 
 def _letters(marks: Sequence[Mark]) -> Iterator[Label]:
     for mark in marks:
-        text = f"${mark.action.label}$"
+        text = f"${mathtext(mark.action.label)}$"
         if isinstance(mark, Arrow):
             anchors = np.array([mark.free, mark.line.mean(axis=0)])
         else:
@@ -76,11 +76,11 @@ def _letters(marks: Sequence[Mark]) -> Iterator[Label]:
 def _others(scenery: Scenery, names: Sequence[str]) -> Iterator[Label]:
     for dimension in scenery.dimensions:
         n = len(dimension.arrow)
-        yield Label(f"${dimension.text}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
+        yield Label(f"${mathtext(dimension.text)}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
         if dimension.axis is not None:
-            yield Label(f"${dimension.axis.text}$", dimension.axis.at[None], 8.0, MEASURE)
+            yield Label(f"${mathtext(dimension.axis.text)}$", dimension.axis.at[None], 8.0, MEASURE)
     for tag in filter(lambda tag: tag.text, scenery.points):
-        yield Label(f"${tag.text}$", tag.at[None], 9.0, INK)
+        yield Label(f"${mathtext(tag.text)}$", tag.at[None], 9.0, INK)
     for name in names:
         yield Label(name.replace("$", r"\$"), scenery.centres[name][None], 9.0, GREY, bold=True)
 

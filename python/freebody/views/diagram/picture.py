@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from zlib import crc32
 
+from freebody.formats import Formats
 from freebody.views.diagram.paper import parted, sheet
 from freebody.views.diagram.rows import Row
 from freebody.views.style import quiet
@@ -41,25 +42,10 @@ class Picture(ABC):
         return sheet(self.rows)
 
     def save(self, path: str | Path) -> Path:
-        """Write a file: .svg, .png, or .pdf in pages. Raises ``ValueError`` for any other."""
+        """Write one of ``FORMATS``. Raises ``ValueError`` for any other."""
         path = Path(path)
-        if path.suffix.lower() not in (".svg", ".png", ".pdf"):
-            raise ValueError(f"a diagram is .svg, .png or .pdf, not {path.suffix or 'without a suffix'!r}")
-        if path.suffix.lower() == ".svg":
-            path.write_text(self.svg(), encoding="utf-8")
-        elif path.suffix.lower() == ".pdf":
-            self._pages(path)
-        else:
-            with quiet():
-                self.figure.savefig(path, dpi=220)
+        FORMATS.of(path)(self, path)
         return path
-
-    def _pages(self, path: Path) -> None:
-        from matplotlib.backends.backend_pdf import PdfPages
-
-        with quiet(), PdfPages(path) as pages:
-            for rows in parted(self.rows):
-                pages.savefig(sheet(rows))
 
     def svg(self) -> str:
         """The sheet as SVG with a title and a description, for those who cannot see it."""
@@ -81,3 +67,23 @@ class Picture(ABC):
 
     def _repr_svg_(self) -> str:
         return self.svg()
+
+
+def _write_svg(picture: Picture, path: Path) -> None:
+    path.write_text(picture.svg(), encoding="utf-8")
+
+
+def _write_png(picture: Picture, path: Path) -> None:
+    with quiet():
+        picture.figure.savefig(path, dpi=220)
+
+
+def _write_pages(picture: Picture, path: Path) -> None:
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    with quiet(), PdfPages(path) as pages:
+        for rows in parted(picture.rows):
+            pages.savefig(sheet(rows))
+
+
+FORMATS = Formats("a picture is", {".svg": _write_svg, ".png": _write_png, ".pdf": _write_pages})

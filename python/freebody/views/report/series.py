@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import quote
-from freebody.run.records import Array, Column, plain
+from freebody.run.records import Array, plain
+from freebody.symbolic.symbols import unicode_name
 from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps
 
@@ -32,8 +33,11 @@ def plots(run: Run) -> list[dict[str, Any]]:
     """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
     shown = refined_at_jumps(run.at(_thinned(run.t, _POINTS)))
     made = []
-    for kind, title in (("coordinate", "Coordinates"), ("rate", "Rates"), ("acceleration", "Accelerations")):
-        made += _by_unit(shown, title, [column for column in run.columns if column.kind == kind])
+    for dots, (kind, title) in enumerate((("coordinate", "Coordinates"), ("rate", "Rates"), ("acceleration", "Accelerations"))):
+        units = [column.unit for column in run.columns if column.kind == kind]
+        curves = [(unicode_name(name, dots), y) for name, y in zip(run.coordinates, shown.blocks[kind].T, strict=True)]
+        for unit in dict.fromkeys(units):
+            made.append(_plot(title, unit, shown, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
     made += _reactions(shown)
     made += _energy(shown)
     return made if run.recorded else made + _asked(shown)
@@ -61,24 +65,6 @@ def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = 
 def _short(values: Array, digits: int) -> list[float | None]:
     """Numbers with as many digits as a plot shows; None where there is none."""
     return [float(f"{x:.{digits}g}") if np.isfinite(x) else None for x in values]
-
-
-def _by_unit(run: Run, title: str, columns: Sequence[Column]) -> list[dict[str, Any]]:
-    """One plot for each unit among the columns of a kind."""
-    units = list(dict.fromkeys(column.unit for column in columns))
-    values = run.blocks[columns[0].kind].T if columns else []
-    curves = list(zip(columns, values, strict=True))
-    return [_plot(title, unit, run, [(_dotted(column), y) for column, y in curves if column.unit == unit]) for unit in units]
-
-
-def _dotted(column: Column) -> str:
-    """The name of a coordinate with Newton's dots."""
-    name = plain(column.name)
-    for call, dot in (("rate(", "\u0307"), ("accel(", "\u0308")):
-        if name.startswith(call):
-            inner = name[len(call) : -1]
-            return inner[0] + dot + inner[1:] if inner[0].isalpha() else f"{inner}{dot}"
-    return name
 
 
 def _reactions(run: Run) -> list[dict[str, Any]]:
