@@ -10,11 +10,9 @@ from typing import Any
 import numpy as np
 
 from freebody.core import GROUND, Array, quote
-from freebody.views import shapes
 from freebody.views.sketch import Cord, Sketch
 
 Surface = Mapping[str, Any]
-_ROUND = np.linspace(0, 2 * np.pi, 121)
 _SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
 
 
@@ -34,13 +32,13 @@ def draw_contacts(sketch: Sketch) -> None:
         elif kind == "circle":
             _draw_circle(sketch, shape)
         elif kind == "track":
-            hatched_path(sketch, sketch.at[shape["start"]][0], _track(sketch, shape))
+            sketch.hatched(sketch.at[shape["start"]][0], _track(sketch, shape))
         elif kind in ("polyline", "polygon") and all(name in sketch.at for name in shape):
             body, corners = sketch.at[shape[0]][0], np.array([sketch.at[name][1] for name in shape])
             if kind == "polyline":
-                hatched_path(sketch, body, corners)
+                sketch.hatched(body, corners)
             else:
-                sketch.figures[body].add(corners, "block" if body == GROUND else "mark")
+                sketch.figures[body].add(corners, _solid(body))
 
 
 def _draw_line(sketch: Sketch, line: Surface, others: Sequence[Surface]) -> None:
@@ -50,15 +48,11 @@ def _draw_line(sketch: Sketch, line: Surface, others: Sequence[Surface]) -> None
     reaches += [(np.array([place]), -3 * sketch.size) for place in named if line.get("towards")]
     ways = np.concatenate([((path - origin) @ along)[:, None] + [-far, far] for path, far in reaches])
     start, end = ways.min() - 3 * sketch.size, ways.max() + 3 * sketch.size
-    if body == GROUND:
-        hatched_path(sketch, body, origin + np.outer([start, end], along))
-        return
-    solid = np.vstack([origin, *(stroke.points for stroke in sketch.figures[body].strokes)])
-    own = (solid - origin) @ along
-    if np.ptp(own):
+    own = (np.vstack([origin, *(stroke.points for stroke in sketch.figures[body].strokes)]) - origin) @ along
+    if body != GROUND and np.ptp(own):
         # Where the body ends, its surface is not shown to go on.
         start, end = max(start, own.min()), min(end, own.max())
-    sketch.figures[body].add(origin + np.outer([start, end], along), "rail", closed=False)
+    sketch.rail(body, origin + np.outer([start, end], along))
 
 
 def _track(sketch: Sketch, track: Surface) -> Array:
@@ -90,41 +84,18 @@ def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, flo
 
 def _draw_circle(sketch: Sketch, circle: Surface) -> None:
     body, at = sketch.at[circle["centre"]]
-    radius = sketch.number(circle["radius"])
-    if circle.get("ends"):
-        start, end = (sketch.number(angle) for angle in circle["ends"])
-        # What is solid lies on the right as one goes along it.
-        way = np.linspace(start, end, 121) if circle.get("hollow") else np.linspace(end, start, 121)
-        hatched_path(sketch, body, at + radius * np.column_stack([np.cos(way), np.sin(way)]))
-    elif circle.get("hollow"):
-        hatched_path(sketch, body, at + radius * np.column_stack([np.cos(_ROUND), np.sin(_ROUND)]))
-    else:
-        _wheel(sketch, body, at, radius)
+    if not circle.get("ends") and not circle.get("hollow"):
+        sketch.wheel(circle, _solid(body))
+        return
+    start, end = (sketch.number(angle) for angle in circle.get("ends") or (0.0, 2 * np.pi))
+    # What is solid lies on the right as one goes along it.
+    way = np.linspace(start, end, 121) if circle.get("hollow") else np.linspace(end, start, 121)
+    sketch.hatched(body, at + sketch.number(circle["radius"]) * np.column_stack([np.cos(way), np.sin(way)]))
 
 
-def _wheel(sketch: Sketch, body: str, at: Array, radius: float) -> None:
-    """A circle, unless the body shows it already."""
-    figure = sketch.figures[body]
-    seen = any(len(s.points) > 12 and np.allclose(np.hypot(*(s.points - at).T), radius) for s in figure.strokes)
-    if not seen:
-        figure.add(shapes.circle(at, radius), "block" if body == GROUND else "mark")
-
-
-def hatched_path(sketch: Sketch, body: str, path: Array) -> None:
-    """A polyline, hatched on its right-hand side."""
-    s, figure = sketch.size, sketch.figures[body]
-    figure.add(path, "rail", closed=False)
-    lengths = np.hypot(*np.diff(path, axis=0).T)
-    step = max(0.65 * s, lengths.sum() / 120)
-    foot = 0.7 * s
-    for (start, end), length in zip(pairwise(path), lengths, strict=True):
-        along = (end - start) / (length or 1.0)
-        lean = (np.array([along[1], -along[0]]) - along) * 0.55 * s
-        while foot <= length:
-            root = start + foot * along
-            figure.add(np.array([root, root + lean]), "hatch", closed=False)
-            foot += step
-        foot -= length
+def _solid(body: str) -> str:
+    """The style of what is solid there."""
+    return "block" if body == GROUND else "mark"
 
 
 # Strings
@@ -135,32 +106,22 @@ def draw_strings(sketch: Sketch) -> None:
     gravity = np.array([sketch.number(x) for x in sketch.spec.get("gravity") or (0.0, -1.0)])
     down = gravity / (np.hypot(*gravity) or 1.0)
     for string in sketch.spec.get("strings", []):
-        names, radii = zip(*(_guide(sketch, place) for place in _places(string)), strict=True)
-        centres = [sketch.seen_from(GROUND, name) for name in names]
+        first, last = string["ends"]
+        if "drum" in last:  # its sense, to be followed from the first end
+            last = {"drum": {**last["drum"], "sense": -last["drum"]["sense"]}}
+        guides = [shape for place in (first, *string.get("over", []), last) for shape in place.values()]
+        names = [guide if isinstance(guide, str) else guide["centre"] for guide in guides]
+        radii = [0.0 if isinstance(guide, str) else guide["sense"] * sketch.number(guide["radius"]) for guide in guides]
         slack = np.maximum(sketch.gap(string["name"]), 0.0)
-        path = way(centres, radii, slack, down)
+        path = way([sketch.seen_from(GROUND, name) for name in names], radii, slack, down)
         shown = sketch.there(string["name"], string.get("engaged", True))
         sketch.cords.append(Cord(string["name"], path, slack <= 1e-3 * sketch.size, shown))
-        for name, radius in zip(names, radii, strict=True):
-            body, at = sketch.at[name]
+        for name, guide, radius in zip(names, guides, radii, strict=True):
+            body = sketch.at[name][0]
             if radius:
-                _wheel(sketch, body, at, abs(radius))
+                sketch.wheel(guide, _solid(body))
             if radius or body == GROUND or name not in (names[0], names[-1]):
-                sketch.figures[body].add(shapes.circle(at, 0.3 * sketch.size), "pin")
-
-
-def _places(string: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """Ends and guides from the first end on; the sense of the last drum turned round, to be followed from the first end."""
-    first, last = string["ends"]
-    if "drum" in last:
-        last = {"drum": {**last["drum"], "sense": -last["drum"]["sense"]}}
-    return [first, *string.get("over", []), last]
-
-
-def _guide(sketch: Sketch, place: Mapping[str, Any]) -> tuple[str, float]:
-    """Point and radius (m; below 0 for one passed clockwise, 0 for a point) of an end or guide."""
-    [shape] = place.values()
-    return (shape, 0.0) if isinstance(shape, str) else (shape["centre"], shape["sense"] * sketch.number(shape["radius"]))
+                sketch.pin(name, 0.3)
 
 
 def way(centres: Sequence[Array], radii: Sequence[float], slack: Array, down: Array) -> Array:

@@ -19,34 +19,21 @@ Fields = Mapping[str, Any]
 
 
 def draw_joints(sketch: Sketch) -> None:
-    """Every joint as its card says; what holds is drawn only as long as the joint is there."""
+    """Every joint as its card says; what holds, pins and welds, is drawn only as long as the joint is there."""
     for joint in sketch.spec["joints"]:
         card, there = joints()[joint["type"]], sketch.there(joint["name"], joint.get("engaged", True))
-        if card.outline:
-            _outline(sketch, joint["with"]["of"], card.outline, there)
+        for point in joint["with"]["of"] if card.outline else ():
+            body, at = sketch.at[point]
+            angle = -float(sketch.poses[0, sketch.names.index(body), 2])  # alike along the fixed axes at the start
+            lines = [shapes.turn(sketch.size * np.array(stroke), angle, at) for stroke in card.outline]
+            sketch.figures[body].strokes.extend(Stroke(line, "rail", False, there) for line in lines)
         if symbol := GLYPHS.get(card.glyph):
             known = {id(stroke) for figure in sketch.figures.values() for stroke in figure.strokes}
             symbol(sketch, joint["name"], joint["with"])
-            if not there.all():
-                _fade(sketch, known, there)
-
-
-def _fade(sketch: Sketch, known: set[int], there: Array) -> None:
-    """Pins and welds that are not among those ``known`` before are shown only at times (nt,) at which they are ``there``."""
-    for figure in sketch.figures.values():
-        for i, stroke in enumerate(figure.strokes):
-            if id(stroke) not in known and stroke.style in ("pin", "weld"):
-                figure.strokes[i] = replace(stroke, shown=there)
-
-
-def _outline(sketch: Sketch, points: list[str], strokes: tuple[tuple[tuple[float, float], ...], ...], there: Array) -> None:
-    """Strokes in sizes of symbols at each of some points, alike along the fixed axes at the start."""
-    for point in points:
-        body, at = sketch.at[point]
-        angle = -float(sketch.poses[0, sketch.names.index(body), 2])
-        for stroke in strokes:
-            line = shapes.turn(sketch.size * np.array(stroke), angle, (at[0], at[1]))
-            sketch.figures[body].strokes.append(Stroke(line, "rail", False, there))
+            for figure in sketch.figures.values() if not there.all() else ():
+                for i, stroke in enumerate(figure.strokes):
+                    if id(stroke) not in known and stroke.style in ("pin", "weld"):
+                        figure.strokes[i] = replace(stroke, shown=there)
 
 
 def draw_forces(sketch: Sketch) -> None:
@@ -76,8 +63,7 @@ def _hinge(sketch: Sketch, name: str, fields: Fields) -> None:
     for point in fields["of"]:
         if sketch.at[point][0] == GROUND:
             _support(sketch, sketch.at[point][1])
-    body, at = sketch.at[fields["of"][0]]
-    sketch.figures[body].add(shapes.circle(at, 0.55 * sketch.size), "pin")
+    sketch.pin(fields["of"][0], 0.55)
 
 
 def _support(sketch: Sketch, at: Array) -> None:
@@ -86,94 +72,57 @@ def _support(sketch: Sketch, at: Array) -> None:
     feet = at + np.array([[-1.1 * s, -2.0 * s], [1.1 * s, -2.0 * s]])
     tent = np.vstack([feet[0], shapes.arc(at, 0.9 * s, np.pi, 0.0), feet[1]])
     ground.add(tent, "block")
-    _hatched(sketch, at + (-1.9 * s, -2.0 * s), at + (1.9 * s, -2.0 * s))
+    sketch.hatched(GROUND, at + np.array([[-1.9 * s, -2.0 * s], [1.9 * s, -2.0 * s]]))
 
 
-def _hatched(sketch: Sketch, start: Array, end: Array) -> None:
-    """A line of ground, hatched on its right-hand side."""
-    s, ground = sketch.size, sketch.figures[GROUND]
-    ground.add(np.array([start, end]), "rail", closed=False)
-    length = float(np.hypot(*(end - start)))
-    along = (end - start) / length
-    lean = (np.array([along[1], -along[0]]) - along) * 0.55 * s
-    for foot in np.arange(0.7 * s, length + 1e-9 * s, max(0.65 * s, length / 120)):
-        root = start + foot * along
-        ground.add(np.array([root, root + lean]), "hatch", closed=False)
-
-
-def _rail(sketch: Sketch, line: Any, points: list[str], margin: float) -> tuple[str, Array, Array, Array, Array]:
-    """Body, start, end, direction of the part of a line that points travel along, and their first places along it."""
+def _travelled(sketch: Sketch, line: Any, points: list[str], margin: float) -> tuple[str, Array, Array]:
+    """Body, ends (2, 2) and direction of the part of a line that points travel along."""
     body, origin, along = sketch.line(line)
-    paths = [(sketch.seen_from(body, point) - origin) @ along for point in points]
-    reach = np.concatenate(paths)
-    start, end = origin + (reach.min() - margin) * along, origin + (reach.max() + margin) * along
-    return body, start, end, along, np.array([path[0] for path in paths])
+    reach = np.concatenate([(sketch.seen_from(body, point) - origin) @ along for point in points])
+    return body, np.array([origin + (reach.min() - margin) * along, origin + (reach.max() + margin) * along]), along
 
 
 def _track(sketch: Sketch, line: Any, points: list[str], below: float) -> None:
-    """The line that something slides or rolls on, ``below`` it: hatched on ground, a rail on a body."""
-    body, start, end, along, _ = _rail(sketch, line, points, 3 * sketch.size)
-    right = np.array([along[1], -along[0]])
-    start, end = start + below * right, end + below * right
-    if body == GROUND:
-        _hatched(sketch, start, end)
-    else:
-        sketch.figures[body].add(np.array([start, end]), "rail", closed=False)
+    """The line that something slides or rolls on, ``below`` it."""
+    body, ends, along = _travelled(sketch, line, points, 3 * sketch.size)
+    sketch.rail(body, ends + below * np.array([along[1], -along[0]]))
 
 
 def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
     body, point, along = sketch.line(fields["line"])
-    height = 1.1 * sketch.size
-    named = fields["line"]["point"] if isinstance(fields["line"], Mapping) else None
-    shaped = any(len(stroke.points) == 4 for stroke in sketch.figures[body].strokes)
-    if not shaped:
+    height, right = 1.1 * sketch.size, np.array([along[1], -along[0]])
+    if any(len(stroke.points) == 4 for stroke in sketch.figures[body].strokes):  # the body is a block of its own
+        height = float(max(((stroke.points - point) @ right).max() for stroke in sketch.figures[body].strokes))
+    else:
         block = shapes.turn(shapes.box(3.6 * sketch.size, 2 * height), float(np.arctan2(along[1], along[0])), point)
         sketch.figures[body].add(block, "block")
-    if named:
-        _track(sketch, fields["along"], [named], _depth(sketch, body, point, along) if shaped else height)
-
-
-def _depth(sketch: Sketch, body: str, point: Array, along: Array) -> float:
-    """How far a body reaches to the right of a line through it."""
-    right = np.array([along[1], -along[0]])
-    return float(max((((stroke.points - point) @ right).max() for stroke in sketch.figures[body].strokes), default=0.0))
+    if isinstance(fields["line"], Mapping) and fields["line"]["point"]:
+        _track(sketch, fields["along"], [fields["line"]["point"]], height)
 
 
 def _rollers(sketch: Sketch, name: str, fields: Fields) -> None:
-    radius = 0.6 * sketch.size
     for point in fields["points"]:
-        body, at = sketch.at[point]
-        sketch.figures[body].add(shapes.circle(at, radius), "pin")
-    _track(sketch, fields["along"], list(fields["points"]), radius)
+        sketch.pin(point, 0.6)
+    _track(sketch, fields["along"], list(fields["points"]), 0.6 * sketch.size)
 
 
 def _slot(sketch: Sketch, name: str, fields: Fields) -> None:
-    body, start, end, _, _ = _rail(sketch, fields["along"], [fields["point"]], 0.0)
+    body, ends, along = _travelled(sketch, fields["along"], [fields["point"]], 0.0)
     if isinstance(fields["along"], Mapping) and fields["along"].get("towards"):
-        along = [sketch.at[fields["along"][key]][1] for key in ("point", "towards")]
-        start, end = _extremes([start, end, *along])
-    sketch.figures[body].add(shapes.rounded_hull(np.array([start, end]), 0.45 * sketch.size), "slot")
-    second, at = sketch.at[fields["point"]]
-    sketch.figures[second].add(shapes.circle(at, 0.45 * sketch.size), "pin")
-
-
-def _extremes(points: list[Array]) -> tuple[Array, Array]:
-    """The two of several points on a line that lie furthest apart."""
-    spread = np.array(points)
-    gaps = np.hypot(*(spread[:, None] - spread[None]).T)
-    i, j = np.unravel_index(gaps.argmax(), gaps.shape)
-    return spread[i], spread[j]
+        ends = np.vstack([ends, *(sketch.at[fields["along"][key]][1] for key in ("point", "towards"))])
+        ends = ends[[(ends @ along).argmin(), (ends @ along).argmax()]]
+    sketch.figures[body].add(shapes.rounded_hull(ends, 0.45 * sketch.size), "slot")
+    sketch.pin(fields["point"], 0.45)
 
 
 def _curved_slot(sketch: Sketch, name: str, fields: Fields) -> None:
     _curve(sketch, name, fields["along"])
-    body, at = sketch.at[fields["point"]]
-    sketch.figures[body].add(shapes.circle(at, 0.45 * sketch.size), "pin")
+    sketch.pin(fields["point"], 0.45)
 
 
 def _cam(sketch: Sketch, name: str, fields: Fields) -> None:
     _curve(sketch, name, fields["along"])
-    _wheel(sketch, fields["follower"], "block")
+    sketch.wheel(fields["follower"], "block")
 
 
 def _curve(sketch: Sketch, joint: str, name: str) -> None:
@@ -195,31 +144,23 @@ def points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) 
     return sketch.values(texts).reshape(-1, 2)
 
 
-def _wheel(sketch: Sketch, circle: Mapping[str, Any], style: str) -> None:
-    body, at = sketch.at[circle["centre"]]
-    sketch.figures[body].strokes.insert(0, Stroke(shapes.circle(at, sketch.number(circle["radius"])), style))
-
-
 def _rolling(sketch: Sketch, name: str, fields: Fields) -> None:
-    radius = sketch.number(fields["circle"]["radius"])
-    _wheel(sketch, fields["circle"], "mark")
-    body, start, end, _, _ = _rail(sketch, fields["on"], [fields["circle"]["centre"]], radius + 2 * sketch.size)
-    if body == GROUND:
-        _hatched(sketch, start, end)
-    else:
-        sketch.figures[body].add(np.array([start, end]), "rail", closed=False)
+    circle = fields["circle"]
+    sketch.wheel(circle, "mark")
+    body, ends, _ = _travelled(sketch, fields["on"], [circle["centre"]], sketch.number(circle["radius"]) + 2 * sketch.size)
+    sketch.rail(body, ends)
 
 
 def _rolling_circles(sketch: Sketch, name: str, fields: Fields) -> None:
-    _wheel(sketch, fields["circle"], "mark")
-    _wheel(sketch, fields["on"], "mark")
+    sketch.wheel(fields["circle"], "mark")
+    sketch.wheel(fields["on"], "mark")
 
 
 def _weld(sketch: Sketch, name: str, fields: Fields) -> None:
-    body, at = sketch.at[fields["of"][0]]
-    sketch.figures[body].add(at + shapes.box(0.9 * sketch.size, 0.9 * sketch.size), "weld")
+    s, (body, at) = sketch.size, sketch.at[fields["of"][0]]
+    sketch.figures[body].add(at + shapes.box(0.9 * s, 0.9 * s), "weld")
     if body == GROUND:
-        _hatched(sketch, at + (-1.6 * sketch.size, -0.45 * sketch.size), at + (1.6 * sketch.size, -0.45 * sketch.size))
+        sketch.hatched(body, at + np.array([[-1.6 * s, -0.45 * s], [1.6 * s, -0.45 * s]]))
 
 
 def _link(sketch: Sketch, name: str, fields: Fields) -> None:
@@ -228,7 +169,7 @@ def _link(sketch: Sketch, name: str, fields: Fields) -> None:
         body, at = sketch.at[point]
         if body == GROUND:
             _support(sketch, at)
-        sketch.figures[body].add(shapes.circle(at, 0.4 * sketch.size), "pin")
+        sketch.pin(point, 0.4)
 
 
 def _gear(sketch: Sketch, name: str, fields: Fields) -> None:

@@ -99,7 +99,11 @@ class Sketch:
             if ".outline[" not in name:  # a corner that only contacts know
                 self.at[name] = (place[0], np.array(place[1:], float))
                 self.figures[place[0]].points[name] = (float(place[1]), float(place[2]))
-        self.outlines = {body: value for body, value in _outlines(source.model).items() if body in self.figures}
+        stated = {
+            name: body for name, body in source.model.get("bodies", {}).items() if name in self.figures and isinstance(body, dict)
+        }
+        self.outlines = {name: body["outline"] for name, body in stated.items() if body.get("outline") is not None}
+        """What the model says of outlines: ``none``, or points by name or as numbers in m."""
         self.size = self._size()
 
     def number(self, value: float | str) -> float:
@@ -166,6 +170,38 @@ class Sketch:
         shown = self.there(name, engaged)
         self.pairs.append(Pair(name, kind, ((index(first), a[0], a[1]), (index(second), b[0], b[1])), lines, shown))
 
+    def wheel(self, circle: Mapping[str, Any], style: str) -> None:
+        """A circle about a point, unless its body shows it already."""
+        body, at = self.at[circle["centre"]]
+        radius, figure = abs(self.number(circle["radius"])), self.figures[body]
+        away = (np.hypot(*(stroke.points - at).T) for stroke in figure.strokes if len(stroke.points) > 12)
+        if radius and not any(np.allclose(each, radius, rtol=1e-5, atol=0) for each in away):
+            figure.add(shapes.circle(at, radius), style)
+
+    def pin(self, point: str, radius: float) -> None:
+        """A pin at a named point, its radius in sizes of symbols."""
+        body, at = self.at[point]
+        self.figures[body].add(shapes.circle(at, radius * self.size), "pin")
+
+    def rail(self, body: str, path: Array) -> None:
+        """What something slides or rolls on, a polyline: on ground hatched, on a body bare."""
+        if body == GROUND:
+            self.hatched(body, path)
+        else:
+            self.figures[body].add(path, "rail", closed=False)
+
+    def hatched(self, body: str, path: Array) -> None:
+        """A polyline, hatched on its right-hand side."""
+        s, figure, sides = self.size, self.figures[body], np.diff(path, axis=0)
+        figure.add(path, "rail", closed=False)
+        lengths = np.hypot(*sides.T)
+        ends = np.cumsum(lengths)
+        for foot in np.arange(0.7 * s, ends[-1] + 1e-9 * s, max(0.65 * s, ends[-1] / 120)):
+            i = min(int(np.searchsorted(ends, foot)), len(sides) - 1)
+            along = sides[i] / lengths[i]
+            root = path[i] + (foot - ends[i] + lengths[i]) * along
+            figure.add(np.array([root, root + (np.array([along[1], -along[0]]) - along) * 0.55 * s]), "hatch", closed=False)
+
     def _size(self) -> float:
         """A size for symbols that suits the mechanism: a small part of its extent at the start, larger where it travels far."""
         seen = [self.place(name) for name, (body, _) in self.at.items() if body != GROUND]
@@ -195,12 +231,6 @@ def sketch_of_state(source: CompiledModel, state: State) -> Sketch:
     texts = [text.format(body) for body in bodies for text in ("x({}.origin)", "y({}.origin)", "angle({})")]
     poses = source.evaluate(texts, state).reshape(1, -1, 3)
     return Sketch(source, state, np.array([state.t]), state.q[None], poses)
-
-
-def _outlines(model: Mapping[str, Any]) -> dict[str, Any]:
-    """What the model says of outlines: ``none``, or points by name or as numbers in m."""
-    said = {name: body.get("outline") for name, body in model.get("bodies", {}).items() if isinstance(body, dict)}
-    return {name: outline for name, outline in said.items() if outline is not None}
 
 
 def named_points(value: Any) -> list[str]:
