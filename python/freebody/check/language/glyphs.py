@@ -45,61 +45,30 @@ _SAME = {
 }
 _FRACTIONS = {"½": "(1/2)", "¼": "(1/4)", "¾": "(3/4)", "⅓": "(1/3)", "⅔": "(2/3)", "⅛": "(1/8)"}
 _COMMANDS = {
-    **{
-        "cdot": "·",
-        "times": "×",
-        "wedge": "×",
-        "ast": "*",
-        "le": "<=",
-        "leq": "<=",
-        "ge": ">=",
-        "geq": ">=",
-        "lt": "<",
-        "gt": ">",
-    },
+    **{"cdot": "·", "times": "×", "wedge": "×", "ast": "*"},
+    **{"le": "<=", "leq": "<=", "ge": ">=", "geq": ">=", "lt": "<", "gt": ">"},
     **{"frac": "frac", "tfrac": "frac", "dfrac": "frac", "sqrt": "sqrt", "{": "(", "}": ")", "lbrack": "[", "rbrack": "]"},
     **{"partial": "∂", "circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
 }
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
-_CLOTHES = {
-    *(
-        "vec",
-        "hat",
-        "mathbf",
-        "boldsymbol",
-        "bm",
-        "mathrm",
-        "bar",
-        "underline",
-        "overrightarrow",
-        "mathit",
-        "operatorname",
-        "text",
-    ),
-    *("widehat", "mathsf", "textbf", "overline", "tilde", "pmb"),
-}
 _WORDS = {"mathrm", "mathsf", "operatorname", "text", "textbf"}
-"""Clothes of names, which may have blanks in them."""
+"""Commands of fonts whose names may have blanks in them."""
+_FONTS = {
+    *_WORDS,
+    *("vec", "hat", "mathbf", "boldsymbol", "bm", "bar", "underline", "overrightarrow"),
+    *("mathit", "widehat", "overline", "tilde", "pmb"),
+}
+"""Commands that change how a letter looks, and not what it is."""
 _NOTHING = {
-    *[",", "!", ";", ":", "(", ")", "[", "]", ">"],
-    "left",
-    "right",
-    "big",
-    "Big",
-    "bigl",
-    "bigr",
-    "Bigl",
-    "Bigr",
-    "displaystyle",
-    "allowdisplaybreaks",
-    "notag",
-    "nonumber",
-    "limits",
+    *",!;:()[]>",
+    *("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr"),
+    *("displaystyle", "allowdisplaybreaks", "notag", "nonumber", "limits"),
 }
 _FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "log", "arcsin", "arccos", "arctan"}
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_BLANKS = re.compile(r"\s*")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
 _LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
 _FITTED = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$)(.*?)\$\}", re.DOTALL)
@@ -145,59 +114,38 @@ class _Reader:
         self.at += 1
         while self.at < len(self.text) and unicodedata.combining(self.text[self.at]):
             self.at += 1
-        whole = self.text[start : self.at]
+        if char == "_" and self.text[self.at : self.at + 1] == "{":  # what stands in braces is one piece of the name
+            inner = "".join(g.text for g in self.group() if g.kind is not Kind.SPACE)
+            return [Glyph(Kind.LOW, text, (start, self.at)) for text in ("", folded(inner))]
         if char == "_":
-            return self.low(start)
+            return [Glyph(Kind.LOW, "", (start, self.at))]
         if char == "&" and not self.matrices:
             return []
-        return [_plain_glyph(whole, (start, self.at))]
-
-    def low(self, start: int) -> list[Glyph]:
-        """A subscript: what stands in braces is one piece of the name."""
-        if self.text[self.at : self.at + 1] != "{":
-            return [Glyph(Kind.LOW, "", (start, self.at))]
-        inner = "".join(g.text for g in self.group() if g.kind is not Kind.SPACE)
-        span = (start, self.at)
-        return [Glyph(Kind.LOW, "", span), Glyph(Kind.LOW, folded(inner), span)]
+        return [_plain_glyph(self.text[start : self.at], (start, self.at))]
 
     def group(self) -> list[Glyph]:
-        """The glyphs of a braced group, or of the one thing that stands here."""
-        self.skip()
-        if self.at >= len(self.text):
-            raise StatementError(
-                "something is missing at the end", (self.at - 1, self.at), "LaTeX commands want `{…}` behind them"
-            )
-        if self.text[self.at] != "{":
-            return self.one()
-        open_, out = self.at, []
+        """The glyphs of a braced group, or of the one thing that stands here: of 12 only the 1."""
+        start = self.at = _BLANKS.match(self.text, self.at).end()  # type: ignore[union-attr]
+        if start >= len(self.text):
+            raise StatementError("something is missing at the end", (start - 1, start), "LaTeX commands want `{…}` behind them")
+        if self.text[start] != "{" and not self.text[start].isdecimal():
+            return self.next()
         self.at += 1
+        if self.text[start].isdecimal():
+            return [Glyph(Kind.DIGIT, self.text[start], (start, self.at))]
+        out: list[Glyph] = []
         while self.text[self.at : self.at + 1] != "}":
             if self.at >= len(self.text):
-                raise StatementError("a `{` is never closed", (open_, open_ + 1))
-            if self.text[self.at] == "{":
-                out += self.braced()
-            else:
-                out += self.next()
+                raise StatementError("a `{` is never closed", (start, start + 1))
+            out += self.braced() if self.text[self.at] == "{" else self.next()
         self.at += 1
         return out
 
-    def one(self) -> list[Glyph]:
-        """One thing that is an argument without braces: of 12 only the 1."""
-        if self.text[self.at].isdecimal():
-            self.at += 1
-            return [Glyph(Kind.DIGIT, self.text[self.at - 1], (self.at - 1, self.at))]
-        return self.next()
-
     def braced(self) -> list[Glyph]:
         """A group or one thing, with its braces."""
-        self.skip()
-        start = self.at
+        start = _BLANKS.match(self.text, self.at).end()  # type: ignore[union-attr]
         inner = self.group()
         return [Glyph(Kind.SIGN, "{", (start, start + 1)), *inner, Glyph(Kind.SIGN, "}", (self.at - 1, self.at))]
-
-    def skip(self) -> None:
-        while self.text[self.at : self.at + 1].isspace():
-            self.at += 1
 
     def command(self) -> list[Glyph]:
         start = self.at
@@ -210,9 +158,8 @@ class _Reader:
         word, span = found[0][1:], (start, found.end())
         if word in _DOTS:
             return _dotted(self.group(), _DOTS[word])
-        if word in _CLOTHES:
-            inside = self.group()
-            return inside if word not in _WORDS else [g for g in inside if g.kind is not Kind.SPACE]
+        if word in _FONTS:
+            return [g for g in self.group() if word not in _WORDS or g.kind is not Kind.SPACE]
         if word in LATEX_WORDS:
             greek = word not in ("ell", "imath", "jmath", "sum", "prime")
             return [Glyph(Kind.PRIME if word == "prime" else Kind.WORD, LATEX_WORDS[word], span, greek=greek)]

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import accumulate, pairwise, takewhile
 
 from freebody.symbolic.errors import Span, StatementError
 from freebody.symbolic.evaluate import FUNCTIONS
@@ -15,7 +16,7 @@ from .glyphs import Glyph, Kind, glyphs
 
 ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
-_SUFFIXES = ("dddot", "ddot", "dot", "")
+_SUFFIXES = {"dddot": 3, "ddot": 2, "dot": 1}
 _SHORT = re.compile(r"(?P<before>d{1,2})?(?P<name>.+?)(?(before)|(?P<after>d{1,2}))")
 """Rates as programs have them: dtheta, ddtheta, thetad, theta_dd."""
 _LONGEST = 400  # glyphs of names without a sign between them
@@ -24,11 +25,8 @@ _OPERANDS = {"letter", "number", "raised", ")", "]"}
 _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
 # r_G1/O, ΣM/O, H_123/A: a label after a stroke that is part of a name, where no declared name decides
 _RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
-# {d^2 θ}{dt^2}
-_FRACTION = re.compile(r"\{d(?:\^\{?(\d)\}?)?([A-Za-z][\w']*)\}\{dt(?:\^\{?\1\}?)?\}")
-
-# {d}{dt}, {d^2}{dt^2}
-_RATE = re.compile(r"\{d(?:\^?\{?(\d|²)\}?)?\}\{dt(?:\^?\{?\1\}?)?\}")
+# {d^2 θ}{dt^2}, {d}{dt}
+_FRACTION = re.compile(r"\{d(?:\^?\{?(\d|²)\}?)?([A-Za-z][\w']*)?\}\{dt(?:\^?\{?\1\}?)?\}")
 
 
 @dataclass(frozen=True)
@@ -81,29 +79,20 @@ class Names:
 
     def find(self, spelling: str) -> tuple[str, int] | None:
         """The name and its number of time derivatives, e.g. of ``thetaddot``; None where it is not known."""
-        for count, suffix in zip((3, 2, 1, 0), _SUFFIXES, strict=True):
-            if spelling in self.by_spelling:
-                return self.by_spelling[spelling], 0
-            stem = spelling.removesuffix(suffix)
-            if suffix and stem != spelling and stem in self.by_spelling:
-                return self.by_spelling[stem], count
-        return self._primes(spelling) or self._short(spelling)
-
-    def _primes(self, spelling: str) -> tuple[str, int] | None:
-        """A name with primes behind it, each a derivative; None where two names could be meant."""
-        bare = spelling.rstrip("'")
-        found = [n for n in range(len(bare), len(spelling)) if spelling[:n] in self.by_spelling]
-        if self.primed or len(found) != 1:
+        known = self.by_spelling
+        if spelling in known:
+            return known[spelling], 0
+        for suffix, count in _SUFFIXES.items():
+            if (stem := spelling.removesuffix(suffix)) != spelling and stem in known:
+                return known[stem], count
+        ends = [n for n in range(len(spelling.rstrip("'")), len(spelling)) if spelling[:n] in known]
+        if len(ends) == 1 and not self.primed:  # each prime is a derivative, unless two names could be meant
+            return known[spelling[: ends[0]]], len(spelling) - ends[0]
+        short = _SHORT.fullmatch(spelling) if "d" not in known else None
+        name = known.get(short["name"]) if short else None
+        if short is None or name is None or name == "t" or name in self.still:
             return None
-        return self.by_spelling[spelling[: found[0]]], len(spelling) - found[0]
-
-    def _short(self, spelling: str) -> tuple[str, int] | None:
-        """The rate of a known name, as programs write it, where no letter is called d."""
-        found = _SHORT.fullmatch(spelling)
-        name = self.by_spelling.get(found["name"]) if found and "d" not in self.by_spelling else None
-        if found is None or name is None or name == "t" or name in self.still:
-            return None
-        return name, len(found["before"] or found["after"])
+        return name, len(short["before"] or short["after"])
 
 
 def tokens(text: str, names: Names = Names()) -> list[Token]:
@@ -141,7 +130,10 @@ class _Reader:
             elif glyph.kind in (Kind.WORD, Kind.LOW, Kind.PRIME):
                 self.run()
             elif glyph.kind is Kind.RAISED:
-                self.raised()
+                start = self.at
+                while self.at < len(self.row) and self.row[self.at].kind is Kind.RAISED:
+                    self.at += 1
+                self.put("raised", self.spelling(start, self.at), start)
             else:
                 self.sign(glyph)
         return self.out
@@ -152,17 +144,12 @@ class _Reader:
         self.out.append(Token(kind, text, span, dots, not self.blank))
         self.blank = False
 
-    def raised(self) -> None:
-        start = self.at
-        while self.at < len(self.row) and self.row[self.at].kind is Kind.RAISED:
-            self.at += 1
-        self.put("raised", "".join(g.text for g in self.row[start : self.at]), start)
-
     def sign(self, glyph: Glyph) -> None:
         start, kind, text = self.at, glyph.text, glyph.text
-        if text == "frac" and (found := self.fraction_derivative() or self.fraction_rate()):
+        if text == "frac" and (found := self.fraction_derivative()):
             return self.take([found])
         self.at += 1
+        pair = text + self.spelling(self.at, self.at + 1)
         if glyph.kind is Kind.DIGIT:
             kind = "number"
         elif glyph.kind is Kind.LINE:
@@ -171,20 +158,14 @@ class _Reader:
             kind, text = "function", CALLS[text.removeprefix("function:")]
         elif text == "sqrt":
             kind = "function"
-        elif text in "<>" and self.row[self.at : self.at + 1] and self.row[self.at].text == "=":
+        elif len(text) == 1 and pair in ("<=", ">=", "**"):
             self.at += 1
-            kind = text = text + "="
-        elif text == "*" and self.row[self.at : self.at + 1] and self.row[self.at].text == "*":
-            self.at += 1
-            kind = text = "^"
-        elif text.startswith("(") and len(text) > 1:
-            return self.fraction(text, start)
+            kind = text = "^" if pair == "**" else pair
+        elif text.startswith("(") and len(text) > 1:  # a sign like ½, as a quotient in brackets
+            for piece in text:
+                self.put("number" if piece.isdecimal() else piece, piece, start)
+            return
         self.put(kind, text, start)
-
-    def fraction(self, text: str, start: int) -> None:
-        """A sign like ½ as a quotient in brackets."""
-        for piece in text:
-            self.put("number" if piece.isdecimal() else piece, piece, start)
 
     # --- names ---------------------------------------------------------------------------------
 
@@ -249,9 +230,9 @@ class _Reader:
         """The known names and functions that begin at a glyph; one with a stroke in it can reach beyond ``end``."""
         for name in self.names.odd:
             if (after := self.matches(start, name)) is not None:
-                end = self.primes_end(after)
-                dots = self.marks(start, after) + len(self.spelling(after, end))
-                return [_Piece("letter", self.names.by_spelling[name], dots, end)]
+                primes = len(list(takewhile(lambda glyph: glyph.kind is Kind.PRIME, self.row[after:])))
+                dots = self.marks(start, after) + len(self.spelling(after, after + primes))
+                return [_Piece("letter", self.names.by_spelling[name], dots, after + primes)]
         out = []
         for stop in range(start + 1, end + 1):
             if (stop < end and self.row[stop].kind in (Kind.LOW, Kind.PRIME)) or self.row[stop - 1].text == "":
@@ -279,31 +260,20 @@ class _Reader:
             return None
         return at
 
-    def primes_end(self, at: int) -> int:
-        """Behind the primes that stand here, each a time derivative."""
-        while at < len(self.row) and self.row[at].kind is Kind.PRIME:
-            at += 1
-        return at
-
     def unknown(self, start: int, end: int) -> list[_Piece]:
         """Names that nobody declared: Latin and Greek letters part, and a label after a stroke belongs to the name."""
         if (after := self.relative(start, end)) is not None:
             return [_Piece("letter", self.written(start, after), self.marks(start, after), after)]
-        out: list[_Piece] = []
-        for stop in self.parts(start, end):
-            known = self.best(start, stop) if (start, stop) != (self.at, end) else None
-            out += known[1] if known else [self.bare(start, stop)]
-            start = stop
-        return out
-
-    def parts(self, start: int, end: int) -> list[int]:
-        """Where a row of unknown letters changes between Latin and Greek, and its end."""
         ends, greek = [], self.row[start].greek
         for i in range(start + 1, end):
             if self.row[i].kind is Kind.WORD and self.row[i].greek != greek and self.row[i - 1].kind is not Kind.LOW:
                 ends.append(i)
-                greek = self.row[i].greek
-        return [*ends, end]
+                greek = not greek
+        out: list[_Piece] = []
+        for first, stop in pairwise([start, *ends, end]):
+            known = self.best(first, stop) if (first, stop) != (self.at, end) else None
+            out += known[1] if known else [self.bare(first, stop)]
+        return out
 
     def bare(self, start: int, end: int) -> _Piece:
         """An unknown letter; the word ``dot`` behind it is still a derivative."""
@@ -312,7 +282,7 @@ class _Reader:
             raise StatementError("a mark without a letter before it", self.row[start].span)
         if spelling in CALLS and not count:
             return _Piece("function", CALLS[spelling], 0, end)
-        for dots, suffix in zip((3, 2, 1), _SUFFIXES, strict=False):
+        for suffix, dots in _SUFFIXES.items():
             if spelling.endswith(suffix) and spelling != suffix:
                 return _Piece("letter", spelling.removesuffix(suffix), dots + count, end)
         return _Piece("letter", self.written(start, end), count, end)
@@ -357,30 +327,18 @@ class _Reader:
         return _Piece("letter", name, dots + order + self.marks(at, stroke), end)
 
     def fraction_derivative(self) -> _Piece | None:
-        """The same written as a LaTeX fraction, from there on."""
+        """The same, and the derivative of what stands behind, d/dt and d²/dt², written as a LaTeX fraction."""
         inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
-        text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside)
-        found = _FRACTION.match(text)
+        texts = ["²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside]
+        found = _FRACTION.match("".join(texts))
         if not found:
             return None
-        ends = {0: inside[0]}
-        for i in inside:
-            ends[max(ends) + len(self.row[i].text)] = i + 1
+        last = next(i for i, length in enumerate(accumulate(map(len, texts))) if length >= found.end())
+        end, order = inside[last] + 1, int((found[1] or "1").replace("²", "2"))
+        if not found[2]:
+            return _Piece("rate", "d/dt", order, end)
         name, dots = self.names.find(folded(found[2])) or (found[2], 0)
-        marks = self.marks(self.at, ends[found.end()])
-        return _Piece("letter", name, dots + int(found[1] or 1) + marks, ends[found.end()])
-
-    def fraction_rate(self) -> _Piece | None:
-        """The derivative of what stands behind, written as a LaTeX fraction: d/dt, d²/dt²."""
-        inside = [i for i in range(self.at + 1, len(self.row)) if self.row[i].kind is not Kind.SPACE]
-        text = "".join("²" if self.row[i].kind is Kind.RAISED else self.row[i].text for i in inside[:16])
-        found = _RATE.match(text)
-        if not found:
-            return None
-        count = 0
-        while sum(len(self.row[i].text) for i in inside[:count]) < found.end():
-            count += 1
-        return _Piece("rate", "d/dt", int((found[1] or "1").replace("²", "2")), inside[count - 1] + 1)
+        return _Piece("letter", name, dots + order + self.marks(self.at, end), end)
 
     def order(self, at: int) -> tuple[int, int]:
         """The order of a derivative written here (1 where nothing is), and the glyph behind it."""
