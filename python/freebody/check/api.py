@@ -7,16 +7,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from freebody.model.errors import ModelProblem
-from freebody.symbolic.errors import StatementError
 
 from .case import Case
 from .claims import claimed
 from .families import ALL, Family
-from .language.dimensions import DimensionError, check_dimensions
+from .language.dimensions import misfit
 from .meaning import StatementLetters
 from .motion_sampler import MotionSampler
 from .symbols import Letters
-from .verdict import Verdict, holds, judged, misfit
+from .verdict import Verdict, holds, judged, of_wrong_dimensions
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -70,13 +69,8 @@ class Checker:
         return replace(self._judged(case, text), notes=case.meaning.letters.notes(case.program))
 
     def _judged(self, case: Case, text: str) -> Verdict:
-        try:
-            check_dimensions(case.program, case.meaning.letters.dimensions)
-        except DimensionError as error:
-            return _in_figures(case) or misfit(case, case.equations, text, error.what)
-        except StatementError:
-            pass  # kinds that do not go together are told with the verdict
-        return judged(case)
+        error = misfit(case.program, case.meaning.letters.dimensions)
+        return judged(case) if error is None else _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
@@ -98,11 +92,7 @@ class Checker:
 
 def _in_figures(case: Case) -> Verdict | None:
     """The verdict where an equation is true whose dimensions fit if figures stand for measures in SI units."""
-    try:
-        check_dimensions(case.program, case.meaning.letters.dimensions, figures=True)
-    except StatementError:
-        return None
-    if not holds(case):
+    if misfit(case.program, case.meaning.letters.dimensions, figures=True) or not holds(case):
         return None
     verdict = judged(case)
     return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None

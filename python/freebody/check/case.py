@@ -4,47 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
 from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Sym
 
 from .families import ALL, Family, Samples
 from .language.statements import Equation, Program, inlined
+from .meaning import StatementLetters
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
-from .vocabulary import Vocabulary
-
-
-class Meaning(Protocol):
-    """What the letters of a statement are."""
-
-    @property
-    def vocabulary(self) -> Vocabulary:
-        """The letters that a true equation may be written in."""
-
-    def texts(self, letter: Sym) -> tuple[str, ...]:
-        """The expressions of the model language that a letter stands for."""
-
-    def fits(self, equation: Equation) -> bool:
-        """Whether its terms have one dimension."""
-
-    def in_figures(self) -> Meaning:
-        """The same where figures stand for measures in SI units, so that they fit any dimension."""
-
-    def solved(self, letter: Sym) -> bool:
-        """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
-
-    def names(self) -> Mapping[str, tuple[str, ...]]:
-        """What each letter with a value stands for, by ``Letter.key``: letters that name one quantity twice agree in it."""
-
-    def given(self) -> frozenset[str]:
-        """Letters made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
-
-    def values(self, samples: Samples) -> Mapping[str, Array]:
-        """The value of every letter on true states, by ``Letter.key``."""
 
 
 @dataclass
@@ -53,7 +22,7 @@ class Case:
     ``mending``: whether corrections are wanted where it is wrong."""
 
     program: Program
-    meaning: Meaning
+    meaning: StatementLetters
     sampler: MotionSampler
     hypothesis: Family = ALL
     mending: bool = True

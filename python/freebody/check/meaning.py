@@ -12,12 +12,11 @@ import numpy as np
 
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
-from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Sym, walk
 
 from .families import Samples
-from .language.dimensions import DimensionError, check_dimensions
+from .language.dimensions import misfit
 from .language.statements import Equation, Program
 from .motion_sampler import MotionSampler
 from .symbols import Letters
@@ -66,13 +65,7 @@ class StatementLetters:
 
     def fits(self, equation: Equation) -> bool:
         """Whether its terms have one dimension, as far as that is known."""
-        try:
-            check_dimensions(Program((equation,)), self.letters.dimensions, figures=self.figures)
-        except DimensionError:
-            return False
-        except StatementError:
-            pass
-        return True
+        return misfit(Program((equation,)), self.letters.dimensions, figures=self.figures) is None
 
     def in_figures(self) -> StatementLetters:
         """The same where figures stand for measures in SI units, so that they fit any dimension."""
@@ -82,10 +75,8 @@ class StatementLetters:
 
     def solved(self, letter: Sym) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
-        if letter.name not in self.letters.meanings:
-            return False
-        one = self._one(letter)
-        return one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots))
+        one = self.letters.meanings.get(letter.name)
+        return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
@@ -119,8 +110,7 @@ class StatementLetters:
 
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
-        state = self.sampler.first
-        loads = self.sampler.core.free_bodies(state).loads
+        loads = self.sampler.core.free_bodies(self.sampler.first).loads
         named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
         known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []

@@ -14,7 +14,7 @@ from freebody.core import ModelError, MotionError, State
 from freebody.model.errors import ModelProblem
 from freebody.model.start import evaluate, initial_state
 from freebody.run.records import Array
-from freebody.symbolic.dimensions import Dimension
+from freebody.symbolic.dimensions import ANGLE, Dimension
 
 from .constrained_sampling import Loop
 from .families import ALL, Family, NoMotion, Sample, Samples
@@ -124,15 +124,9 @@ class MotionSampler(OnRuns):
         size, sign = rng.random(), rng.choice([-1.0, 1.0])
         if family.numbers or (value == 0 and not family.zeros):
             return value
-        low, high = self._factor(dimension)
+        low, high = _ANGLE_FACTOR if dimension == ANGLE else _LOOP_FACTOR if self.shapes_loop(dimension) else _FACTOR
         factor = low * (high / low) ** size
         return value * factor if value else sign * factor * self.unit(dimension)
-
-    def _factor(self, dimension: Dimension | None) -> tuple[float, float]:
-        """By what a parameter may differ from the model's."""
-        if dimension is not None and _is_angle(dimension):
-            return _ANGLE_FACTOR
-        return _LOOP_FACTOR if self.shapes_loop(dimension) else _FACTOR
 
     def unit(self, dimension: Dimension | None) -> float:
         """What is typical of a dimension, SI."""
@@ -143,14 +137,12 @@ class MotionSampler(OnRuns):
     def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
         """A random state on the model's branch, none of whose limits is closed."""
         words = initial_state(self.start, self.core, values)
-        p, t = words["p"], self._time(rng)
-        own = self.first.q
-        wide = self.loops == 0 or bool(words["branch"])
-        spread = np.array([(math.pi if wide else 0.6) if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        guess = own + spread * rng.uniform(-1, 1, len(own))
-        near = {c["name"]: float(x) for c, x in zip(self.coordinates, guess, strict=True)}
+        t, own = 3 * rng.random() / self.rate, self.first.q
+        angle = math.pi if self.loops == 0 or words["branch"] else 0.6
+        spread = self.sizes * np.array([angle if c["dimension"] == "rad" else 1.0 for c in self.coordinates])
+        guess = self.named(own + spread * rng.uniform(-1, 1, len(own)))
         rates = self.rates(rng, family)
-        state, _ = self.core.assemble(p, t, guess=near, rates=rates, branch=words["branch"])
+        state, _ = self.core.assemble(words["p"], t, guess=guess, rates=rates, branch=words["branch"])
         small = [f"({text}) - ({size * _about(rng)!r})" for text, size in family.small]
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in family.small if not family.at_rest]
         for text in (*family.vanishing, *small, *slow):
@@ -158,8 +150,8 @@ class MotionSampler(OnRuns):
         solved = self.core.instant(state)
         if not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
             return None
-        sizes = self.rate * np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and np.all(np.abs(state.u) < _FAST * sizes)
+        slow = np.all(np.abs(state.u) < _FAST * self.rate * self.sizes)
+        good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and slow
         return Sample(state) if good else None
 
     def _vanished(self, text: str, state: State, free: list[str], branch: Mapping[str, int]) -> State:
@@ -168,7 +160,7 @@ class MotionSampler(OnRuns):
         if self.loops:
             if abs(self._slope(text, state, q, u, 0)[0]) > _NOTHING and not free:
                 raise NoMotion(f"`{_stated(text)}` cannot be arranged: the loops of this mechanism leave it no freedom")
-            return Loop(self.core, [c["name"] for c in self.coordinates], free, branch).vanished(text, state) if free else state
+            return Loop(self.core, self.names, free, branch).vanished(text, state) if free else state
         for _ in range(30):
             value, slope = self._slope(text, state, q, u, 0)
             if not slope.any() or abs(value) < 1e-14:
@@ -189,9 +181,6 @@ class MotionSampler(OnRuns):
             return at(still, still), np.array([at(still, s) - at(still, still) for s in steps]) / self.rate
         return at(still, still), np.array([at(s, still) - at(-s, still) for s in steps]) / (2 * _STEP)
 
-    def _time(self, rng: np.random.Generator) -> float:
-        return 3 * rng.random() / self.rate
-
 
 def _about(rng: np.random.Generator) -> float:
     """A number of the size of 1, of either sign."""
@@ -202,7 +191,3 @@ def _stated(text: str) -> str:
     """What vanishes, as the equation that it comes from."""
     found = re.fullmatch(r"\((.+)\) - \((.+)\)", text)
     return f"{found[1]} = {found[2]}" if found else f"{text} = 0"
-
-
-def _is_angle(dimension: Dimension) -> bool:
-    return dimension.angle == 1 and dimension.length == dimension.mass == dimension.time == 0

@@ -34,7 +34,7 @@ class OnRuns(StaticFacts):
     @cached_property
     def own(self) -> Sample:
         """The state of the model at its start, after the events there."""
-        return self._begun(self.first)
+        return Sample(self.first, self._run(self.first, 1e-6 / self.rate) if self.restricted else None)
 
     @cached_property
     def restricted(self) -> bool:
@@ -53,19 +53,14 @@ class OnRuns(StaticFacts):
         first = {j["name"]: j["coordinates"][0] for j in self.about["joints"] if j["coordinates"]}
         return [f"rate({quote(first[name])})" for name in self._sticky if name in first]
 
-    def _begun(self, state: State) -> Sample:
-        if not self.restricted:
-            return Sample(state)
-        return Sample(state, self._run(state, 1e-6 / self.rate))
-
     def _run(self, state: State, until: float) -> Any:
         return self.core.simulate(state, state.t + until, rtol=_RTOL, max_steps=_STEPS)
 
     def rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
-        n = len(self.coordinates)
-        drawn = self.rate * self._sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
+        n = len(self.names)
+        drawn = self.rate * self.sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
         chosen = sorted(rng.permutation(n)[: self.freedom].tolist())
-        return {self.coordinates[i]["name"]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
+        return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
     def on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
         """A state on a run from the model's start with random numbers and admissible rates, as long as nothing switches."""
@@ -78,44 +73,39 @@ class OnRuns(StaticFacts):
         if rng.random() < 0.7 and not (family.at_rest or family.at_start or self._lies):
             state = self._moving(rng, state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
-        ends = motion.end.t
-        t = min(late, 0.9 * ends)
-        q, u = (a[0] for a in motion.sample(np.array([t])))
-        found = State(state.p, t, q, u)
-        same = _same(self._mode(motion, found), self._own_mode)
-        return Sample(found, motion) if same and motion.instant(t).residual < BALANCED else None
+        return self._sampled(motion, state, min(late, 0.9 * motion.end.t))
 
     def since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
         """A state on a run from the model's own start with random numbers, with the rates there or at rest, before
         anything switches."""
         state = self.started(values)
         if family.since == "rest":
-            near = {c["name"]: float(x) for c, x in zip(self.coordinates, state.q, strict=True)}
             rates = self.rates(rng, replace(family, at_rest=True))
-            state, _ = self.core.assemble(state.p, state.t, guess=near, rates=rates)
+            state, _ = self.core.assemble(state.p, state.t, guess=self.named(state.q), rates=rates)
         late = rng.uniform(0.05, 0.3) / self.rate
         motion = self.core.simulate(state, state.t + late, rtol=_EXACT, max_steps=_STEPS)
         ends = [motion.end.t, *(change.t for change in motion.changes if change.t > state.t)]
-        t = state.t + 0.99 * (min(ends) - state.t)
+        return self._sampled(motion, state, state.t + 0.99 * (min(ends) - state.t))
+
+    def _sampled(self, motion: Any, start: State, t: float) -> Sample | None:
+        """The state of a run at a time, if all holds there as at the model's start, and it may judge."""
         q, u = (a[0] for a in motion.sample(np.array([t])))
-        found = State(state.p, t, q, u)
-        if self.restricted and not _same(self._mode(motion, found), self._own_mode):
-            return None
-        return Sample(found, motion) if motion.instant(t).residual < BALANCED else None
+        found = State(start.p, t, q, u)
+        same = not self.restricted or _same(self._mode(motion, found), self._own_mode)
+        return Sample(found, motion) if same and motion.instant(t).residual < BALANCED else None
 
     def _placed(self, rng: np.random.Generator, state: State) -> State:
         """A random place near the start, at rest, where what is closed there is closed: bodies of other sizes touch elsewhere."""
-        names, sizes = [c["name"] for c in self.coordinates], self._sizes
-        q = state.q + _APART * sizes * rng.uniform(-1, 1, len(names))
+        q = state.q + _APART * self.sizes * rng.uniform(-1, 1, len(self.names))
         for _ in range(_PLACES):
-            found, _ = self.core.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)))
+            found, _ = self.core.assemble(state.p, state.t, guess=self.named(q))
             gaps = self._gaps(found, found.q)
             if not np.isfinite(gaps[self._closed]).all():
                 break
             if np.max(np.abs(gaps[self._closed]), initial=0.0) < _TOUCHES * self.length:
                 return found if not found.u.any() else state
             slopes = self._slopes(found, self._closed)
-            q = found.q - np.linalg.pinv(slopes * sizes) @ gaps[self._closed] * sizes
+            q = found.q - np.linalg.pinv(slopes * self.sizes) @ gaps[self._closed] * self.sizes
         return state
 
     @cached_property
@@ -124,29 +114,19 @@ class OnRuns(StaticFacts):
         limits = self._own_mode[: len(self.about["limits"])]
         return [i for i, held in enumerate(limits) if held[0] not in ("open", "slack")]
 
-    @cached_property
-    def _sizes(self) -> Array:
-        """By what a coordinate changes noticeably."""
-        return np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
-
     def _moving(self, rng: np.random.Generator, state: State) -> State:
         """Random rates that keep closed what is closed."""
-        names, sizes = [c["name"] for c in self.coordinates], self.rates(rng, ALL)
-        wanted = np.array([sizes.get(name, 0.0) for name in names])
-        found, _ = self.core.assemble(
-            state.p,
-            state.t,
-            guess=dict(zip(names, state.q.tolist(), strict=True)),
-            rates={n: x for n, x in zip(names, wanted.tolist(), strict=True) if n in sizes},
-        )
+        found, _ = self.core.assemble(state.p, state.t, guess=self.named(state.q), rates=self.rates(rng, ALL))
         if not np.allclose(found.q, state.q, atol=1e-9 * self.length):
             return state
         closed = [i for i, limit in enumerate(self._limits(self.core, state, state.q)) if not limit.is_open]
-        return State(state.p, state.t, state.q, _without(found.u - state.u, self._slopes(state, closed)) + state.u)
+        u, rows = found.u - state.u, self._slopes(state, closed)
+        seen = np.linalg.pinv(rows) @ (rows @ u) if rows.size else 0.0
+        return State(state.p, state.t, state.q, found.u - seen)
 
     def _slopes(self, state: State, closed: Sequence[int]) -> Array:
         """Gradients of the gaps of limits, a row each."""
-        steps, q = np.diag(_STEP * self._sizes), state.q
+        steps, q = np.diag(_STEP * self.sizes), state.q
         columns = [(self._gaps(state, q + step) - self._gaps(state, q - step)) / (2 * step.sum()) for step in steps]
         return np.array(columns).T[closed]
 
@@ -196,8 +176,3 @@ def _same(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
         return x == y or (isinstance(x, tuple) and x[0] == y[0] and 0 in (x[1], y[1]))
 
     return len(a) == len(b) and all(alike(x, y) for x, y in zip(a, b, strict=True))
-
-
-def _without(u: Array, rows: Array) -> Array:
-    """The part of a vector that no row sees."""
-    return u - np.linalg.pinv(rows) @ (rows @ u) if rows.size else u

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import CompiledModel, MotionError, State
+from freebody.core.state import Array
 from freebody.model.start import Start, initial_state
 from freebody.symbolic.dimensions import Dimension
 
@@ -59,10 +61,24 @@ class StaticFacts:
         return list(self.about["coordinates"])
 
     @cached_property
+    def names(self) -> list[str]:
+        """Those of the coordinates."""
+        return [c["name"] for c in self.coordinates]
+
+    def named(self, q: Array) -> dict[str, float]:
+        """Coordinates by their names."""
+        return dict(zip(self.names, q.tolist(), strict=True))
+
+    @cached_property
+    def sizes(self) -> Array:
+        """By what each coordinate changes noticeably: 1 rad, or a length typical of the model."""
+        return np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
+
+    @cached_property
     def frictions(self) -> list[str]:
         """Free parameters that are a coefficient of friction."""
-        written = [c.get(word) for c in self.spec.get("contacts", []) for word in ("friction", "static_friction")]
-        written += [j.get(word) for j in self.spec["joints"] for word in ("friction", "static_friction")]
+        rough = [*self.spec.get("contacts", []), *self.spec["joints"]]
+        written = [item.get(word) for item in rough for word in ("friction", "static_friction")]
         return [name for name in self.free_parameters if name in written]
 
     @cached_property
@@ -81,16 +97,14 @@ class StaticFacts:
     def started(self, parameters: Mapping[str, float]) -> State:
         """The start with other parameters. Raises ``MotionError`` and ``ModelProblem``."""
         words = initial_state(self.start, self.core, parameters)
-        p = words.pop("p")
-        return self.core.assemble(p, 0.0, **words)[0]
+        return self.core.assemble(words.pop("p"), 0.0, **words)[0]
 
     @cached_property
     def length(self) -> float:
         """A length typical of the model, m."""
         places = self.core.points(self.core.bind({}))
         found = [math.hypot(x, y) for _, x, y in places.values()]
-        state = self.first
-        found += [abs(q) for q, c in zip(state.q, self.coordinates, strict=True) if c["dimension"] == "m"]
+        found += [abs(q) for q, c in zip(self.first.q, self.coordinates, strict=True) if c["dimension"] == "m"]
         return max([x for x in found if x > 0], default=1.0)
 
     @cached_property
@@ -101,15 +115,11 @@ class StaticFacts:
     @cached_property
     def rate(self) -> float:
         """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest."""
-        state = self.first
-        sizes = np.array([1.0 if c["dimension"] == "rad" else 1 / self.length for c in self.coordinates])
-        try:
-            solved = self.core.instant(state)
-            found = math.sqrt(np.max(np.abs(solved.accelerations * sizes), initial=0.0))
-        except MotionError:
-            found = 0.0
-        own = float(np.max(np.abs(state.u * sizes), initial=0.0))
-        return float(np.clip(max(found, own), 1e-3, 1e3)) if max(found, own) > 0 else 1.0
+        found = float(np.max(np.abs(self.first.u / self.sizes), initial=0.0))
+        with suppress(MotionError):
+            accelerations = self.core.instant(self.first).accelerations
+            found = max(found, math.sqrt(np.max(np.abs(accelerations / self.sizes), initial=0.0)))
+        return float(np.clip(found, 1e-3, 1e3)) if found > 0 else 1.0
 
     @cached_property
     def freedom(self) -> int:

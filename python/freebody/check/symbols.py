@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from freebody.core import cards
 from freebody.model import meanings
@@ -18,7 +18,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Sym, walk
 
-from .language.dimensions import DimensionError, check_dimensions
+from .language.dimensions import misfit
 from .language.parser import parse, parse_expression
 from .language.spelling import spell as written
 from .language.statements import Program
@@ -28,6 +28,8 @@ from .user_symbols import Array, Meaning, Reader
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
+
+    from .families import Samples
 
 _PARTS: dict[str, tuple[str, ...]] = {
     "force": ("value",),
@@ -40,16 +42,6 @@ _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _SHORT = {"Fx": "x", "Fy": "y"}
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
-
-
-class Sampled(Protocol):
-    """True states on which letters are read."""
-
-    def values(self, texts: Sequence[str]) -> Mapping[str, Array]:
-        """Each expression of the model language on all samples, (K,)."""
-
-    def masses(self) -> Mapping[str, tuple[Array, Array]]:
-        """Mass (K,) and central moment of inertia (K,) of each body."""
 
 
 class Letters:
@@ -118,34 +110,22 @@ class Letters:
         ``accel(s)``, becomes a letter, too. Raises ``StatementError``."""
         for found in _READING.finditer(text):
             name = "".join(found[0].split())
-            if name not in self.meanings and (meaning := self._reading(name)) is not None:
-                self._put(name, meaning)
+            if name not in self.meanings:
+                with suppress(ModelProblem):
+                    measured, dimension = self._measure(name)
+                    self._put(name, Meaning("reading", (measured,), dimension))
         program = parse(text, self.names, self.still)
-        if self._strange(program) and self._learn_printed():
+        given = {line.name for line in program.assignments}
+        strange = any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
+        if strange and self._learn_printed():
             program = parse(text, self.names, self.still)
-        return program if self._fits(program, strictly=True) else self._with_units(text, program)
-
-    def _with_units(self, text: str, program: Program) -> Program:
-        """The same where ``5 m/s`` is a speed though m and s are letters, if its dimensions fit only so."""
-        try:
+        if not misfit(program, self.dimensions, strictly=True):
+            return program
+        try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
             other = parse(text, self.names, self.still, units=True)
         except StatementError:
             return program
-        return other if other != program and self._fits(other) else program
-
-    def _fits(self, program: Program, strictly: bool = False) -> bool:
-        try:
-            check_dimensions(program, self.dimensions, strictly=strictly)
-        except DimensionError:
-            return False
-        except StatementError:
-            pass  # kinds that do not go together are told with the verdict
-        return True
-
-    def _strange(self, program: Program) -> bool:
-        """Whether some letter has no meaning."""
-        given = {line.name for line in program.assignments}
-        return any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
+        return program if other == program or misfit(other, self.dimensions) else other
 
     def _learn_printed(self) -> bool:
         """Those of printed equations join the others, which go before them; whether there are any that did not before."""
@@ -160,12 +140,6 @@ class Letters:
         """Of each letter of a program that usually means something else what that is called here."""
         used = {folded(n.name) for n in walk(program) if isinstance(n, Sym)}
         return tuple(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used)
-
-    def _reading(self, text: str) -> Meaning | None:
-        try:
-            return Meaning("reading", *_single(self._measure(text)))
-        except ModelProblem:
-            return None
 
     # --- values --------------------------------------------------------------------------------
 
@@ -182,14 +156,10 @@ class Letters:
                 found[node] = None
         return list(found)
 
-    def texts(self, found: Iterable[Sym]) -> list[str]:
-        """The expressions of the model language from which these letters are read, each once."""
-        return list(dict.fromkeys(text for n in found for text in self._meaning(n).needed(n.dots)))
-
-    def values(self, found: Iterable[Sym], samples: Sampled) -> dict[str, Array]:
-        """The letters on true states, by ``Letter.key``: (K,), vectors (K, 3)."""
-        found = list(found)
-        known = samples.values(self.texts(found))
+    def values(self, found: Sequence[Sym], samples: Samples) -> dict[str, Array]:
+        """The symbols on true states, by ``Sym.key``: (K,), vectors (K, 3)."""
+        texts = dict.fromkeys(text for n in found for text in self._meaning(n).needed(n.dots))
+        known = samples.values(list(texts))
         return {n.key: self._meaning(n).value(n.dots, known, samples.masses) for n in found}
 
     def _meaning(self, letter: Sym) -> Meaning:
@@ -204,8 +174,8 @@ class Letters:
 
     def _own(self, gravity: str | None) -> dict[str, Meaning]:
         there = {c["name"] for part in ("coordinates", "closure_coordinates") for c in self.about[part]}
-        values = {name: v for name, v in self.named.values.items() if v[0] != "coordinate" or name in there}
-        out = {name: Meaning(kind, (spell(name),), dimension) for name, (kind, dimension) in values.items()}
+        values = ((name, *v) for name, v in self.named.values.items() if v[0] != "coordinate" or name in there)
+        out = {name: Meaning(kind, (spell(name),), dimension) for name, kind, dimension in values}
         for coordinate in self.about["coordinates"]:
             name = coordinate["name"]
             out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
@@ -290,10 +260,6 @@ class Letters:
     @cached_property
     def _spellings(self) -> Names:
         return Names.of(self.meanings)
-
-
-def _single(measured: tuple[str, Dimension | None]) -> tuple[tuple[str], Dimension | None]:
-    return (measured[0],), measured[1]
 
 
 def declarations(lines: Iterable[str]) -> dict[str, str]:

@@ -21,7 +21,6 @@ from .language.parser import parse
 from .language.sides import Sides, equation_sides
 from .language.spelling import spell
 from .language.statements import Equation, letters
-from .meaning import StatementLetters
 from .rounding import figures, last_digit, rounding, slope
 from .verdict import Evidence, Kind, Verdict
 
@@ -111,11 +110,9 @@ def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[
 
 def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:
     """A statement with the values of its letters at a moment, and its time."""
-    known = checker.letters(declared)
-    program = known.read(statement)
-    meaning = StatementLetters(known, program, checker.sampler)
+    case = checker.case(statement, declared)
     run, t = checker.moment(moment)
-    return Case(program, meaning, checker.sampler), meaning.values(_OnRun(run, t, checker)), t
+    return case, case.meaning.values(_OnRun(run, t, checker)), t
 
 
 def _figures(sides: Sides) -> str:

@@ -134,7 +134,7 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
     except StatementError as error:
         if any(n.key not in case.values() for n in letters(equation)):
             raise error.within(case.program.text) from None
-        return misfit(case, [equation], text, error.what)
+        return of_wrong_dimensions(case, [equation], text, error.what)
     if np.isnan(found.worst):
         return Verdict(Kind.UNDECIDABLE, text, _valueless(case, equation))
     if equation.relation != "=":
@@ -161,7 +161,7 @@ def holds(case: Case) -> bool:
         return False
 
 
-def misfit(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
+def of_wrong_dimensions(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
     """The verdict where dimensions do not fit: each equation with its corrections, or with the nearest true one."""
     if not case.mending:
         return Verdict(Kind.DIMENSIONS, text, reason)

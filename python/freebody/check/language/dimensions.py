@@ -44,6 +44,17 @@ def check_dimensions(
         raise error.within(program.text) from None
 
 
+def misfit(program: Program, dimensions: Mapping[str, Dimension], **read: bool) -> DimensionError | None:
+    """The first two terms that do not go together, or None; kinds that do not are told with the verdict."""
+    try:
+        check_dimensions(program, dimensions, **read)
+    except DimensionError as error:
+        return error
+    except StatementError:
+        pass
+    return None
+
+
 def dimension(node: Node, dimensions: Mapping[str, Dimension]) -> Known:
     """The dimension of a term, by those of its symbols; None where one is not known, or it has none; radians aside."""
     try:

@@ -78,11 +78,10 @@ class Line:
     # --- levels, loose to tight ----------------------------------------------------------------
 
     def sum(self) -> Node:
-        first = self.term()
-        found = [first]
+        found = [self.term()]
         while self.now.kind in _ADDS:
             found.append(self.term())
-        return first if len(found) == 1 else Add(tuple(found), span=self.span(first))
+        return found[0] if len(found) == 1 else Add(tuple(found), span=self.span(found[0]))
 
     def term(self) -> Node:
         """A term with its sign."""
@@ -130,31 +129,22 @@ class Line:
 
     def factor(self) -> Node:
         base = self.primary()
-        while True:
-            if self.now.kind == "raised":
-                token = self.take()
-                base = self.power(base, self.raised(token))
-            elif self.now.kind == "^":
-                self.take()
-                base = self.power(base, self.exponent())
-            else:
-                return base
-
-    def power(self, base: Node, exponent: Node) -> Node:
-        if isinstance(base, Matrix | Column) and exponent in (Sym("T"), Sym("⊤")):
-            return _transposed(base)
-        return Pow(base, exponent, span=self.span(base))
-
-    def raised(self, token: Token) -> Node:
-        """The exponent that small figures are."""
-        text = token.text
-        if text.lstrip("-").isdecimal():
-            number = Num(float(text.lstrip("-")), text.lstrip("-"), span=token.span)
-            return Negative(number, span=token.span) if text.startswith("-") else number
-        return Sym(text, span=token.span)
+        while self.now.kind in ("raised", "^"):
+            exponent = self.exponent()
+            transposed = isinstance(base, Matrix | Column) and exponent in (Sym("T"), Sym("⊤"))
+            base = _transposed(base) if transposed else Pow(base, exponent, span=self.span(base))
+        return base
 
     def exponent(self) -> Node:
-        return self.signed(self.factor)
+        """What stands behind ^, or what small figures are."""
+        token = self.take()
+        if token.kind == "^":
+            return self.signed(self.factor)
+        digits = token.text.lstrip("-")
+        if not digits.isdecimal():
+            return Sym(token.text, span=token.span)
+        number = Num(float(digits), digits, span=token.span)
+        return Negative(number, span=token.span) if token.text.startswith("-") else number
 
     # --- the smallest pieces -------------------------------------------------------------------
 
@@ -186,14 +176,11 @@ class Line:
             inside = self.sum()
             self.expect("|")
             return Fn("abs", (inside,), span=self.span(token))
-        raise self.misplaced(token)
-
-    def misplaced(self, token: Token) -> StatementError:
         if token.kind == "end":
-            return StatementError("something is missing at the end", self.end(), "a number, a symbol or a bracket is expected")
+            raise StatementError("something is missing at the end", self.end(), "a number, a symbol or a bracket is expected")
         if token.kind in (*SIGNED, ")", "]", "}", ",", ";", "^"):
-            return StatementError(f"something is missing before `{token.text}`", token.span)
-        return StatementError(f"`{token.text}` has no place in an equation", token.span)
+            raise StatementError(f"something is missing before `{token.text}`", token.span)
+        raise StatementError(f"`{token.text}` has no place in an equation", token.span)
 
     def letter(self, token: Token) -> Node:
         """A letter; written as a function of time, θ(t), it is the same."""
@@ -206,17 +193,28 @@ class Line:
     def group(self) -> Node:
         """What is in brackets: an expression, or a column."""
         open_ = self.take()
-        items = [self.sum()]
-        while self.now.kind in (",", ";"):
-            self.take()
-            items.append(self.sum())
+        items = self.items(",", ";")
         self.expect(CLOSES[open_.kind])
-        return items[0] if len(items) == 1 else Column(tuple(items), span=self.span(open_))
+        return items[0] if len(items) == 1 else Column(items, span=self.span(open_))
+
+    def items(self, *commas: str) -> tuple[Node, ...]:
+        """Expressions with commas between them."""
+        found = [self.sum()]
+        while self.now.kind in commas:
+            self.take()
+            found.append(self.sum())
+        return tuple(found)
 
     def matrix(self) -> Node:
         """[a, b; c, d], [[a, b], [c, d]], or an expression in square brackets."""
         open_, start = self.take(), self.at
-        rows = self.nested() or self.rows(start, "&" if open_.kind == "matrix[" else ",")
+        rows = self.nested()
+        if not rows:
+            self.at, comma = start, "&" if open_.kind == "matrix[" else ","
+            rows = [self.items(comma)]
+            while self.now.kind == ";":
+                self.take()
+                rows += [] if self.now.kind == "]" else [self.items(comma)]
         self.expect("]")
         span = self.span(open_)
         if len({len(row) for row in rows}) > 1:
@@ -227,34 +225,15 @@ class Line:
             return Column(tuple(row[0] for row in rows), span=span)
         return Matrix(tuple(rows), span=span)
 
-    def rows(self, start: int, comma: str) -> list[tuple[Node, ...]]:
-        self.at = start
-        rows: list[tuple[Node, ...]] = []
-        while not rows or self.now.kind == ";":
-            if rows:
-                self.take()
-            if rows and self.now.kind == "]":
-                break
-            row = [self.sum()]
-            while self.now.kind == comma:
-                self.take()
-                row.append(self.sum())
-            rows.append(tuple(row))
-        return rows
-
     def nested(self) -> list[tuple[Node, ...]]:
         """Rows that have brackets of their own; empty where they have none."""
         rows: list[tuple[Node, ...]] = []
         while self.now.kind == "[":
             self.take()
-            row = [self.sum()]
-            while self.now.kind == ",":
-                self.take()
-                row.append(self.sum())
+            rows.append(self.items(","))
             if self.now.kind != "]" or self.row[self.at + 1].kind not in (",", ";", "]"):
                 return []
             self.take()
-            rows.append(tuple(row))
             if self.now.kind in (",", ";"):
                 self.take()
         return rows
@@ -263,43 +242,35 @@ class Line:
 
     def call(self) -> Node:
         token = self.take()
-        power = self.function_power(token)
+        power = self.exponent() if self.now.kind in ("raised", "^") else None  # the 2 of sin²θ
+        if isinstance(power, Negative):
+            hint = f"write `a{token.text}(…)` or `1/{token.text}(…)`"
+            raise StatementError(f"`{token.text}` to a negative power has two meanings", self.span(token), hint)
         arguments = self.arguments(token)
         span = self.span(token)
         if token.text in ("cross", "dot"):
             return (Cross if token.text == "cross" else Dot)(*arguments, span=span)
-        if token.text == "diff":
-            return self.derived(arguments, span)
+        if token.text == "diff":  # diff(θ, t) and diff(θ, t, 2)
+            of, time, *order = arguments
+            if time != Sym("t"):
+                raise StatementError("things are differentiated by t alone here", span, "like `diff(theta, t, 2)`")
+            return self.rate(of, int(order[0].value) if order and isinstance(order[0], Num) else 1, token)
         found = Fn(token.text, arguments, span=span)
         return Pow(found, power, span=span) if power else found
 
-    def function_power(self, token: Token) -> Node | None:
-        """The 2 of sin²θ, sin^2 θ."""
-        if self.now.kind not in ("raised", "^"):
-            return None
-        sign = self.take()
-        power = self.raised(sign) if sign.kind == "raised" else self.exponent()
-        if isinstance(power, Negative):
-            hint = f"write `a{token.text}(…)` or `1/{token.text}(…)`"
-            raise StatementError(f"`{token.text}` to a negative power has two meanings", self.span(token), hint)
-        return power
-
     def arguments(self, token: Token) -> tuple[Node, ...]:
-        found = self.bracketed() if self.now.kind in ("(", "[", "{") else [self.bare_argument(token)]
+        found: tuple[Node, ...]
+        if self.now.kind in ("(", "[", "{"):
+            open_ = self.take()
+            found = self.items(",")
+            self.expect(CLOSES[open_.kind])
+        else:
+            found = (self.bare_argument(token),)
         wanted = {"cross": (2,), "dot": (2,), "diff": (2, 3)}.get(token.text, (ARGUMENTS.get(token.text, 1),))
         if len(found) not in wanted:
             count = " or ".join(map(str, wanted))
             raise StatementError(f"`{token.text}` takes {count} in its brackets, not {len(found)}", self.span(token))
-        return tuple(found)
-
-    def bracketed(self) -> list[Node]:
-        open_ = self.take()
-        items = [self.sum()]
-        while self.now.kind == ",":
-            self.take()
-            items.append(self.sum())
-        self.expect(CLOSES[open_.kind])
-        return items
+        return found
 
     def bare_argument(self, token: Token) -> Node:
         """One letter, a number before it and a ``t`` directly behind it."""
@@ -317,14 +288,6 @@ class Line:
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found
 
-    def derived(self, arguments: tuple[Node, ...], span: Span) -> Node:
-        """diff(θ, t) and diff(θ, t, 2)."""
-        of, time, *rest = arguments
-        count = int(rest[0].value) if rest and isinstance(rest[0], Num) else 1
-        if time != Sym("t"):
-            raise StatementError("things are differentiated by t alone here", span, "like `diff(theta, t, 2)`")
-        return self.rate(of, count, Token("rate", "diff", span))
-
     def rate(self, of: Node, count: int, token: Token) -> Node:
         """A derivative by time, written out where it can be."""
         lasting = any(isinstance(n, Partial) for n in walk(of))
@@ -334,17 +297,13 @@ class Line:
 
     def partial(self) -> Node:
         """∂L/∂θ̇, or the same as a LaTeX fraction."""
-        start = self.now
-        between = ("}", "{") if start.kind == "frac" else ("/",)
-        for kind in ("frac", "{") if start.kind == "frac" else ():
-            self.expect(kind)
-        of = self.changing()
-        for kind in between:
-            self.expect(kind)
-        by = self.changing()
-        if start.kind == "frac":
-            self.expect("}")
-        return Partial(of, by, span=self.span(start))
+        start, found = self.now, []
+        signs = (("frac", "{"), ("}", "{"), ("}",)) if start.kind == "frac" else ((), ("/",), ())
+        for number, kinds in enumerate(signs):
+            found += [self.changing()] if number else []
+            for kind in kinds:
+                self.expect(kind)
+        return Partial(*found, span=self.span(start))
 
     def changing(self) -> Sym:
         """The letter behind a ∂."""

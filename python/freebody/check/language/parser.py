@@ -17,6 +17,7 @@ Rules of reading:
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import dropwhile
 
 from freebody.symbolic.differentiate import partial, rate
 from freebody.symbolic.errors import StatementError
@@ -147,17 +148,16 @@ def _lines(row: Sequence[Token]) -> list[list[Token]]:
     for place, token in enumerate(row, 1):
         depth += (token.kind in CLOSES) - (token.kind in CLOSES.values())
         ends = token.kind == "line" or (token.kind in (",", ";") and depth == 0)
-        if ends and depth == 0 and not (token.kind == "line" and _goes_on(out[-1], _next(row, place))):
+        if (
+            ends
+            and depth == 0
+            and not (token.kind == "line" and _goes_on(out[-1], [*dropwhile(lambda t: t.kind == "line", row[place:])]))
+        ):
             out[-1].append(Token("end", "", (token.span[0], token.span[0])))
             out.append([])
         elif token.kind != "line":
             out[-1].append(token)
     return [line for line in out if len(line) > 1]
-
-
-def _next(row: Sequence[Token], place: int) -> Sequence[Token]:
-    """From the first token of the next line that is not empty."""
-    return row[next((i for i in range(place, len(row)) if row[i].kind != "line"), len(row)) :]
 
 
 def _goes_on(line: Sequence[Token], rest: Sequence[Token]) -> bool:
