@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -90,7 +90,7 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
         found = residual(equation, values)
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
-            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(case, equation, found))
+            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(case, found))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
 
 
@@ -100,7 +100,7 @@ def _small(checker: Checker, declared: Declared, statement: str, limits: str, gi
     for equation in case.equations:
         if not first_order(case, equation, given):
             found = residual(equation, case.values())
-            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(case, equation, found))
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(case, found))
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
 
@@ -150,38 +150,30 @@ def _along(checker: Checker, sample: Sample) -> Samples:
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
     """The value of an expression, when some coordinates or rates are changed and all else stays."""
     case = _reading(checker, declared, expression)
-    letters = checker.letters(declared)
-    node, sampler = case.equations[0].left, checker.sampler
-    samples = case.samples()
-    before, size = evaluate(node, case.meaning.values(samples)), magnitude(node, case.meaning.values(samples))
-    for name in (n.strip() for n in names.split(",")):
-        letter = parse_expression(name, letters.names)
-        moved = [_moved(sampler, sample, letter) for sample in samples.samples]
-        after = evaluate(node, case.meaning.values(Samples(sampler.core, moved, sampler.parameter_names)))
+    node, values = case.equations[0].left, case.values()
+    before, size = evaluate(node, values), magnitude(node, values)
+    for name, moved in _changed_alone(checker, declared, names, case):
+        after = evaluate(node, moved)
         change = np.abs(after - before) / np.maximum(size, 1e-300)
         if change.max() > 1e-8:
             k = int(np.argmax(change.reshape(len(change), -1).max(axis=1)))
-            seen = Evidence({name: "changed alone"}, before[k].tolist(), after[k].tolist(), float(change.max()), len(moved))
+            seen = Evidence({name: "changed alone"}, before[k].tolist(), after[k].tolist(), float(change.max()), len(change))
             return Verdict(Kind.WRONG, expression, f"it depends on {name}", evidence=seen)
-    return Verdict(Kind.TRUE, expression, f"unchanged when {names} change alone, on {len(samples)} motions")
+    return Verdict(Kind.TRUE, expression, f"unchanged when {names} change alone, on {len(before)} motions")
 
 
 def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: str, statement: str) -> Verdict:
     """The factors of unknowns in equations, when some coordinates or rates are changed and all else stays."""
-    case, known, sampler = checker.case(statement, declared), checker.letters(declared).names, checker.sampler
+    case, known = checker.case(statement, declared), checker.letters(declared).names
     wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Sym)]
-    samples = case.samples()
     before = [_factors(equation, wanted, case.values()) for equation in case.equations]
-    for name in (n.strip() for n in names.split(",")):
-        letter = parse_expression(name, known)
-        moved = Samples(sampler.core, [_moved(sampler, sample, letter) for sample in samples.samples], sampler.parameter_names)
-        values = case.meaning.values(moved)
+    for name, values in _changed_alone(checker, declared, names, case):
         for number, (equation, earlier) in enumerate(zip(case.equations, before, strict=True), 1):
             change = np.abs(_factors(equation, wanted, values) - earlier).max(axis=(0, 1))
             if change.max() > 1e-7 * np.abs(earlier).max():
                 place = f"the factor of {spell(wanted[int(np.argmax(change))])} in equation {number}"
                 return Verdict(Kind.WRONG, statement, f"{place} depends on {name}")
-    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(samples)} motions"
+    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(case.samples())} motions"
     return Verdict(Kind.TRUE, statement, stated)
 
 
@@ -206,14 +198,17 @@ def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -
     return Verdict(Kind.TRUE if counts[0] < counts[1] else Kind.WRONG, statement, stated)
 
 
-def _moved(sampler: Any, sample: Sample, letter: Any) -> Sample:
-    names = [c["name"] for c in sampler.coordinates]
-    if not isinstance(letter, Sym) or letter.name not in names or letter.dots > 1 or sampler.loops:
-        raise ModelProblem(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
-    state, i = sample.state, names.index(letter.name)
-    q, u = state.q.copy(), state.u.copy()
-    (u if letter.dots else q)[i] += 0.7 * (sampler.rate if letter.dots else 1.0)
-    return Sample(replace(state, q=q, u=u))
+def _changed_alone(checker: Checker, declared: Declared, names: str, case: Case) -> Iterator[tuple[str, Mapping[str, Array]]]:
+    """Each coordinate or rate by its name, with the values of all symbols when it alone has changed."""
+    sampler, known = checker.sampler, checker.letters(declared).names
+    for name in (part.strip() for part in names.split(",")):
+        letter = parse_expression(name, known)
+        if not isinstance(letter, Sym) or letter.name not in sampler.names or letter.dots > 1 or sampler.loops:
+            raise ModelProblem(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
+        step = (sampler.rate if letter.dots else 1.0) * 0.7 * (np.array(sampler.names) == letter.name)
+        states = [sample.state for sample in case.samples().samples]
+        moved = [replace(s, u=s.u + step) if letter.dots else replace(s, q=s.q + step) for s in states]
+        yield name, case.meaning.values(Samples(sampler.core, [Sample(s) for s in moved], sampler.parameter_names))
 
 
 def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:
@@ -230,9 +225,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
         return Verdict(Kind.UNDECIDABLE, statement, "the premises could not be made true by their accelerations and forces")
     if found.worst < 1e-8:
         return Verdict(Kind.TRUE, statement, f"holds wherever `{premises}` does, on {len(found.ratio)} random numbers")
-    return Verdict(
-        Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(case, conclusion, found)
-    )
+    return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(case, found))
 
 
 def _solve(given: Program, values: dict[str, Array]) -> None:

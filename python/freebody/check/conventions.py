@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from freebody.symbolic.dimensions import LENGTH, MASS, Dimension
@@ -11,7 +11,7 @@ from freebody.symbolic.tree import Add, Cross, Dot, Fn, Negative, Node, Num, Quo
 
 from .edits import Edit
 from .language.spelling import spell
-from .language.statements import Equation, letters
+from .language.statements import Equation
 from .vocabulary import Vocabulary
 
 _OTHER = {"sin": "cos", "cos": "sin"}
@@ -34,20 +34,21 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         if plain in vocabulary.angular and plain in vocabulary.coordinates:
             yield from _angles(equation, plain, vocabulary)
         if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _SIZES:
-            yield _edit(equation, {name: _opposite}, f"`{name}` taken in the other sense")
-    for name in often:
-        for other in vocabulary.alike(Sym(name)):
-            if name < other.name and other.name in often:
-                yield _swapped(equation, name, other.name)
+            yield _convention(equation, {n: Negative(n) for n in _rates(name)}, f"`{name}` taken in the other sense")
+    pairs = [(n, o.name) for n in often for o in vocabulary.alike(Sym(n)) if n < o.name and o.name in often]
     given = [n for n in dict.fromkeys(found) if n in vocabulary.parameters]
-    unlike = [(a, b) for a, b in combinations(given, 2) if b not in vocabulary.alike(a)]
-    yield from (_swapped(equation, a.name, b.name) for a, b in unlike)
+    pairs += [(a.name, b.name) for a, b in combinations(given, 2) if b not in vocabulary.alike(a)]
+    for one, two in pairs:
+        swapped = dict(zip(_rates(one) + _rates(two), _rates(two) + _rates(one), strict=True))
+        yield _convention(equation, swapped, f"`{one}` and `{two}` exchanged")
 
 
-def _swapped(equation: Equation, one: str, two: str) -> Edit:
-    """Two letters exchanged wherever they stand."""
-    swapped = {Sym(a, d): Sym(b, d) for a, b in ((one, two), (two, one)) for d in range(3)}
-    return Edit("convention", None, None, _exchanged(equation, swapped), words=f"`{one}` and `{two}` exchanged")
+def _convention(equation: Equation, changes: Mapping[Sym, Node], words: str) -> Edit:
+    return Edit("convention", None, None, substitute(equation, changes), words=words)
+
+
+def _rates(name: str) -> list[Sym]:
+    return [Sym(name, dots) for dots in range(3)]
 
 
 def _products(equation: Equation) -> Iterator[Edit]:
@@ -73,34 +74,13 @@ def _functions(equation: Equation) -> Iterator[Edit]:
 
 
 def _angles(equation: Equation, plain: Sym, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """An angle from another axis, and relative for absolute."""
     name = plain.name
-    for sign, words in ((1, "plus"), (-1, "minus")):
-        quarter: Node = _QUARTER if sign > 0 else Negative(_QUARTER)
-        after = substitute(equation, {plain: Add((plain, quarter))})
-        yield Edit("convention", None, None, after, words=f"`{name}` {words} a quarter turn")
+    for words, signed, say in (
+        ("plus", lambda n: n, "absolute where it is relative"),
+        ("minus", Negative, "relative where it is absolute"),
+    ):
+        yield _convention(equation, {plain: Add((plain, signed(_QUARTER)))}, f"`{name}` {words} a quarter turn")
         for other in vocabulary.alike(plain):
-            say = "absolute where it is relative" if sign > 0 else "relative where it is absolute"
-            words_of = f"`{name}` {words} `{other.name}`: {say}, or the other way round"
-            yield _edit(equation, {name: lambda n, o=other, s=sign: _shifted(n, o, s)}, words_of)
-
-
-def _shifted(letter: Node, other: Sym, sign: int) -> Node:
-    assert isinstance(letter, Sym)
-    same = Sym(other.name, letter.dots)
-    return Add((Sym(letter.name, letter.dots), same if sign > 0 else Negative(same)))
-
-
-def _opposite(letter: Sym) -> Node:
-    return Negative(Sym(letter.name, letter.dots))
-
-
-def _edit(equation: Equation, changes: dict, words: str) -> Edit:
-    inside = {n: changes[n.name](n) for n in letters(equation) if n.name in changes}
-    return Edit("convention", None, None, substitute(equation, inside), words=words)
-
-
-def _exchanged(equation: Equation, swapped: dict[Sym, Sym]) -> Equation:
-    """Letters exchanged at once, by way of names that nothing else has."""
-    between = {old: Sym(f"\0{old.name}", old.dots) for old in swapped}
-    there = substitute(equation, dict(between))
-    return substitute(there, {between[old]: new for old, new in swapped.items()})
+            shifted = {n: Add((n, signed(o))) for n, o in zip(_rates(name), _rates(other.name), strict=True)}
+            yield _convention(equation, shifted, f"`{name}` {words} `{other.name}`: {say}, or the other way round")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain
 
 from freebody.symbolic.evaluate import is_zero
 from freebody.symbolic.tree import (
@@ -29,17 +28,8 @@ from freebody.symbolic.tree import (
 from .language.statements import Equation
 from .vocabulary import Vocabulary
 
-SIZES = {
-    "sign": 1.0,
-    "function": 1.0,
-    "letter": 1.0,
-    "angle": 1.0,
-    "derivative": 1.0,
-    "factor": 1.0,
-    "power": 1.0,
-    "rates": 1.0,
-    "brackets": 1.0,
-    "unit vector": 1.0,
+_PLAIN = ("sign", "function", "letter", "angle", "derivative", "factor", "power", "rates", "brackets", "unit vector")
+_LARGER = {
     "extra factor": 1.1,
     "missing factor": 1.1,
     "extra term": 1.1,
@@ -47,7 +37,8 @@ SIZES = {
     "convention": 1.1,
     "other term": 2.0,
 }
-"""How large each kind of edit is; those within ``mend.EQUAL`` are equally small."""
+SIZES = {**dict.fromkeys(_PLAIN, 1.0), **_LARGER}
+"""How large each kind of edit is; those within ``correction.EQUAL`` are equally small."""
 
 _FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
@@ -64,6 +55,11 @@ class Edit:
     extra: float = 0.0
     words: str = ""
 
+    @classmethod
+    def at(cls, equation: Equation, kind: str, old: Node, new: Node, extra: float = 0.0) -> Edit:
+        """The edit of one part of an equation."""
+        return cls(kind, old, new, exchange(equation, old, new), extra)
+
     @property
     def size(self) -> float:
         """How large it is, smaller first."""
@@ -73,43 +69,32 @@ class Edit:
 def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     """All single edits that need no number to be found."""
     for node, addend in _parts(equation):
-        for kind, new in _changes(node, vocabulary):
-            yield Edit(kind, node, new, exchange(equation, node, new))
+        yield from (Edit.at(equation, kind, node, new) for kind, new in _changes(node, vocabulary))
         if addend:
-            opposite = node.of if isinstance(node, Negative) else Negative(node, span=node.span)
-            yield Edit("sign", node, opposite, exchange(equation, node, opposite))
-            yield from _fewer(equation, node)
-            yield from _more(equation, node, vocabulary)
+            yield Edit.at(equation, "sign", node, node.of if isinstance(node, Negative) else Negative(node, span=node.span))
+            yield Edit("extra term", node, None, exchange(equation, node, Num(0.0, "0")))
+            for factors, size in ((vocabulary.single_factors, 0.0), (vocabulary.double_factors, 0.2)):
+                yield from (Edit.at(equation, "missing factor", node, Mul((node, f), span=node.span), size) for f in factors)
 
 
 def other_figures(equation: Equation) -> Iterator[Edit]:
     """Figures that are mistaken for each other, and a term doubled or halved: first steps of two."""
+    two = Num(2.0, "2")
     for node, addend in _parts(equation):
         if isinstance(node, Num) and node.value in _FIGURES:
-            for value in _FIGURES:
-                if value != node.value:
-                    new = Num(value, f"{value:g}", span=node.span)
-                    yield Edit("factor", node, new, exchange(equation, node, new))
+            others = (Num(value, f"{value:g}", span=node.span) for value in _FIGURES if value != node.value)
+            yield from (Edit.at(equation, "factor", node, other) for other in others)
         elif addend and not any(isinstance(n, Num) for n in walk(node)):
-            for new in (Mul((Num(2.0, "2"), node), span=node.span), Quotient(node, Num(2.0, "2"), span=node.span)):
-                yield Edit("factor", node, new, exchange(equation, node, new))
+            yield Edit.at(equation, "factor", node, Mul((two, node), span=node.span))
+            yield Edit.at(equation, "factor", node, Quotient(node, two, span=node.span))
 
 
-def _parts(equation: Equation) -> Iterator[tuple[Node, bool]]:
+def _parts(equation: Equation) -> list[tuple[Node, bool]]:
     """Every part once, and whether it is added to something."""
-    addends = {id(side) for side in (equation.left, equation.right) if not isinstance(side, Add)}
-    for node in walk(equation):
-        if isinstance(node, Add):
-            addends |= {id(term) for term in node.terms}
-        if isinstance(node, Column):
-            addends |= {id(item) for item in node.items if not isinstance(item, Add)}
-        if isinstance(node, Matrix):
-            addends |= {id(item) for row in node.rows for item in row if not isinstance(item, Add)}
-    seen: set[int] = set()
-    for node in walk(equation):
-        if node is not equation and id(node) not in seen and not is_zero(node):
-            seen.add(id(node))
-            yield node, id(node) in addends
+    sums = [node for node in walk(equation) if isinstance(node, Equation | Add | Column | Matrix)]
+    addends = {id(part) for node in sums for part in children(node) if isinstance(node, Add) or not isinstance(part, Add)}
+    parts = {id(node): node for node in walk(equation) if node is not equation and not is_zero(node)}
+    return [(node, key in addends) for key, node in parts.items()]
 
 
 def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
@@ -193,26 +178,14 @@ def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
     yield Quotient(argument, Num(2.0, "2"))
 
 
-def _fewer(equation: Equation, node: Node) -> Iterator[Edit]:
-    """Without a term."""
-    yield Edit("extra term", node, None, exchange(equation, node, Num(0.0, "0")))
-
-
-def _more(equation: Equation, node: Node, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """A term with a factor more."""
-    for extra, more in chain(((n, 0.0) for n in vocabulary.single_factors), ((n, 0.2) for n in vocabulary.double_factors)):
-        new = Mul((node, extra), span=node.span)
-        yield Edit("missing factor", node, new, exchange(equation, node, new), more)
-
-
 def with_unit_vectors(equation: Equation, units: tuple[Sym, ...]) -> Iterator[Edit]:
     """A number beside vectors that lacks its direction, or a vector that should be a component."""
     for node, _ in _parts(equation):
         for unit in units:
             for new in (Mul((node, unit), span=node.span), Dot(node, unit, span=node.span)):
-                yield Edit("unit vector", node, new, exchange(equation, node, new))
+                yield Edit.at(equation, "unit vector", node, new)
 
 
 def depth(node: Node) -> int:
     """How many parts a tree has."""
-    return 1 + sum(depth(child) for child in children(node))
+    return sum(1 for _ in walk(node))

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
-from typing import Any
 
 import numpy as np
 
@@ -31,37 +30,22 @@ _DENOMINATOR = 12
 _NUMERATOR = 60
 
 
-def recognised(value: float) -> Node | None:
-    """A number as a person writes it: p/q with q ≤ 12, or such a part of π; None where it is neither."""
-    for unit, name in ((1.0, ""), (math.pi, "pi")):
-        fraction = Fraction(value / unit).limit_denominator(_DENOMINATOR)
-        if fraction and abs(fraction.numerator) <= _NUMERATOR and abs(float(fraction) * unit / value - 1) < _SAME:
-            return _fraction(fraction, name)
-    return None
-
-
-def _fraction(fraction: Fraction, name: str) -> Node:
-    top: Node = Num(float(fraction.numerator), str(fraction.numerator))
-    if name:
-        pi = Num(math.pi, "pi")
-        top = pi if fraction.numerator == 1 else Mul((top, pi))
-    if fraction.denominator == 1:
-        return top
-    return Quotient(top, Num(float(fraction.denominator), str(fraction.denominator)))
-
-
 @dataclass
 class FittedEdits:
-    """What can be fitted to an equation: ``values`` are those of true states, ``terms`` the shapes of missing terms."""
+    """What can be fitted to an equation: ``values`` are those of true states, ``vocabulary`` has the shapes of missing terms."""
 
     values: Mapping[str, Array]
     vocabulary: Vocabulary
+    _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
         with np.errstate(all="ignore"):
             for required in required_terms(equation, self.values):
-                yield from self._leaves(equation, required)
+                yield from (Edit.at(equation, "letter", required.node, new, size) for new, size in self._letters(required))
+                found = _constant(required.needed) if _is_figure(required.node) else None
+                if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
+                    yield Edit.at(equation, "factor", required.node, number)
                 if required.addend:
                     yield from self._factors(equation, required)
                 if isinstance(required.node, Add) or required.node in (equation.left, equation.right):
@@ -71,94 +55,75 @@ class FittedEdits:
         """Terms that should be quite other ones."""
         with np.errstate(all="ignore"):
             for required in required_terms(equation, self.values):
-                if required.addend:
-                    yield from self._replaced(equation, required)
+                for term in self._matching(equation, required.needed) if required.addend else ():
+                    yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
-    def _leaves(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A number that should be another, a letter or a function that should be a letter of another kind."""
-        found = _constant(required.needed) if _is_figure(required.node) else None
-        if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
-            yield Edit("factor", required.node, number, exchange(equation, required.node, number))
-        if isinstance(required.node, Sym | Fn) and required.value.ndim == 1:
-            for letter in self._letters:
-                if letter != required.node and np.allclose(self.values[letter.key], required.needed, rtol=_SAME, atol=0):
-                    new = Sym(letter.name, letter.dots, span=required.node.span)
-                    yield Edit("letter", required.node, new, exchange(equation, required.node, new), 0.3)
-        yield from self._squares(equation, required)
-        if isinstance(required.node, Sym) and required.node in self.vocabulary.parameters:
-            yield from self._lengthened(equation, required, required.node)
-
-    def _squares(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """The square of a letter that should be that of another, of whatever sign."""
-        match required.node:
+    def _letters(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
+        """Letters of another kind for a letter or a function, also squared, whatever their sign; for a parameter the sum or the
+        difference of two, as an arm often is. With how far-fetched they are."""
+        node, span, alike = (
+            required.node,
+            required.node.span,
+            lambda value: np.allclose(value, required.needed, rtol=_SAME, atol=0),
+        )
+        match node:
+            case Sym() | Fn() if required.value.ndim == 1:
+                found = (n for n in self._known if n != node and alike(self.values[n.key]))
+                yield from ((Sym(n.name, n.dots, span=span), 0.3) for n in found)
             case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == 1:
-                for letter in self._letters:
-                    if letter != base and np.allclose(self.values[letter.key] ** 2, required.needed, rtol=_SAME, atol=0):
-                        new = Pow(Sym(letter.name, letter.dots), two, span=required.node.span)
-                        yield Edit("letter", required.node, new, exchange(equation, required.node, new), 0.1)
-
-    def _lengthened(self, equation: Equation, required: RequiredTerm, letter: Sym) -> Iterator[Edit]:
-        """A parameter that should be the sum or the difference of two, as an arm often is."""
-        for a, b in permutations((letter, *self.vocabulary.alike(letter)), 2):
-            one, two = self.values[a.key], self.values[b.key]
-            for part, whole in ((b, one + two), (Negative(b), one - two)):
-                if np.allclose(whole, required.needed, rtol=_SAME, atol=0):
-                    new = Add((a, part), span=letter.span)
-                    yield Edit("letter", letter, new, exchange(equation, letter, new), 0.2)
+                found = (n for n in self._known if n != base and alike(self.values[n.key] ** 2))
+                yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in found)
+        if isinstance(node, Sym) and node in self.vocabulary.parameters:
+            for a, b in permutations((node, *self.vocabulary.alike(node)), 2):
+                one, two = self.values[a.key], self.values[b.key]
+                yield from (
+                    (Add((a, c), span=span), 0.2) for c, whole in ((b, one + two), (Negative(b), one - two)) if alike(whole)
+                )
 
     @cached_property
-    def _letters(self) -> list[Sym]:
+    def _known(self) -> list[Sym]:
         known = self.vocabulary
         moving = [Sym(q.name, dots) for q in known.coordinates for dots in range(3)]
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
 
     def _factors(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        factor = required.factor
+        """A term that lacks a number, or a product of powers of letters."""
+        node, factor = required.node, required.factor
         if factor is None or not np.isfinite(factor).all():
             return
         found = _constant(factor)
-        if found is not None:
-            number = recognised(found)
-            if number == Num(-1.0):
-                new = (
-                    required.node.of if isinstance(required.node, Negative) else Negative(required.node, span=required.node.span)
-                )
-                yield Edit("sign", required.node, new, exchange(equation, required.node, new))
-            elif number is not None and number != Num(1.0):
-                new = multiplied(required.node, number)
-                own = 0.05 if any(isinstance(n, Num) for n in walk(required.node)) else 0.0
-                yield Edit("factor", required.node, new, exchange(equation, required.node, new), own)
-            return
-        for size, new in self._monomials(required.node, factor, equation):
-            yield Edit("missing factor", required.node, new, exchange(equation, required.node, new), 0.2 * (size - 1))
+        if found is None:
+            if (lacked := self._monomial(factor)) is not None and (new := powered(node, *lacked)) is not None:
+                number, powers = lacked
+                size = sum(map(abs, powers.values())) + (abs(number - 1) > _SAME)
+                yield Edit.at(equation, "missing factor", node, new, 0.2 * (size - 1))
+        elif abs(found + 1) < _SAME:
+            yield Edit.at(equation, "sign", node, node.of if isinstance(node, Negative) else Negative(node, span=node.span))
+        elif abs(found - 1) > _SAME and (new := multiplied(node, found)) is not None:
+            own = 0.05 if any(isinstance(n, Num) for n in walk(node)) else 0.0
+            yield Edit.at(equation, "factor", node, new, own)
 
-    def _monomials(self, node: Node, factor: Array, equation: Equation) -> Iterator[tuple[int, Node]]:
-        """The node with the product of powers of letters that it lacks."""
+    def _monomial(self, factor: Array) -> tuple[float, dict[Sym, int]] | None:
+        """The number and the powers of letters of which a factor is the product."""
         known = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
         used = [n for n in known if _varies(self.values[n.key])]
         if not used or len(used) + 1 >= len(factor) or not (np.all(factor > 0) or np.all(factor < 0)):
-            return
+            return None
         columns = np.column_stack([np.ones(len(factor)), *[np.log(np.abs(self.values[n.key])) for n in used]])
         fit, *_ = np.linalg.lstsq(columns, np.log(np.abs(factor)), rcond=None)
         powers = np.round(fit[1:]).astype(int)
         if np.max(np.abs(fit[1:] - powers)) > 1e-6 or not powers.any() or np.abs(powers).max() > 3:
-            return
-        number = recognised(float(np.sign(factor[0]) * np.exp(fit[0])))
-        if number is not None:
-            chosen = [(n, int(p)) for n, p in zip(used, powers, strict=True) if p]
-            yield sum(abs(p) for _, p in chosen) + (number != Num(1.0)), powered(node, number, chosen)
+            return None
+        return float(np.sign(factor[0]) * np.exp(fit[0])), {n: int(p) for n, p in zip(used, powers, strict=True) if p}
 
     # -- terms
 
     def _missing(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A sum that lacks a term."""
         inner = not any(required.node is side for side in (equation.left, equation.right))
-        like = Equation(required.node, Num(0.0)) if inner else equation
-        for term in self._matching(like, required.missing):
-            old = required.node.terms if isinstance(required.node, Add) else (required.node,)
-            new = Add((*old, term), span=required.node.span)
-            far = _FAR_FETCHED * self._far_fetched(term, equation)
-            yield Edit("missing term", None, term, exchange(equation, required.node, new), 0.02 * depth(term) + far)
+        for term in self._matching(Equation(required.node, Num(0.0)) if inner else equation, required.missing):
+            size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
+            yield Edit("missing term", None, term, exchange(equation, required.node, _more(required.node, term)), size)
 
     def _far_fetched(self, term: Node, equation: Equation) -> bool:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
@@ -174,49 +139,37 @@ class FittedEdits:
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self._dictionary(equation, NUMBER_ONLY)
-            for i, j in _spanning(rows, required.missing):
-                sizes, *_ = np.linalg.lstsq(rows[[i, j]].T, required.missing, rcond=None)
-                numbers = [recognised(float(size)) for size in sizes]
-                if all(number is not None for number in numbers):
-                    lost = tuple(multiplied(nodes[k], n) for k, n in zip((i, j), numbers, strict=True) if n is not None)
-                    old = required.node.terms if isinstance(required.node, Add) else (required.node,)
-                    new = Add((*old, *lost), span=required.node.span)
-                    after = exchange(equation, required.node, new)
-                    yield Edit("missing term", None, Add(lost), after, 1.2 + 0.02 * sum(depth(term) for term in lost))
-
-    def _replaced(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A term that should be quite another."""
-        for term in self._matching(equation, required.needed):
-            yield Edit("other term", required.node, term, exchange(equation, required.node, term), 0.02 * depth(term))
+            for pair in _spanning(rows, required.missing):
+                sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
+                lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
+                if None not in lost:
+                    after = exchange(equation, required.node, _more(required.node, *lost))
+                    yield Edit("missing term", None, Add(tuple(lost)), after, 1.2 + 0.02 * sum(map(depth, lost)))
 
     def _matching(self, equation: Equation, wanted: Array, less: Dimension = NUMBER_ONLY) -> Iterator[Node]:
-        """Terms of the dictionary that are ``wanted`` but for a number; their dimension is that of the equation over ``less``."""
-        scale = np.max(np.abs(wanted))
+        """Terms that are ``wanted`` but for a number, of the dimension of the equation over ``less``; vectors are a number times a
+        known one."""
         if wanted.ndim == 2:
-            yield from self._matching_vectors(equation, wanted)
-            return
-        if not np.isfinite(scale) or scale == 0:
-            return
-        nodes, rows = self._dictionary(equation, less)
-        for i in _proportional(rows, wanted):
-            ratio = float(np.sum(wanted * rows[i]) / np.sum(rows[i] ** 2))
-            if (number := recognised(ratio)) is not None:
-                yield multiplied(nodes[i], number)
-
-    def _matching_vectors(self, equation: Equation, wanted: Array) -> Iterator[Node]:
-        """Terms that are a number times a known vector."""
-        for vector, its in self.vocabulary.vectors.items():
-            value = self.values[vector.key]
-            along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
-            off = np.abs(wanted - along[:, None] * value).max(axis=1)
-            if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
-                yield from (Mul((term, vector)) for term in self._matching(equation, along, its or NUMBER_ONLY))
+            for vector, its in self.vocabulary.vectors.items():
+                value = self.values[vector.key]
+                along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
+                off = np.abs(wanted - along[:, None] * value).max(axis=1)
+                if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
+                    yield from (Mul((term, vector)) for term in self._matching(equation, along, its or NUMBER_ONLY))
+        elif np.isfinite(wanted).all() and wanted.any():
+            nodes, rows = self._dictionary(equation, less)
+            for i in _proportional(rows, wanted):
+                if (term := multiplied(nodes[i], float(np.sum(wanted * rows[i]) / np.sum(rows[i] ** 2)))) is not None:
+                    yield term
 
     def _dictionary(self, equation: Equation, less: Dimension) -> tuple[list[Node], Array]:
-        whole = self._dimension(equation)
-        wanted = None if whole is None else whole.times(less, -1)
+        """Terms that an equation may hold, of its dimension over ``less``, and their values."""
+        found = (dimension(term.node, self.vocabulary.dimensions) for term in terms_of(equation, expand=True))
+        known = [each for each in found if each is not None]
+        wanted: Known = max(known, key=known.count).times(less, -1) if known else None  # one of them may be wrong
         moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
-        long = tuple(dict.fromkeys(n for n in _arguments(equation) if isinstance(n, Add) and len(n.terms) > 2))
+        angles = (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
+        long = tuple(dict.fromkeys(n for n in angles if isinstance(n, Add) and len(n.terms) > 2))
         key = (wanted, moving, long)
         if key not in self._made:
             nodes = [*self.vocabulary.terms(wanted, moving, long), *self.vocabulary.moments(wanted)]
@@ -239,21 +192,6 @@ class FittedEdits:
         for i in range(max(map(len, parts), default=0)):
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
         return rows
-
-    def _dimension(self, equation: Equation) -> Known:
-        """That of most terms of the equation, as one of them may be wrong."""
-        found = (dimension(term.node, self.vocabulary.dimensions) for term in terms_of(equation, expand=True))
-        known = [each for each in found if each is not None]
-        return max(known, key=known.count) if known else None
-
-    @cached_property
-    def _made(self) -> dict[tuple[Known, tuple[Sym, ...], tuple[Node, ...]], tuple[list[Node], Array]]:
-        return {}
-
-
-def _arguments(equation: Equation) -> Iterator[Node]:
-    """What sines and cosines are taken of."""
-    return (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
 
 
 def _is_figure(node: Node) -> bool:
@@ -291,46 +229,59 @@ def _spanning(rows: Array, wanted: Array) -> Iterator[tuple[int, int]]:
         yield from ((i, j) for j in _proportional(others, rest) if i < j or j not in order)
 
 
-def multiplied(node: Node, number: Node) -> Node:
-    """A term times a number, as a person writes it."""
-    if number == Num(1.0):
-        return node
-    if number == Num(-1.0):
-        return Negative(node)
+# -- as a person writes it
+
+
+def recognised(value: float) -> Node | None:
+    """A number as a person writes it: p/q with q ≤ 12, or such a part of π; None where it is neither."""
+    for unit in (1.0, math.pi):
+        part = Fraction(abs(value) / unit).limit_denominator(_DENOMINATOR)
+        if not part or part.numerator > _NUMERATOR or abs(float(part) * unit / abs(value) - 1) >= _SAME:
+            continue
+        above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
+        pi = Num(math.pi, "pi")
+        top: Node = above if unit == 1.0 else pi if part.numerator == 1 else Mul((above, pi))
+        found = top if part.denominator == 1 else Quotient(top, below)
+        return Negative(found) if value < 0 else found
+    return None
+
+
+def multiplied(node: Node, value: float) -> Node | None:
+    """A term times a number; None where that is no number that a person writes."""
     if isinstance(node, Negative):
-        return Negative(multiplied(node.of, number), span=node.span)
-    if (own := _own_number(node)) is not None:
-        first, *rest = own
-        together = recognised(first.value * float(evaluate(number, {})[0]))
-        if together is not None:
-            return multiplied(rest[0] if len(rest) == 1 else Mul(tuple(rest), span=node.span), together)
-    if isinstance(number, Quotient) and isinstance(number.top, Num) and number.top.value < 0:
-        return Negative(multiplied(node, Quotient(Num(-number.top.value, number.top.text.lstrip("-")), number.bottom)))
-    if isinstance(number, Num) and number.value < 0:
-        return Negative(multiplied(node, Num(-number.value, number.text.lstrip("-"))))
+        return multiplied(node.of, -value)
+    match node:
+        case Mul((Num(own), *rest)) if recognised(own * value) is not None:
+            return multiplied(_product(rest), own * value)
+    number = recognised(abs(value))
+    if number is None:
+        return None
     if isinstance(number, Quotient) and number.top == Num(1.0):
-        return Quotient(node, number.bottom, span=node.span)
-    return Mul((number, *(node.factors if isinstance(node, Mul) else (node,))), span=node.span)
+        found: Node = Quotient(node, number.bottom, span=node.span)
+    else:
+        found = (
+            node if number == Num(1.0) else Mul((number, *(node.factors if isinstance(node, Mul) else (node,))), span=node.span)
+        )
+    return Negative(found) if value < 0 else found
 
 
-def _own_number(node: Node) -> tuple[Any, ...] | None:
-    """The factors of a product that begins with a number."""
-    return node.factors if isinstance(node, Mul) and isinstance(node.factors[0], Num) else None
-
-
-def powered(node: Node, number: Node, chosen: Sequence[tuple[Sym, int]]) -> Node:
+def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None:
     """A term times a number and powers of letters; factors that it has itself are taken off first."""
-    own = list(node.factors) if isinstance(node, Mul) else [node]
-    below: list[Node] = []
-    for letter, power in chosen:
-        for _ in range(abs(power)):
-            if power > 0:
-                own.append(letter)
-            elif letter in own:
+    own, below = list(node.factors) if isinstance(node, Mul) else [node], []
+    for letter, power in powers.items():
+        own += [letter] * power
+        for _ in range(-power):
+            if letter in own:
                 own.remove(letter)
             else:
                 below.append(letter)
-    top = own[0] if len(own) == 1 else Mul(tuple(own)) if own else Num(1.0, "1")
-    if below:
-        top = Quotient(top, below[0] if len(below) == 1 else Mul(tuple(below)))
-    return multiplied(top, number)
+    return multiplied(Quotient(_product(own), _product(below)) if below else _product(own), number)
+
+
+def _product(factors: Sequence[Node]) -> Node:
+    return Mul(tuple(factors)) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
+
+
+def _more(node: Node, *terms: Node) -> Node:
+    """A sum with more terms."""
+    return Add((*(node.terms if isinstance(node, Add) else (node,)), *terms), span=node.span)

@@ -42,12 +42,6 @@ class Residual:
         """Largest size of all; NaN where the equation has no value."""
         return float(np.max(np.abs(self.ratio), initial=0.0)) if np.isfinite(self.ratio).all() else float("nan")
 
-    @property
-    def place(self) -> tuple[int, int]:
-        """Sample and component of the worst."""
-        k, i = np.unravel_index(np.argmax(np.abs(self.ratio)), self.ratio.shape)
-        return int(k), int(i)
-
 
 def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
     """The relative residual. Raises ``StatementError``."""

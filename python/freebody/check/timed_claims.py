@@ -20,7 +20,7 @@ from .families import Samples
 from .language.parser import parse
 from .language.sides import Sides, equation_sides
 from .language.spelling import spell
-from .language.statements import Equation, letters
+from .language.statements import Equation
 from .rounding import figures, last_digit, rounding, slope
 from .verdict import Evidence, Kind, Verdict
 
@@ -41,8 +41,7 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
             return Verdict(Kind.UNDECIDABLE, statement, f"at {moment} (t = {t:.6g} s) it has no value: {_figures(sides)}")
         off, allowed = np.abs(sides.residual), rounding(equation, values)
         if np.any(off > allowed * (1 + _ROUND)):
-            shown = {n.key: values[n.key][0].tolist() for n in letters(equation) if n.key in values}
-            seen = Evidence(shown, sides.left[0].tolist(), sides.right[0].tolist(), float(off.max()), 1)
+            seen = Evidence.at(sides, values, 0, float(off.max()), 1)
             corrections, last = _corrected(equation, values)
             reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}" + (": off in the last digit" if last else "")
             return Verdict(Kind.WRONG, statement, reason, mends=corrections, evidence=seen)
@@ -129,18 +128,11 @@ class _OnRun:
     def __init__(self, run: Any, t: float, checker: Checker) -> None:
         self.run, self.t, self.checker = run, t, checker
 
-    def __len__(self) -> int:
-        return 1
-
     def values(self, texts: Any) -> dict[str, Array]:
         """Each expression, (1,)."""
-        gravity = self.checker.sampler.gravity
-        return {text: np.array([self._value(text, gravity)]) for text in texts}
-
-    def _value(self, text: str, gravity: str | None) -> float:
-        if text == gravity:
-            return float(self.checker.sampler.free_parameters[text])
-        return float(np.asarray(self.run.evaluate(text, self.t)).ravel()[0])
+        sampler = self.checker.sampler
+        own = {sampler.gravity: sampler.free_parameters.get(sampler.gravity)}
+        return {text: np.ravel(own[text] if text in own else self.run.evaluate(text, self.t))[:1] for text in texts}
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """As of the model's own numbers."""

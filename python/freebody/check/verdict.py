@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -15,8 +15,10 @@ from freebody.symbolic.errors import StatementError
 from .assumptions import assumption, linearised, tiny
 from .case import Case
 from .correction import Correction, corrections
-from .families import ALL, Family, NoMotion
-from .language.statements import Equation, letters
+from .families import ALL, NoMotion
+from .language.sides import Sides
+from .language.spelling import spell
+from .language.statements import Equation, letters, terms
 from .nearest import nearest
 from .residual import FAILS, HOLDS, Residual, residual, unreached
 
@@ -62,6 +64,12 @@ class Evidence:
     ratio: float
     states: int
 
+    @classmethod
+    def at(cls, sides: Sides, values: Mapping[str, Array], k: int, ratio: float, states: int) -> Evidence:
+        """That of state ``k``."""
+        shown = {n.key: values[n.key][k].tolist() for n in letters(sides.equation) if n.key in values}
+        return cls(shown, sides.left[k].tolist(), sides.right[k].tolist(), ratio, states)
+
     def __str__(self) -> str:
         stated = {name: value for name, value in self.letters.items() if not (name in _UNITS and isinstance(value, Sequence))}
         at = ", ".join(f"{name} = {_plain(value)}" for name, value in stated.items())
@@ -71,8 +79,8 @@ class Evidence:
 @dataclass(frozen=True)
 class Verdict(PlainText):
     """What is so about one statement. ``reason`` is a sentence; ``assumption`` names under what it holds; ``mends`` are the
-    smallest edits that make it true, equally small ones side by side; ``true`` is the nearest true equation, where nothing corrections
-    it; ``untested`` are terms about which nothing was learnt."""
+    smallest edits that make it true, equally small ones side by side; ``true`` is the nearest true equation, where there are none;
+    ``untested`` are terms about which nothing was learnt."""
 
     kind: Kind
     text: str
@@ -146,17 +154,17 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         return _true(case, equation, text, found)
     if worst <= FAILS:
         what = f"the two sides differ by {worst:.1e} of their terms: more than round-off, less than a mistake"
-        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, equation, found))
+        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, found))
     if loose := case.depends_on_stress(equation):
         what = f"{', '.join(loose)} is not determined by the balances of this model: its parts can be pre-stressed"
-        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, equation, found))
+        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, found))
     return _not_true(case, equation, text, found)
 
 
-def holds(case: Case) -> bool:
-    """Whether all equations of a statement hold on true states."""
+def holds(case: Case, *equations: Equation) -> bool:
+    """Whether equations hold on true states; without any, all of a statement."""
     try:
-        return all(case.residual(equation).worst < HOLDS for equation in case.equations)
+        return all(case.residual(equation).worst < HOLDS for equation in equations or case.equations)
     except (NoMotion, StatementError):
         return False
 
@@ -185,21 +193,14 @@ def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, 
     if not all(other.meaning.fits(equation) for equation in equations):
         return ()
     return tuple(
-        correction for equation in equations if not _holds(other, equation) for correction in corrections(other, equation)
+        correction for equation in equations if not holds(other, equation) for correction in corrections(other, equation)
     )
-
-
-def _holds(case: Case, equation: Equation) -> bool:
-    try:
-        return case.residual(equation).worst < HOLDS
-    except StatementError:
-        return False
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
     values = case.values()
-    blind = [_spelled(case, term) for term in unreached(equation, values)]
-    if blind and len(blind) == _count(equation):
+    blind = [spell(term) for term in unreached(equation, values)]
+    if blind and len(blind) == len(terms(equation, expand=True)):
         motions = "of this model" if case.hypothesis == ALL else "of which it is said"
         alone = len(blind) == 1  # it says that this is 0, and so it is
         return Verdict(Kind.TRUE, text, f"every term is 0 in every motion {motions}", untested=() if alone else tuple(blind))
@@ -207,18 +208,12 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
         return Verdict(Kind.TRUE, text, "the two sides are the same by themselves: it says nothing of the motion")
     states = len(found.ratio)
     reason = f"holds on {states} random motions with random parameters, to {max(found.worst, 1e-16):.0e} of its terms"
-    return Verdict(Kind.TRUE, text, reason, evidence=evidence(case, equation, found), untested=tuple(blind))
-
-
-def _count(equation: Equation) -> int:
-    from .language.statements import terms
-
-    return len(terms(equation, expand=True))
+    return Verdict(Kind.TRUE, text, reason, evidence=evidence(case, found), untested=tuple(blind))
 
 
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
-    """A slip where one corrections it; else an assumption that excuses what was left out; else wrong."""
-    seen = evidence(case, equation, found)
+    """A slip where one edit corrects it; else an assumption that excuses what was left out; else wrong."""
+    seen = evidence(case, found)
     if not case.mending:
         return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(corrections(case, equation))
@@ -250,9 +245,9 @@ def _compared(case: Case, equation: Equation, found: Residual, text: str) -> Ver
     """A statement that one side is not above the other, tried on every state."""
     gap = found.ratio if equation.relation.startswith("<") else -found.ratio
     if gap.max() <= HOLDS:
-        return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, equation, found))
+        return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, found))
     broken = Residual(found.sides, np.maximum(gap, 0.0))
-    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, equation, broken))
+    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, broken))
 
 
 def _valueless(case: Case, equation: Equation) -> str:
@@ -264,21 +259,12 @@ def _valueless(case: Case, equation: Equation) -> str:
 
 
 def _sufficiency(case: Case) -> str:
-    """What a set of true equations is worth: whether they say different things."""
-    rank, count, unknown = independent(case)
-    if rank < count and unknown:
-        return f"all true; {count} equations, but only {rank} of them independent in the accelerations and forces in them"
-    return f"all {count} true" + (f", and independent in {', '.join(unknown)}" if unknown else "")
-
-
-def independent(case: Case) -> tuple[int, int, list[str]]:
-    """Rank of the equations in their unknowns (accelerations, forces), how many there are, and the unknowns."""
+    """What a set of true equations is worth: how many are independent in their unknowns, accelerations and forces."""
     values = dict(case.values())
     unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.key in values and case.meaning.solved(n)))
-    base = _stacked(case, values)
     if not unknown:
-        return 0, len(case.equations), []
-    columns = []
+        return f"all {len(case.equations)} true"
+    base, columns = _stacked(case, values), []
     for key in unknown:
         size = np.max(np.abs(values[key])) or 1.0
         steps = size * np.eye(3)[:2] if values[key].ndim == 2 else [size]
@@ -286,34 +272,25 @@ def independent(case: Case) -> tuple[int, int, list[str]]:
     slopes = np.stack(columns, axis=-1)
     scaled = slopes / (np.abs(slopes).max(axis=2, keepdims=True) + 1e-300)
     ranks = np.linalg.matrix_rank(scaled, tol=1e-8)
-    rows = int(np.sum(np.abs(base).max(axis=0) + np.abs(slopes).max(axis=(0, 2)) > 0))
-    return int(np.median(ranks)), rows, unknown
+    rank, count = int(np.median(ranks)), int(np.sum(np.abs(base).max(axis=0) + np.abs(slopes).max(axis=(0, 2)) > 0))
+    if rank < count:
+        return f"all true; {count} equations, but only {rank} of them independent in the accelerations and forces in them"
+    return f"all {count} true, and independent in {', '.join(unknown)}"
 
 
 def _stacked(case: Case, values: Any) -> Array:
     return np.concatenate([residual(e, values).sides.residual for e in case.equations], axis=1)
 
 
-def evidence(case: Case, equation: Equation, found: Residual, family: Family | None = None) -> Evidence:
+def evidence(case: Case, found: Residual) -> Evidence:
     """The state at which the two sides are farthest apart."""
-    k, _ = found.place
-    values = case.values(family)
-    shown = {n.key: values[n.key][k].tolist() for n in letters(equation) if n.key in values}
-    sides = found.sides
-    return Evidence(
-        shown, sides.left[k].tolist(), sides.right[k].tolist(), float(np.max(np.abs(found.ratio[k]))), len(found.ratio)
-    )
+    k = int(np.abs(found.ratio).max(axis=1).argmax())
+    return Evidence.at(found.sides, case.values(), k, float(np.abs(found.ratio[k]).max()), len(found.ratio))
 
 
 def _text(case: Case, equation: Equation) -> str:
     start, end = equation.span
     return case.program.text[start:end].strip() or case.program.text
-
-
-def _spelled(case: Case, node: Any) -> str:
-    from .language.spelling import spell
-
-    return spell(node)
 
 
 def _plain(value: Any) -> str:
