@@ -35,7 +35,7 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     They count only where every term still takes part: an assumption explains what was left out, not what is wrong.
     """
     for families in _assumptions(case):
-        if found := tuple(words for words, family in families if _excuses(case, equation, family)):
+        if found := tuple(words for words, family in families if _holds(case, equation, family)):
             return found
     if words := _small(case, equation):
         return (words,)
@@ -60,19 +60,10 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
     return _words(angles), replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
 
 
-def _excuses(case: Case, equation: Equation, family: Family) -> bool:
-    try:
-        return _holds(case, equation, family)
-    except (StatementError, ModelError):
-        return False
-
-
 def _bare_angles(case: Case, equation: Equation) -> list[Sym]:
     """Coordinates that are angles and stand outside of functions."""
-    known = case.meaning.vocabulary
     inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
-    bare = [n for n in walk(equation) if isinstance(n, Sym) and id(n) not in inside]
-    return [n for n in dict.fromkeys(bare) if n in known.coordinates and n in known.angular]
+    return [n for n in _angles(case, equation) if any(m == n and id(m) not in inside for m in walk(equation))]
 
 
 def _small(case: Case, equation: Equation) -> str:
@@ -114,9 +105,9 @@ def _holds(case: Case, equation: Equation, family: Family) -> bool:
     """Whether an equation holds in a family of which there are motions, every term of it taking part."""
     try:
         values = case.values(family, count=_STATES)
-    except NoMotion:
+        found = residual(equation, values)
+    except (NoMotion, StatementError, ModelError):
         return False
-    found = residual(equation, values)
     as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
     return bool(near) and not unreached(equation, values)
@@ -131,10 +122,8 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     def with_zero(*names: str) -> Family:
         return replace(given, held=tuple({**held, **dict.fromkeys(names, 0.0)}.items()))
 
-    yield [
-        *((f"{name} = 0, as in this model", with_zero(name)) for name in zeros),
-        *([(f"{', '.join(f'{name} = 0' for name in zeros)}, as in this model", with_zero(*zeros))] if len(zeros) > 1 else ()),
-    ]
+    chosen = [*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())]
+    yield [(f"{', '.join(f'{name} = 0' for name in names)}, as in this model", with_zero(*names)) for names in chosen]
     others = [n for n in mattering(case) if n not in (*zeros, *sampler.frictions, *sampler.gravities)]
     yield [
         ("at rest", replace(given, at_rest=True)),

@@ -144,7 +144,7 @@ def _along(checker: Checker, sample: Sample) -> Samples:
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     qs, us = motion.sample(times)
     states = [replace(state, t=float(t), q=q, u=u) for t, q, u in zip(times, qs, us, strict=True)]
-    return Samples(sampler.core, [Sample(s, motion) for s in states], sampler.parameter_names)
+    return Samples(sampler.core, [Sample(s, motion) for s in states])
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
@@ -208,7 +208,7 @@ def _changed_alone(checker: Checker, declared: Declared, names: str, case: Case)
         step = (sampler.rate if letter.dots else 1.0) * 0.7 * (np.array(sampler.names) == letter.name)
         states = [sample.state for sample in case.samples().samples]
         moved = [replace(s, u=s.u + step) if letter.dots else replace(s, q=s.q + step) for s in states]
-        yield name, case.meaning.values(Samples(sampler.core, [Sample(s) for s in moved], sampler.parameter_names))
+        yield name, case.meaning.values(Samples(sampler.core, [Sample(s) for s in moved]))
 
 
 def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:

@@ -27,12 +27,10 @@ class Loop:
 
     def vanished(self, text: str, state: State) -> State:
         """One rate is chosen so that the expression is 0; where rates are not in it, a coordinate. Raises ``NoMotion`` and ``MotionError``."""
-        for name in self.free:
-            if (found := self._hurried(text, state, name)) is not None:
-                return found
-        for name in self.free:
-            if (found := self._moved(text, state, name)) is not None:
-                return found
+        for change in (self._hurried, self._moved):
+            for name in self.free:
+                if (found := change(text, state, name)) is not None:
+                    return found
         raise NoMotion(f"`{text}` depends on nothing that is free in this mechanism")
 
     def _moved(self, text: str, state: State, name: str) -> State | None:

@@ -87,6 +87,12 @@ class _Found:
     def size(self) -> float:
         return sum(edit.size for edit in self.edits)
 
+    def correction(self, given: str) -> Correction:
+        edits = self.edits
+        stated = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in edits)
+        where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
+        return Correction(stated, spell(without_ones(self.after)), self.size, where, given)
+
 
 Step = Callable[["_Search"], Iterator[_Found]]
 """A way to look for corrections."""
@@ -94,26 +100,19 @@ Step = Callable[["_Search"], Iterator[_Found]]
 
 def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
     """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits mend it."""
-    families = [(case.hypothesis, "")]
-    given, zeros = case.hypothesis, _unmentioned_zeros(case, equation)
-    if zeros and given.zeros:
-        families += [(replace(given, held=(*given.held, (name, 0.0))), f"{name} = 0") for name in zeros]
-        if len(zeros) > 1:
-            both = (*given.held, *((name, 0.0) for name in zeros))
-            families.append((replace(given, held=both), ", ".join(f"{name} = 0" for name in zeros)))
+    given, families = case.hypothesis, [(case.hypothesis, "")]
+    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Sym(letter.name)))
+    unsaid = case.sampler.free_parameters.keys() - set(re.findall(r"\w+", said)) if given.zeros else ()
+    zeros = [name for name, value in case.sampler.free_parameters.items() if value == 0 and name in unsaid]
+    for names in (*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())):
+        held = replace(given, held=(*given.held, *((name, 0.0) for name in names)))
+        families.append((held, ", ".join(f"{name} = 0" for name in names)))
     parts = rows(equation)
     if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE))):
         yield from whole
         return
     for row in parts:
         yield from _of_row(case, row, families, (*_SINGLE, _Search.pairs))
-
-
-def _unmentioned_zeros(case: Case, equation: Equation) -> list[str]:
-    """Parameters that are 0 in the model and that the equation leaves out."""
-    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Sym(letter.name)))
-    words = set(re.findall(r"\w+", said))
-    return [name for name, value in case.sampler.free_parameters.items() if value == 0 and name not in words]
 
 
 def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Correction]:
@@ -129,14 +128,8 @@ def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps
         some = [(found, given) for found, given in every if found]
         if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
             found, given = min(some, key=lambda pair: pair[0][0].size)
-            yield from (_mend(each, given) for each in found)
+            yield from (each.correction(given) for each in found)
             return
-
-
-def _mend(found: _Found, given: str) -> Correction:
-    stated = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in found.edits)
-    where = tuple(e.old.span for e in found.edits if e.old is not None and e.old.span != (0, 0))
-    return Correction(stated, spell(without_ones(found.after)), found.size, where, given)
 
 
 class _Search:
@@ -159,7 +152,7 @@ class _Search:
 
     def other_terms(self) -> Iterator[_Found]:
         """Every term that should be quite another."""
-        if self._readable(self.equation):
+        if self._residual(self.equation, self.few):
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def pairs(self) -> Iterator[_Found]:
@@ -168,26 +161,28 @@ class _Search:
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
         for first, second in chain(combinations(near, 2), combinations(plain, 2)):
-            if (both := _both(first, second)) is not None and self._passes(both.after):
-                yield _Found((first, both))
+            if (both := _both(first, second)) is not None:
+                yield from (_Found((first, edit)) for edit in self._promising([both]))
         for first in (*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES)):
-            second = self._fitted(first.after)
-            yield from (_Found((first, edit)) for edit in self._promising(second))
+            yield from (_Found((first, edit)) for edit in self._promising(self._fitted(first.after)))
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
         """The edits after which the least is left."""
-        scored = [(self._score(edit.after), edit) for edit in found]
-        return [edit for _, edit in sorted(scored, key=lambda pair: pair[0])[:count]]
+
+        def left(edit: Edit) -> float:
+            residual = self._residual(edit.after, self.few)
+            return (residual and float(np.sqrt(np.mean(residual.ratio**2)))) or float("inf")
+
+        return sorted(found, key=left)[:count]
 
     def _all(self, equation: Equation) -> Iterator[Edit]:
-        units = tuple(n for n in self.vocabulary.vectors if n in (Sym("i"), Sym("j"), Sym("k")))
-        broken = not self._readable(equation)
+        readable, units = self._residual(equation, self.few), (Sym("i"), Sym("j"), Sym("k"))
         return chain(
-            with_unit_vectors(equation, units) if broken else (),
+            () if readable else with_unit_vectors(equation, tuple(n for n in self.vocabulary.vectors if n in units)),
             edits(equation, self.vocabulary),
             conventions(equation, self.vocabulary),
-            () if broken else self._fitted(equation),
+            self._fitted(equation) if readable else (),
         )
 
     def _fitted(self, equation: Equation) -> Iterator[Edit]:
@@ -240,26 +235,16 @@ class _Search:
             return True
 
     def _confirmed(self, equation: Equation) -> bool:
-        if not self.fit(equation):
-            return False
-        if self.family.held and unreached(equation, self.values):
+        if not self.fit(equation) or (self.family.held and unreached(equation, self.values)):
             return False  # what is held at 0 may hide what is wrong
         return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
-        return (edit for edit in found if self._passes(edit.after))
-
-    def _passes(self, equation: Equation) -> bool:
-        return self._worst(equation, self.few) < _PROMISING
+        return (edit for edit in found if self._worst(edit.after, self.few) < _PROMISING)
 
     def _worst(self, equation: Equation, values: Mapping[str, Array]) -> float:
         found = self._residual(equation, values)
         return float("inf") if found is None or np.isnan(found.worst) else found.worst
-
-    def _score(self, equation: Equation) -> float:
-        found = self._residual(equation, self.few)
-        size = float("inf") if found is None else float(np.sqrt(np.mean(found.ratio**2)))
-        return size if size > 0 else float("inf")
 
     def _residual(self, equation: Equation, values: Mapping[str, Array]) -> Residual | None:
         try:
@@ -267,44 +252,33 @@ class _Search:
         except (StatementError, ValueError):
             return None
 
-    def _readable(self, equation: Equation) -> bool:
-        return self._residual(equation, self.few) is not None
-
     def _mark(self, equation: Equation) -> tuple[float, ...] | None:
         """What an equation says, however it is arranged; None where it says nothing (a = a)."""
         places = self.other if {n.key for n in letters(equation)} - self.given else self.free
         found = self._residual(equation, places)
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
-        solved = self._solved(equation, found.sides.residual, places)
-        if solved is None and found.sides.residual.shape[1] > 1:
-            left = found.sides.residual
+        left, known = found.sides.residual, {n.key for n in letters(equation)}
+        linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
+        solved = next((each for each in linear if each is not None), None)
+        if solved is None and left.shape[1] > 1:
             solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
         if solved is None:
             ratio = found.ratio.ravel()
             solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
         return tuple(np.round(solved, 7).tolist())
 
-    def _solved(self, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
-        """The equation solved for a letter in which it and the one given are linear."""
-        known = {n.key for n in letters(equation)}
-        for key in (key for key in self._pivots if key in known):
-            if (solved := self._solved_for(key, equation, base, places)) is not None:
-                return solved
-        return None
-
     @cached_property
     def _pivots(self) -> list[str]:
         """Letters in which the equation given is linear, accelerations first."""
-        found = self._residual(self.equation, self.other)
+        if (found := self._residual(self.equation, self.other)) is None:
+            return []
         known = [n for n in letters(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
-        ranked = sorted(known, key=lambda n: -n.dots)
-        base = found.sides.residual if found else None
-        return [
-            n.key for n in ranked if base is not None and self._solved_for(n.key, self.equation, base, self.other) is not None
-        ]
+        keys, left = [n.key for n in sorted(known, key=lambda n: -n.dots)], found.sides.residual
+        return [key for key in keys if self._solved_for(key, self.equation, left, self.other) is not None]
 
     def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
+        """The equation solved for a letter in which it is linear."""
         once, twice = (self._residual(equation, {**places, key: places[key] + step}) for step in (1.0, 2.0))
         if base.shape[1] != 1 or once is None or twice is None:
             return None
@@ -316,8 +290,7 @@ def _both(first: Edit, second: Edit) -> Edit | None:
     """The second edit after the first, where both can be made."""
     if second.old is None or (second.new is None and second.kind != "extra term"):
         return None
-    new = second.new if second.new is not None else Num(0.0, "0")
-    after = replaced(first.after, second.old, new)
+    after = replaced(first.after, second.old, second.new or Num(0.0, "0"))
     return None if after is first.after else replace(second, after=after)
 
 

@@ -60,7 +60,6 @@ class Samples:
 
     core: CompiledModel
     samples: list[Sample]
-    names: list[str]
     stress: float = 1.0
     loose: set[str] = field(default_factory=set)
     known: dict[str, Array] = field(default_factory=dict)
@@ -84,14 +83,9 @@ class Samples:
         found = motion.evaluate(plain, np.array([state.t]))[0] if motion else self.core.evaluate(plain, state)
         if len(plain) == len(texts):
             return found
-        known = {**self._loads(sample), **dict(zip(plain, found.tolist(), strict=True))}
-        return np.array([known.get(text, np.nan) for text in texts])
-
-    def _loads(self, sample: Sample) -> dict[str, float]:
-        """Every load that is determined, as a text that begins with ``LOAD``."""
-        state, motion = sample.state, sample.motion
         free = motion.free_bodies(state.t) if motion else self.core.free_bodies(state)
-        return {LOAD + load.symbol: load.value for load in free.loads if not np.isnan(load.value)}
+        known = {LOAD + load.symbol: load.value for load in free.loads} | dict(zip(plain, found.tolist(), strict=True))
+        return np.array([known.get(text, np.nan) for text in texts])
 
     def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
         """A row in which what reads reactions that are not determined has a value, too."""
@@ -99,21 +93,15 @@ class Samples:
             return row
         values = admissible(self.core, sample.state, rng, self.stress)
         lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and written_out(text, values) != text]
-        state = sample.state
         if lost:
-            stated = [written_out(texts[i], values) for i in lost]
-            row[lost] = self.core.evaluate(stated, state)
+            row[lost] = self.core.evaluate([written_out(texts[i], values) for i in lost], sample.state)
             self.loose |= {texts[i] for i in lost}
         return row
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
         if not self.weighed:
-            stated = [self.core.free_bodies(s.state).bodies for s in self.samples]
-            for name in stated[0]:
-                self.weighed[name] = np.array([row[name].mass for row in stated]), np.array([row[name].inertia for row in stated])
+            rows = [self.core.free_bodies(s.state).bodies for s in self.samples]
+            for name in rows[0]:
+                self.weighed[name] = np.array([row[name].mass for row in rows]), np.array([row[name].inertia for row in rows])
         return self.weighed
-
-    def parameters(self, k: int) -> dict[str, float]:
-        """The parameters of sample ``k`` by name, SI."""
-        return dict(zip(self.names, self.samples[k].state.p.tolist(), strict=True))

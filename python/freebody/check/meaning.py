@@ -13,7 +13,7 @@ import numpy as np
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
 from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Sym, walk
+from freebody.symbolic.tree import Sym
 
 from .families import Samples
 from .language.dimensions import misfit
@@ -43,9 +43,7 @@ class StatementLetters:
     def __init__(self, letters: Letters, program: Program, sampler: MotionSampler) -> None:
         self.letters, self.sampler, self.figures = letters, sampler, False
         self.required = letters.require(program)
-        named = {line.name for line in program.assignments}
-        used = [n for n in walk(program) if isinstance(n, Sym) and n not in named]
-        self.used = list(dict.fromkeys(Sym(n.name) for n in used))
+        self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
 
     def texts(self, letter: Sym) -> tuple[str, ...]:
         """The expressions of the model language that a letter stands for."""
@@ -99,11 +97,12 @@ class StatementLetters:
         parameters = [n for n in self._parameters if not self._one(n).is_vector]
         coordinates = self._coordinates
         taken = {*parameters, *coordinates}
-        vectors = [n for n in self.used if self._one(n).is_vector]
-        known = dict.fromkeys([*self.used, *(Sym(name) for name in self.letters.of_kind("declared"))])
+        directions = map(Sym, self.letters.of_kind("declared", "direction"))
+        vectors = [n for n in (*self.used, *directions) if self._one(n).is_vector]
+        known = dict.fromkeys([*self.used, *map(Sym, self.letters.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
-        groups = (parameters, coordinates, others, [*vectors, *self._units])
+        groups = (parameters, coordinates, others, vectors)
         plain = [{n: self._dimension(n) for n in group} for group in groups]
         angles = {n for n in (*parameters, *coordinates, *others) if self._one(n).dimension == ANGLE}
         return Vocabulary(*plain, angular=frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY}))
@@ -114,11 +113,6 @@ class StatementLetters:
         named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
         known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
-
-    @cached_property
-    def _units(self) -> list[Sym]:
-        """Unit vectors and all declared ones."""
-        return [Sym(n) for n in self.letters.of_kind("declared", "direction") if n in self.letters.vectors]
 
     def _one(self, letter: Sym) -> One:
         return self.letters.meanings[letter.name]
@@ -139,10 +133,8 @@ class StatementLetters:
 
     def _once(self, found: list[Sym]) -> list[Sym]:
         """Without letters that only name again what another does."""
-        by_meaning: dict[tuple[str, ...], Sym] = {}
-        for letter in found:
-            by_meaning.setdefault(self._one(letter).texts, letter)
-        return list(by_meaning.values())
+        first = {self._one(n).texts: n for n in reversed(found)}
+        return [n for n in dict.fromkeys(found) if first[self._one(n).texts] == n]
 
     def _matters(self, name: str) -> bool:
         """Whether a parameter is more than a number of the start."""
@@ -169,17 +161,16 @@ class StatementLetters:
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         own = [Sym(c["name"]) for c in self.sampler.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
-        declared = [Sym(name) for name in self.letters.of_kind("declared")]
-        own += [n for n in declared if n not in movable and self._moves(n)]
+        own += [n for n in map(Sym, self.letters.of_kind("declared")) if self._moves(n)]
         missing = max(len(self.sampler.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
     def _moves(self, letter: Sym) -> bool:
         """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""
         one = self._one(letter)
-        if any(_BEYOND.search(text) for text in one.texts):
+        if any(_BEYOND.search(text) for text in one.texts) or one.is_vector or self._is_fixed(letter):
             return False
-        if one.is_vector or one.kind not in ("coordinate", "declared", "gauge") or self._is_fixed(letter):
+        if one.kind not in ("coordinate", "declared", "gauge"):
             return False
         try:
             return all(one.needed(dots) for dots in (1, 2))

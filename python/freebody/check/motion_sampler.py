@@ -48,7 +48,7 @@ class MotionSampler(OnRuns):
         """True states of a family; ``fresh`` other than 0 gives others than before. Raises ``NoMotion``."""
         key = (family, 1000 * fresh + count)
         if key not in self._families:
-            self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh), self.parameter_names)
+            self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh))
         if not self._families[key].samples:
             raise NoMotion(self._why_none(family))
         return self._families[key]
@@ -101,7 +101,7 @@ class MotionSampler(OnRuns):
 
     def _vanishes(self, text: str, sample: Sample, family: Family) -> bool:
         """Whether an expression is 0 there. Raises ``NoMotion`` where nothing can be done for it."""
-        if abs(float(Samples(self.core, [sample], []).values([text])[text][0])) < _NOTHING:
+        if abs(float(Samples(self.core, [sample]).values([text])[text][0])) < _NOTHING:
             return True
         if self.restricted:
             why = "contacts, strings, stops or friction decide how this model moves, so that it is tried on runs from its start"
@@ -112,8 +112,7 @@ class MotionSampler(OnRuns):
 
     def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         held, scaled = dict(family.held), dict(family.scaled)
-        if not family.gravity:
-            held |= dict.fromkeys(self.gravities, 0.0)
+        held |= {} if family.gravity else dict.fromkeys(self.gravities, 0.0)
         drawn = {name: self._drawn(rng, name, value, family) for name, value in self.free_parameters.items()}
         numbers = {name: x for name, x in held.items() if not isinstance(x, str)}
         plain = {name: numbers.get(name, value) * scaled.get(name, 1.0) for name, value in drawn.items()}

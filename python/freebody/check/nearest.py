@@ -13,7 +13,7 @@ from freebody.equations import Tree, equation_text, read, symbols
 from freebody.equations.balances.groups import groups
 from freebody.equations.balances.system import Problem, problem
 from freebody.equations.balances.virtual_motions import named_motions
-from freebody.symbolic.tree import Sym
+from freebody.symbolic.tree import ZERO, Sym
 
 from .families import NoMotion
 from .language.statements import Equation, letters
@@ -25,7 +25,6 @@ _MOST = 150  # balances that are looked at, those of few bodies first
 _LONG = 1500  # signs, beyond which nobody reads an equation
 _WORD = re.compile(r"'[^']+'\.\w+|[A-Za-z_][\w.\[\]]*")
 _LEVELS = ("value", "rate", "acceleration")
-_ZERO = {"num": "0"}
 _KINDS = {"number": "constant"}
 
 
@@ -83,7 +82,7 @@ def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str,
 
 def _balances(asked: Sequence[tuple[str, Any]], answers: Sequence[Mapping[str, Any]]) -> Iterator[_True]:
     for (words, _), answer in zip(asked, answers, strict=True):
-        unknown = frozenset(_letter(each["letter"]) for each in answer["linear"]["coefficients"])
+        unknown = frozenset(read(each["letter"]) for each in answer["linear"]["coefficients"])
         yield _True(words, read(answer["left"]), read(answer["right"]), unknown)
 
 
@@ -91,11 +90,7 @@ def _rows(rows: Sequence[Mapping[str, Any]], level: int) -> Iterator[_True]:
     """What loops ask of the configuration, the rates or the accelerations."""
     for row in rows:
         tree = read(row[_LEVELS[level]])
-        yield _True(f"the closure at {row['name']}", tree, read(_ZERO), frozenset(s for s in symbols(tree) if s.dots == level))
-
-
-def _letter(data: Mapping[str, Any]) -> Sym:
-    return Sym(data["sym"], data["dots"])
+        yield _True(f"the closure at {row['name']}", tree, ZERO, frozenset(s for s in symbols(tree) if s.dots == level))
 
 
 def _rates(found: frozenset[Sym]) -> frozenset[Sym]:

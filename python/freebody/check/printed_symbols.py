@@ -7,47 +7,39 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from freebody.core import MotionError
+from freebody.equations.derivation.conserved import energies
+from freebody.equations.derivation.data import SymbolicState
+from freebody.equations.derivation.preamble import directions
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.symbolic.symbols import Renamed, unicode_name
 from freebody.symbolic.tree import Add, Mul, Num, Sym, Tree
 
 if TYPE_CHECKING:
-    from freebody.equations.derivation.data import SymbolicState
     from freebody.model.builder import Builder
-
 
 _ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
 """The force at one place of a contact that holds at several."""
 
 
-def printed(mechanism: Builder) -> Mapping[str, str]:
+def printed(mechanism: Builder) -> dict[str, str]:
     """What each means, as a declaration. Nothing where the model does not start."""
-    from freebody.equations.derivation.data import SymbolicState
-
-    try:
-        subject = SymbolicState(mechanism.source(), mechanism.start()[0])
-        found = [
-            *_loads(subject),
-            *_given(subject),
-            *_numbers(subject),
-            *_bodies(subject),
-            *_whole(subject),
-            *_directions(subject),
-        ]
-    except (MotionError, ModelProblem):
-        return {}
-    return dict(found)
+    derived = _derived(mechanism)
+    parts = (_loads, _numbers, _bodies, _whole, _directions) if derived else ()
+    return {name: meant for part in parts for name, meant in part(derived)}
 
 
 def renamed(mechanism: Builder) -> list[Renamed]:
     """What is not called by its usual name, because something else is. Nothing where the model does not start."""
-    from freebody.equations.derivation.data import SymbolicState
+    derived = _derived(mechanism)
+    return list(derived.symbols.renamed.values()) if derived else []
 
+
+def _derived(mechanism: Builder) -> SymbolicState | None:
     try:
-        return list(SymbolicState(mechanism.source(), mechanism.start()[0]).symbols.renamed.values())
+        return SymbolicState(mechanism.source(), mechanism.start()[0])
     except (MotionError, ModelProblem):
-        return []
+        return None
 
 
 def _loads(subject: SymbolicState) -> Iterator[tuple[str, str]]:
@@ -58,18 +50,14 @@ def _loads(subject: SymbolicState) -> Iterator[tuple[str, str]]:
             yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
 
 
-def _given(subject: SymbolicState) -> Iterator[tuple[str, str]]:
-    """Parameters and coordinates of which another is written alike."""
-    for name in subject.symbols.renamed:
-        if name in subject.symbols.names and subject.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
-            yield subject.symbols.names[name].unicode(), spell(name)
-
-
 def _numbers(subject: SymbolicState) -> Iterator[tuple[str, str]]:
-    """Masses and inertias that are numbers in the model."""
-    for name, entry in subject.table.items():
-        if entry["kind"] == "number":
-            yield subject.symbols.names[name].unicode(), f"{entry['value']!r} {entry['unit']}"
+    """Parameters and coordinates of which another is written alike; masses and inertias that are numbers in the model."""
+    names = subject.symbols.names
+    for name in subject.symbols.renamed:
+        if name in names and subject.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
+            yield names[name].unicode(), spell(name)
+    numbers = ((name, entry) for name, entry in subject.table.items() if entry["kind"] == "number")
+    yield from ((names[name].unicode(), f"{entry['value']!r} {entry['unit']}") for name, entry in numbers)
 
 
 def _bodies(subject: SymbolicState) -> Iterator[tuple[str, str]]:
@@ -79,38 +67,24 @@ def _bodies(subject: SymbolicState) -> Iterator[tuple[str, str]]:
         read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
         read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
         yield from ((subject.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
-        for stem, long, meant in (
-            ("x", "place_x", f"x({said}.G)"),
-            ("y", "place_y", f"y({said}.G)"),
-            ("phi", "angle", f"angle({said})"),
-        ):
-            yield from ((unicode_name(f"{each}_{name}"), meant) for each in (stem, long))
+        plain = {"x": f"x({said}.G)", "y": f"y({said}.G)", "phi": f"angle({said})"}
+        plain |= {"place_x": plain["x"], "place_y": plain["y"], "angle": plain["phi"]}
+        yield from ((unicode_name(f"{stem}_{name}"), meant) for stem, meant in plain.items())
 
 
 def _whole(subject: SymbolicState) -> Iterator[tuple[str, str]]:
-    from freebody.equations.derivation.conserved import energies
-
     yield from ((name.text, meant) for name, meant in zip(energies(subject), ("kinetic()", "potential()"), strict=True))
     for axis in "xy":
         yield subject.symbols.quantity(f"L_{axis}", f"momentum along {axis}").unicode(), f"momentum_{axis}()"
-    yield from ((f"H/{point}", _momentum(spell(point))) for point in subject.points)
-    for point in list(subject.points)[:1]:
-        yield "H/G", f"{_momentum(spell(point))} - {_carried(spell(point))}"
-
-
-def _momentum(point: str) -> str:
-    return f"angular_momentum({point})"
-
-
-def _carried(point: str) -> str:
-    """What the momentum of the whole, at its mass centre, has about a point."""
-    return f"((centre_x() - x({point}))*momentum_y() - (centre_y() - y({point}))*momentum_x())"
+    points = [spell(point) for point in subject.points]
+    yield from ((f"H/{name}", f"angular_momentum({point})") for name, point in zip(subject.points, points, strict=True))
+    for point in points[:1]:
+        carried = f"(centre_x() - x({point}))*momentum_y() - (centre_y() - y({point}))*momentum_x()"
+        yield "H/G", f"angular_momentum({point}) - ({carried})"
 
 
 def _directions(subject: SymbolicState) -> Iterator[tuple[str, str]]:
     """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
-    from freebody.equations.derivation.preamble import directions
-
     turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
     named = directions(subject)
     yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))

@@ -8,9 +8,9 @@ from functools import reduce
 
 import numpy as np
 
-from freebody.symbolic.evaluate import Array
+from freebody.symbolic.evaluate import Array, spread
 from freebody.symbolic.evaluate import sampled as evaluate
-from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Pow, Quotient, Sym
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Quotient
 
 from .language.sides import Sides, equation_sides
 from .language.statements import Equation
@@ -47,9 +47,8 @@ def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
     """The relative residual. Raises ``StatementError``."""
     with np.errstate(all="ignore"):
         found = equation_sides(equation, values)
-        left, right = magnitude(equation.left, values), magnitude(equation.right, values)
-        shape = (len(found.left), -1)
-        size = np.zeros_like(found.residual) + (left.reshape(shape) + right.reshape(shape))
+        left, right = (magnitude(side, values).reshape(len(found.left), -1) for side in (equation.left, equation.right))
+        size = np.zeros_like(found.residual) + (left + right)
         if found.left.ndim == 2:
             size = np.maximum(size, _FLOOR * size.max(axis=1, keepdims=True))
         ratio = np.divide(found.residual, size, out=np.zeros_like(size), where=size != 0)
@@ -67,9 +66,12 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
         case Mul(factors=factors):
             return reduce(_times, [inside(factor) for factor in factors])
         case Quotient(top=top, bottom=bottom):
-            return _over(inside(top), np.abs(evaluate(bottom, values)))
+            above, below = inside(top), np.abs(evaluate(bottom, values))
+            return above[:, 2] / below[:, 2] if above.ndim == below.ndim == 2 else above / spread(below, above)
         case Cross(left=left, right=right):
-            return _crossed(inside(left), inside(right))
+            a, b = inside(left), inside(right)
+            pairs = ((1, 2), (2, 0), (0, 1))
+            return a * b if a.ndim == 1 else np.stack([a[:, i] * b[:, j] + a[:, j] * b[:, i] for i, j in pairs], axis=-1)
         case Dot(left=left, right=right):
             a, b = inside(left), inside(right)
             return np.einsum("ki,ki->k", a, b) if a.ndim == b.ndim == 2 else _times(a, b)
@@ -79,29 +81,14 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
             return np.stack([np.stack([_scalar(inside(x)) for x in row], axis=-1) for row in rows], axis=1)
         case Fn(name=function, args=(of,)) if function in _THROUGH_ZERO:
             return np.maximum(np.abs(evaluate(node, values)), np.minimum(_scalar(inside(of)), 1.0))
-        case Pow() | Fn() | Sym() | Node():
-            return np.abs(evaluate(node, values))
-    raise TypeError(type(node).__name__)
+    return np.abs(evaluate(node, values))
 
 
 def _times(a: Array, b: Array) -> Array:
     if a.ndim == b.ndim == 3:
         return a @ b
     small, large = sorted((a, b), key=np.ndim)
-    return small.reshape(small.shape + (1,) * (large.ndim - small.ndim)) * large
-
-
-def _over(top: Array, bottom: Array) -> Array:
-    if top.ndim == bottom.ndim == 2:
-        return top[:, 2] / bottom[:, 2]
-    return top / bottom.reshape(bottom.shape + (1,) * (top.ndim - bottom.ndim))
-
-
-def _crossed(a: Array, b: Array) -> Array:
-    if a.ndim == 1:
-        return a * b
-    turned = [(1, 2), (2, 0), (0, 1)]
-    return np.stack([a[:, i] * b[:, j] + a[:, j] * b[:, i] for i, j in turned], axis=-1)
+    return spread(small, large) * large
 
 
 def _scalar(value: Array) -> Array:

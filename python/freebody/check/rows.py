@@ -14,9 +14,9 @@ def rows(equation: Equation) -> list[Equation]:
     count = len(left or right or ())
     if not count:
         return [equation]
-    left = left or [equation.left] * count if is_zero(equation.left) or left else None
-    right = right or [equation.right] * count if is_zero(equation.right) or right else None
-    if left is None or right is None or len(left) != len(right):
+    left = left or ([equation.left] * count if is_zero(equation.left) else [])
+    right = right or ([equation.right] * count if is_zero(equation.right) else [])
+    if len(left) != count or len(right) != count:
         return [equation]
     return [Equation(a, b, span=equation.span) for a, b in zip(left, right, strict=True)]
 
@@ -32,7 +32,9 @@ def _entries(node: Node) -> list[Node] | None:
             inside = _entries(of)
             return None if inside is None else [Negative(item) for item in inside]
         case Add(terms=terms):
-            return _sums([_entries(term) for term in terms if not is_zero(term)])
+            columns = [_entries(term) for term in terms if not is_zero(term)]
+            alike = None not in columns and len(set(map(len, columns))) == 1  # type: ignore[arg-type]
+            return [Add(parts) for parts in zip(*columns, strict=True)] if alike else None  # type: ignore[arg-type]
         case Quotient(top=top, bottom=bottom):
             inside = _entries(top)
             return None if inside is None else [Quotient(item, bottom) for item in inside]
@@ -41,12 +43,6 @@ def _entries(node: Node) -> list[Node] | None:
         case Dot(left=left, right=right):
             return _products((left, right))
     return None
-
-
-def _sums(columns: list[list[Node] | None]) -> list[Node] | None:
-    if any(column is None for column in columns) or len({len(c) for c in columns if c}) != 1:
-        return None
-    return [Add(parts) for parts in zip(*(c for c in columns if c), strict=True)]
 
 
 def _products(factors: tuple[Node, ...]) -> list[Node] | None:

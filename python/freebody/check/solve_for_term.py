@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.symbolic.evaluate import Array, is_zero
+from freebody.symbolic.evaluate import Array, is_zero, spread
 from freebody.symbolic.evaluate import sampled as evaluate
 from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient
 
@@ -44,15 +44,12 @@ class RequiredTerm:
 def required_terms(equation: Equation, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
     """Every part of numbers or vectors for which the equation can be solved, sides first."""
     with np.errstate(all="ignore"):
-        zero = is_zero(equation.left), is_zero(equation.right)
-        left = None if zero[0] else evaluate(equation.left, values)
-        right = None if zero[1] else evaluate(equation.right, values)
+        left, right = (None if is_zero(side) else evaluate(side, values) for side in (equation.left, equation.right))
         if left is not None and right is not None and left.ndim != right.ndim:
             return  # a number beside a vector
-        if left is not None and left.ndim < 3:
-            yield from _inside(RequiredTerm(equation.left, left, np.zeros_like(left) if right is None else right, True), values)
-        if right is not None and right.ndim < 3:
-            yield from _inside(RequiredTerm(equation.right, right, np.zeros_like(right) if left is None else left, True), values)
+        for side, value, other in ((equation.left, left, right), (equation.right, right, left)):
+            if value is not None and value.ndim < 3:
+                yield from _inside(RequiredTerm(side, value, np.zeros_like(value) if other is None else other, True), values)
 
 
 def _inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
@@ -100,10 +97,7 @@ def _quotient(required: RequiredTerm, top: Node, bottom: Node, values: Mapping[s
     if isinstance(top, Num) and isinstance(bottom, Num):
         return  # ½ is one figure
     above, below = evaluate(top, values), evaluate(bottom, values)
-    if below.ndim != 1:
-        return
-    spread = below.reshape(below.shape + (1,) * (above.ndim - 1))
-    yield from _inside(RequiredTerm(top, above, required.needed * spread), values)
-    factor = required.factor
-    if factor is not None:
-        yield from _inside(RequiredTerm(bottom, below, below / factor), values)
+    if below.ndim == 1:
+        yield from _inside(RequiredTerm(top, above, required.needed * spread(below, above)), values)
+        if (factor := required.factor) is not None:
+            yield from _inside(RequiredTerm(bottom, below, below / factor), values)

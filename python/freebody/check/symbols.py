@@ -100,7 +100,7 @@ class Letters:
         """Letters that do not change with time."""
         return self.of_kind("parameter", "gravity", "direction")
 
-    @cached_property
+    @property
     def vectors(self) -> frozenset[str]:
         """Letters that are vectors."""
         return frozenset(name for name, m in self.meanings.items() if m.is_vector)
@@ -230,8 +230,7 @@ class Letters:
 
     def _put(self, name: str, meaning: Meaning) -> None:
         self.meanings[name] = meaning
-        for cached in ("vectors", "_spellings"):
-            self.__dict__.pop(cached, None)
+        self.__dict__.pop("_spellings", None)
 
     def _measure(self, said: str) -> tuple[str, Dimension | None]:
         """An expression in SI with its dimension; letters declared before, and Greek ones, are written out."""

@@ -137,4 +137,4 @@ class _OnRun:
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """As of the model's own numbers."""
         sampler = self.checker.sampler
-        return Samples(sampler.core, [sampler.own], sampler.parameter_names).masses()
+        return Samples(sampler.core, [sampler.own]).masses()

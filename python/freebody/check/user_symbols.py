@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freebody.model.errors import ModelProblem
-from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
+from freebody.model.names import suggestion
+from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
 
 from .rates import derivative
 
@@ -69,12 +70,8 @@ class Momentum(Meaning):
         return list(self.dotted if dots or self.loads else self.texts)
 
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
-        parts = [values[text] for text in self.needed(dots)]
-        known = masses()
-        total = sum(
-            known[body][0] * orbit + known[body][1] * spin
-            for body, orbit, spin in zip(self.bodies, parts[::2], parts[1::2], strict=True)
-        )
+        parts, known = [values[text] for text in self.needed(dots)], [*map(masses().__getitem__, self.bodies)]
+        total = sum(m * orbit + i * spin for (m, i), orbit, spin in zip(known, parts[::2], parts[1::2], strict=True))
         return np.stack([np.zeros_like(total), np.zeros_like(total), total], axis=-1)
 
 
@@ -89,9 +86,8 @@ class Resultant(Meaning):
         return True
 
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
-        parts = np.array([values[text] for text in self.needed(dots)])
-        known = masses()
-        x, y = (sum(known[b][0] * a for b, a in zip(self.bodies, parts[i::2], strict=True)) for i in (0, 1))
+        parts, known = [values[text] for text in self.needed(dots)], [*map(masses().__getitem__, self.bodies)]
+        x, y = (sum(m * a for (m, _), a in zip(known, parts[i::2], strict=True)) for i in (0, 1))
         return np.stack([x, y, np.zeros_like(x)], axis=-1)
 
 
@@ -124,21 +120,15 @@ class Reader:
         if not isinstance(said, str):
             return self.components(list(said))
         phrase = " ".join(said.split())
-        for pattern, reading in self.phrases():
+        phrases = (
+            *((_PLACE, self.place), (_DIRECTION, self.direction), (_JOINT, self.reaction)),
+            *((_GROUP, self.moment), (_FORCE, self.resultant), (_LOAD, self.load)),
+        )
+        for pattern, reading in phrases:
             if found := pattern.fullmatch(phrase):
                 return reading(*found.groups())
         text, dimension = self.measured(said)
         return Meaning("declared", (text,), dimension)
-
-    def phrases(self) -> Sequence[tuple[re.Pattern[str], Callable[..., Meaning]]]:
-        return (
-            (_PLACE, self.place),
-            (_DIRECTION, self.direction),
-            (_JOINT, self.reaction),
-            (_GROUP, self.moment),
-            (_FORCE, self.resultant),
-            (_LOAD, self.load),
-        )
 
     def components(self, said: Sequence[str | float]) -> Meaning:
         """A vector of two components along i and j, or three."""
@@ -157,9 +147,8 @@ class Reader:
     def place(self, kind: str, point: str, base: str | None) -> Meaning:
         """``acceleration of upper.G relative to ground.O``; without a base point, from the fixed origin."""
         word, dimension = _KINDS[kind]
-        less = [f" - {w}({base})" if base else "" for w in (word, word.replace("x", "y"))]
-        texts = [f"{w}({point}){rest}" for w, rest in zip((word, word.replace("x", "y")), less, strict=True)]
-        return self.vector([self.measured(t)[0] for t in texts], dimension)
+        texts = (f"{w}({point})" + (f" - {w}({base})" if base else "") for w in (word, word.replace("x", "y")))
+        return self.vector([self.measured(text)[0] for text in texts], dimension)
 
     def direction(self, kind: str, start: str, end: str) -> Meaning:
         """The unit vector from one point to another; ``normal``: turned a quarter to the left."""
@@ -169,7 +158,7 @@ class Reader:
     def reaction(self, what: str, joint: str, body: str) -> Meaning:
         """What a joint does to one of its two bodies; a couple is along k."""
         if joint not in self.joints:
-            raise ModelProblem(f"there is no joint `{joint}`", _named(joint, self.joints))
+            raise ModelProblem(f"there is no joint `{joint}`", suggestion(joint, self.joints))
         first, second = self.joints[joint]
         if body not in (first, second):
             raise ModelProblem(f"`{joint}` does not touch `{body}`", f"it joins `{first}` and `{second}`")
@@ -184,11 +173,9 @@ class Reader:
 
     def moment(self, what: str, bodies: str, point: str) -> Meaning:
         """Angular momentum of bodies about a point, or the moment on them."""
-        group = self.group(bodies)
+        group, loads = self.group(bodies), what == "moment"
         still, moving = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
-        loads = what == "moment"
-        dimension = ENERGY if loads else ENERGY.times(TIME)
-        return Momentum("declared", still, dimension, bodies=group, dotted=moving, loads=loads)
+        return Momentum("declared", still, ENERGY if loads else ENERGY.times(TIME), bodies=group, dotted=moving, loads=loads)
 
     def orbits(self, group: Sequence[str], point: str, letter: str, spin: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""
@@ -203,7 +190,7 @@ class Reader:
         """All that acts on bodies from outside."""
         group = self.group(bodies)
         texts = [self.measured(f"{a}({body}.G)")[0] for body in group for a in ("ax", "ay")]
-        return Resultant("declared", tuple(texts), MASS.times(LENGTH).times(TIME, -2), bodies=group)
+        return Resultant("declared", tuple(texts), FORCE, bodies=group)
 
     def group(self, bodies: str) -> tuple[str, ...]:
         """The bodies of ``upper, lower`` or ``all``."""
@@ -212,14 +199,8 @@ class Reader:
         names = [name.strip() for name in re.split(r",| and ", bodies) if name.strip()]
         for name in names:
             if name not in self.bodies:
-                raise ModelProblem(f"there is no body `{name}`", _named(name, self.bodies))
+                raise ModelProblem(f"there is no body `{name}`", suggestion(name, self.bodies))
         return tuple(names)
-
-
-def _named(word: str, known: object) -> str:
-    from freebody.model.names import suggestion
-
-    return suggestion(word, known)  # type: ignore[arg-type]
 
 
 def _parts(text: str) -> list[str]:

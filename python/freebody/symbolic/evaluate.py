@@ -162,10 +162,10 @@ def _times(left: tuple[Node, Any], right: tuple[Node, Any]) -> tuple[Node, Any]:
         return node, a @ b
     if 1 not in ranks:
         raise StatementError("a matrix and a vector in i, j, k are multiplied", node.span, "write the vector as a column: (x, y)")
-    return node, a * _spread(b, a) if ranks[0] > 1 else _spread(a, b) * b
+    return node, a * spread(b, a) if ranks[0] > 1 else spread(a, b) * b
 
 
-def _spread(value: Array, over: Array) -> Array:
+def spread(value: Array, over: Array) -> Array:
     """The value with axes added behind, so that it multiplies each component."""
     return value.reshape(value.shape + (1,) * (over.ndim - value.ndim))
 
@@ -174,7 +174,7 @@ def _quotient(node: Quotient, top: Any, bottom: Any) -> Any:
     if _rank(top) == _rank(bottom) == 1:
         return top / bottom
     if _rank(bottom) == 1:
-        return top / _spread(bottom, top)
+        return top / spread(bottom, top)
     if top.ndim == bottom.ndim == 2 and _upright(top) and _upright(bottom):
         return top[:, 2] / bottom[:, 2]
     raise StatementError(f"{kind(top)} is divided by {kind(bottom)}", node.bottom.span, "divide by a number")

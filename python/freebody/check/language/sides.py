@@ -30,10 +30,9 @@ class Sides:
 def sides(program: Program, values: Mapping[str, Array]) -> list[Sides]:
     """The equations of a program, evaluated with its own names. Keys of ``values`` are those of ``Sym.key``."""
     try:
-        written_out = [equation_sides(line, values) for line in inlined(program)]
+        return [equation_sides(line, values) for line in inlined(program)]
     except StatementError as error:
         raise error.within(program.text) from None
-    return [Sides(line, s.left, s.right) for line, s in zip(program.equations, written_out, strict=True)]
 
 
 def equation_sides(equation: Equation, values: Mapping[str, Array]) -> Sides:

@@ -45,11 +45,8 @@ def level(node: Node) -> int:
 
 
 def _plain(node: Node, least: int) -> str:
-    text = _plain_inside(node)
-    return f"({text})" if level(node) < least else text
-
-
-def _plain_inside(node: Node) -> str:
+    if level(node) < least:
+        return f"({_plain(node, _SUM)})"
     match node:
         case Num(value=value, text=text):
             return text or repr(float(value)).removesuffix(".0")
