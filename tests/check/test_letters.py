@@ -10,7 +10,7 @@ import pytest
 import freebody as fb
 from freebody.check.language.dimensions import check_dimensions
 from freebody.check.language.parser import parse
-from freebody.check.language.sides import sides
+from freebody.check.residual import sides
 from freebody.check.symbols import Letters, declarations
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError

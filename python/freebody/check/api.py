@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.model.errors import ModelProblem
 
-from .case import Case
+from .case import Case, StatementLetters
 from .claims import claimed
 from .families import ALL, Family
 from .language.dimensions import misfit
-from .meaning import StatementLetters
 from .motion_sampler import MotionSampler
 from .symbols import Letters
 from .verdict import Verdict, holds, judged, of_wrong_dimensions

@@ -18,8 +18,7 @@ from .case import Case
 from .families import Family, NoMotion
 from .hypothesis import SMALL
 from .language.statements import Equation, letters, terms
-from .residual import HOLDS, residual, unreached
-from .rounding import figures, rounding
+from .residual import HOLDS, figures, residual, rounding, unreached
 
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""

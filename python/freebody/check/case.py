@@ -1,19 +1,183 @@
-"""A statement beside the motions that decide about it."""
+"""A statement beside the motions that decide about it: its symbols on true states, and what else could stand there."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+import re
+from collections.abc import Iterable, Mapping
+from copy import copy
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
 from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Sym
 
 from .families import ALL, Family, Samples
+from .language.dimensions import misfit
 from .language.statements import Equation, Program, inlined
-from .meaning import StatementLetters
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
+from .symbols import Letters
+from .user_symbols import Meaning as One
+from .vocabulary import Vocabulary
+
+_WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
+_BEYOND = re.compile(
+    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum)\("
+    r"|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|friction|force|value|power|work|N|T)\b"
+)
+"""What reads more than the configuration."""
+_SOLVED = re.compile(r"\b(accel|ax|ay|alpha|tension)\(|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T)\b")
+"""What reads an acceleration or an unknown force."""
+_TENSION = re.compile(r"\btension\(([^()]*)\)")
+_BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
+_ROUND_OFF = 1e-11  # of what is typical of a dimension
+_MANY = 12  # reactions, beyond which only those of the statement are thought of
+
+
+class StatementLetters:
+    """What the letters of a program mean in a model. Raises ``StatementError`` at a letter without a meaning."""
+
+    def __init__(self, letters: Letters, program: Program, sampler: MotionSampler) -> None:
+        self.letters, self.sampler, self.figures = letters, sampler, False
+        self.required = letters.require(program)
+        self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
+
+    def texts(self, letter: Sym) -> tuple[str, ...]:
+        """The expressions of the model language that a letter stands for."""
+        return self._one(letter).texts if letter.name in self.letters.meanings else ()
+
+    def values(self, samples: Samples) -> Mapping[str, Array]:
+        """The value of every letter on true states, by ``Letter.key``; what is 0 on all of them but for round-off is 0."""
+        found = self.letters.values(self._valued, samples)
+        return {n.key: self._without_round_off(n, found[n.key]) for n in self._valued}
+
+    def _without_round_off(self, letter: Sym, value: Array) -> Array:
+        one = self._one(letter)
+        if one.kind in ("parameter", "gravity") or one.dimension is None:
+            return value
+        size = self.sampler.unit(one.dimension) * self.sampler.rate**letter.dots
+        return np.zeros_like(value) if np.max(np.abs(value), initial=0.0) < _ROUND_OFF * size else value
+
+    def fits(self, equation: Equation) -> bool:
+        """Whether its terms have one dimension, as far as that is known."""
+        return misfit(Program((equation,)), self.letters.dimensions, figures=self.figures) is None
+
+    def in_figures(self) -> StatementLetters:
+        """The same where figures stand for measures in SI units, so that they fit any dimension."""
+        other = copy(self)
+        other.figures = True
+        return other
+
+    def solved(self, letter: Sym) -> bool:
+        """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
+        one = self.letters.meanings.get(letter.name)
+        return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
+
+    def names(self) -> Mapping[str, tuple[str, ...]]:
+        """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
+        return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
+
+    def given(self) -> frozenset[str]:
+        """Letters made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
+        return frozenset(n.key for n in self._valued if not n.dots and self._is_fixed(n))
+
+    @cached_property
+    def _valued(self) -> list[Sym]:
+        """The letters of the statement and of the vocabulary, with their rates."""
+        known = self.vocabulary
+        dotted = [Sym(n.name, dots) for n in known.coordinates for dots in range(3)]
+        return list(dict.fromkeys([*self.required, *known.parameters, *dotted, *known.others, *known.vectors]))
+
+    @cached_property
+    def vocabulary(self) -> Vocabulary:
+        """The letters that a true equation may be written in: those of the statement, and what of the model it leaves out."""
+        parameters = [n for n in self._parameters if not self._one(n).is_vector]
+        coordinates = self._coordinates
+        taken = {*parameters, *coordinates}
+        directions = map(Sym, self.letters.of_kind("declared", "direction"))
+        vectors = [n for n in (*self.used, *directions) if self._one(n).is_vector]
+        known = dict.fromkeys([*self.used, *map(Sym, self.letters.of_kind("declared"))])
+        others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
+        others += self._reactions({_meant(self._one(n).texts) for n in others})
+        groups = (parameters, coordinates, others, vectors)
+        plain = [{n: self._dimension(n) for n in group} for group in groups]
+        angles = {n for n in (*parameters, *coordinates, *others) if self._one(n).dimension == ANGLE}
+        return Vocabulary(*plain, angular=frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY}))
+
+    def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
+        """The determined reactions of the model that are not said, in the components of their joints."""
+        loads = self.sampler.core.free_bodies(self.sampler.first).loads
+        named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
+        known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
+        return known if len(known) <= _MANY else []
+
+    def _one(self, letter: Sym) -> One:
+        return self.letters.meanings[letter.name]
+
+    def _dimension(self, letter: Sym) -> Known:
+        """The dimension of a letter, radians aside; a parameter that is a bare number is one."""
+        dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
+        if dimension is None:
+            return NUMBER_ONLY if name in self.sampler.free_parameters else None
+        return dimension._replace(angle=0)
+
+    @cached_property
+    def _parameters(self) -> list[Sym]:
+        own = [Sym(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
+        own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
+        made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
+        return self._once([*made, *(n for n in own if n in self.used), *own])
+
+    def _once(self, found: list[Sym]) -> list[Sym]:
+        """Without letters that only name again what another does."""
+        first = {self._one(n).texts: n for n in reversed(found)}
+        return [n for n in dict.fromkeys(found) if first[self._one(n).texts] == n]
+
+    def _matters(self, name: str) -> bool:
+        """Whether a parameter is more than a number of the start."""
+        return name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) is not None
+
+    @cached_property
+    def _mechanics(self) -> str:
+        spec = self.sampler.spec
+        used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
+        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used])
+        for parameter in reversed(spec["parameters"]):
+            if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
+                used += " " + parameter["value"]
+        return used
+
+    def _is_fixed(self, letter: Sym) -> bool:
+        """Whether it is made of parameters alone."""
+        words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
+        return words <= {*self.sampler.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+
+    @cached_property
+    def _coordinates(self) -> list[Sym]:
+        """Letters that measure the configuration, those of the statement first; the model's own where some are missing."""
+        movable = self._once([n for n in self.used if self._moves(n)])
+        said = {self._one(n).texts for n in movable}
+        own = [Sym(c["name"]) for c in self.sampler.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        own += [n for n in map(Sym, self.letters.of_kind("declared")) if self._moves(n)]
+        missing = max(len(self.sampler.coordinates) - len(movable), 0)
+        return [*movable, *[n for n in own if n not in movable][:missing]]
+
+    def _moves(self, letter: Sym) -> bool:
+        """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""
+        one = self._one(letter)
+        if any(_BEYOND.search(text) for text in one.texts) or one.is_vector or self._is_fixed(letter):
+            return False
+        if one.kind not in ("coordinate", "declared", "gauge"):
+            return False
+        try:
+            return all(one.needed(dots) for dots in (1, 2))
+        except ModelProblem:
+            return False
 
 
 @dataclass
@@ -70,3 +234,8 @@ class Case:
     def residual(self, equation: Equation, family: Family | None = None, fresh: int = 0) -> Residual:
         """How far an equation is from holding."""
         return residual(equation, self.values(family, fresh))
+
+
+def _meant(texts: Iterable[str]) -> tuple[str, ...]:
+    """Expressions of the model language, one name in one spelling: without brackets, tensions by what they are in."""
+    return tuple(_TENSION.sub(r"\1.tension", _BRACKETS.sub(r"\1", text)) for text in texts)

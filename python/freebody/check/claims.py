@@ -21,10 +21,9 @@ from .case import Case
 from .families import Family, Sample, Samples
 from .hypothesis import FAR, family
 from .language.parser import parse_expression
-from .language.sides import equation_sides
 from .language.spelling import spell
 from .language.statements import Equation, Program, letters, terms
-from .residual import HOLDS, magnitude, residual
+from .residual import HOLDS, equation_sides, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 
 if TYPE_CHECKING:

@@ -17,13 +17,11 @@ from freebody.symbolic.evaluate import sampled as evaluate
 from freebody.symbolic.tree import Negative, Node, Num, Sym
 from freebody.symbolic.tree import exchange as replaced
 
-from .conventions import conventions
-from .edits import Edit, depth, edits, other_figures, with_unit_vectors
+from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
-from .language.statements import Equation, letters, without_ones
+from .language.statements import Equation, letters, rows, without_ones
 from .residual import HOLDS, Residual, residual, unreached
-from .rows import rows
 
 if TYPE_CHECKING:
     from .case import Case

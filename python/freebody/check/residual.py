@@ -1,4 +1,4 @@
-"""How far an equation is from holding on true motions, relative to its own terms."""
+"""Both sides of an equation on true motions: how far they are apart, relative to its own terms and to the digits of its figures."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from functools import reduce
 
 import numpy as np
 
-from freebody.symbolic.evaluate import Array, spread
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import Array, advice, is_zero, size, spread
 from freebody.symbolic.evaluate import sampled as evaluate
-from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Quotient
+from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Quotient, exchange, walk
 
-from .language.sides import Sides, equation_sides
-from .language.statements import Equation
+from .language.statements import Equation, Program, inlined
 from .language.statements import terms as terms_of
 
 HOLDS = 1e-10
@@ -28,6 +28,42 @@ _FLOOR = 1e-6  # of a component of a vector against its largest: below it is rou
 _THROUGH_ZERO = ("sin", "cos", "tan", "sinh", "asin", "atan")
 """Functions whose zero may be a difference of angles that are equal but for round-off."""
 _MANY = 400  # terms, beyond which brackets stay
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Both sides of an equation, of one kind and shape."""
+
+    equation: Equation
+    left: Array
+    right: Array
+
+    @property
+    def residual(self) -> Array:
+        """Left less right, (K, n): one column a component."""
+        return (self.left - self.right).reshape(len(self.left), -1)
+
+
+def sides(program: Program, values: Mapping[str, Array]) -> list[Sides]:
+    """The equations of a program, evaluated with its own names. Keys of ``values`` are those of ``Sym.key``."""
+    try:
+        return [equation_sides(line, values) for line in inlined(program)]
+    except StatementError as error:
+        raise error.within(program.text) from None
+
+
+def equation_sides(equation: Equation, values: Mapping[str, Array]) -> Sides:
+    """Both sides of an equation. Raises ``StatementError`` where they are of different kinds."""
+    left, right = evaluate(equation.left, values), evaluate(equation.right, values)
+    if is_zero(equation.right):
+        right = np.zeros_like(left)
+    elif is_zero(equation.left):
+        left = np.zeros_like(right)
+    if left.ndim == right.ndim == 3 and left.shape[1:] == right.shape[:0:-1] and 1 in left.shape[1:]:
+        right = right.transpose(0, 2, 1)  # a row beside a column
+    if left.shape != right.shape:
+        raise StatementError(f"the left side is {size(left)}, the right side {size(right)}", equation.span, advice(left, right))
+    return Sides(equation, left, right)
 
 
 @dataclass(frozen=True)
@@ -109,3 +145,34 @@ def unreached(equation: Equation, values: Mapping[str, Array]) -> list[Node]:
 
 def _length(value: Array) -> Array:
     return np.linalg.norm(value.reshape(len(value), -1), axis=1) if value.ndim > 1 else np.abs(value)
+
+
+# -- figures that are printed to so many digits
+
+
+def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
+    """How far the sides may lie apart, by half the last printed digit of each figure with a decimal point; (K, n)."""
+    base = equation_sides(equation, values).residual
+    size = (magnitude(equation.left, values) + magnitude(equation.right, values)).reshape(len(base), -1)
+    allowed = HOLDS * size
+    for figure in figures(equation):
+        allowed = allowed + np.abs(slope(equation, figure, values)) * last_digit(figure) / 2
+    return allowed
+
+
+def figures(equation: Equation) -> list[Num]:
+    """The figures with a decimal point."""
+    return [n for n in walk(equation) if isinstance(n, Num) and "." in n.text]
+
+
+def last_digit(figure: Num) -> float:
+    """What one more in the last printed digit is worth."""
+    digits, _, power = figure.text.partition("e")
+    return 10.0 ** (int(power or 0) - len(digits.split(".")[1]))
+
+
+def slope(equation: Equation, figure: Num, values: Mapping[str, Array]) -> Array:
+    """How fast the sides part as a figure grows."""
+    step = last_digit(figure)
+    moved = exchange(equation, figure, Num(figure.value + step, figure.text))
+    return (equation_sides(moved, values).residual - equation_sides(equation, values).residual) / step

@@ -18,10 +18,9 @@ from .case import Case
 from .correction import Correction
 from .families import Samples
 from .language.parser import parse
-from .language.sides import Sides, equation_sides
 from .language.spelling import spell
 from .language.statements import Equation
-from .rounding import figures, last_digit, rounding, slope
+from .residual import Sides, equation_sides, figures, last_digit, rounding, slope
 from .verdict import Evidence, Kind, Verdict
 
 if TYPE_CHECKING:

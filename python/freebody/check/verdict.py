@@ -16,11 +16,10 @@ from .assumptions import assumption, linearised, tiny
 from .case import Case
 from .correction import Correction, corrections
 from .families import ALL, NoMotion
-from .language.sides import Sides
 from .language.spelling import spell
 from .language.statements import Equation, letters, terms
 from .nearest import nearest
-from .residual import FAILS, HOLDS, Residual, residual, unreached
+from .residual import FAILS, HOLDS, Residual, Sides, residual, unreached
 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array

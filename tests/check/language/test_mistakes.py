@@ -7,8 +7,8 @@ import pytest
 
 from freebody.check.language.dimensions import DimensionError, check_dimensions
 from freebody.check.language.parser import parse
-from freebody.check.language.sides import sides
 from freebody.check.language.spelling import spell
+from freebody.check.residual import sides
 from freebody.symbolic.errors import StatementError
 
 KNOWN = ["m", "g", "l", "theta", "x", "F", "i", "j", "k", "t"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from freebody.check.language.parser import parse
-from freebody.check.language.sides import sides
+from freebody.check.residual import sides
 
 K = 5
 RNG = np.random.default_rng(7)
