@@ -143,7 +143,7 @@ SLIPS = [
     # an acceleration alone on the left is what the equation is solved for: the other side is mended
     ("block on a sliding wedge", "x'' = m2 g sin α cos α/(m1 + m2 sin^2 α)", {"sign"}, "xddot = -m2"),
     ("bead on a turning rod", "R'' = 2 R θ'^2", {"factor"}, "Rddot = R*thetadot^2"),
-    ("bead on a turning rod", "(m1 l^2/3 + m2 l^2) θ'' + 2 m2 R R' θ' = T", {"letter"}, "m2*R^2"),
+    ("bead on a turning rod", "(m1 l^2/3 + m2 l^2) θ'' + 2 m2 R R' θ' = T", {"symbol"}, "m2*R^2"),
     ("mass on a spring", "m x'' + k x' + c x = F", {"convention"}, "c*xdot + k*x"),
     ("disk that rolls down a slope", "s'' = 2/3 m g sin(a)", {"extra factor"}, "sddot = 2/3*g*sin(a)"),
     ("rod as a pendulum", "θ'' = -3g/2l sin θ", {"brackets"}, "3*g/(2*l)"),

@@ -11,7 +11,7 @@ import freebody as fb
 from freebody.check.language.dimensions import check_dimensions
 from freebody.check.language.parser import parse
 from freebody.check.residual import sides
-from freebody.check.symbols import Letters, declarations
+from freebody.check.symbols import Symbols, declarations
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
@@ -107,7 +107,7 @@ TRUE = [
 
 @pytest.mark.parametrize("text", TRUE)
 def test_what_holds_by_mechanics(model, text):
-    letters = Letters(model, DECLARED)
+    letters = Symbols(model, DECLARED)
     program = letters.read(text)
     check_dimensions(program, letters.dimensions)
     (both,) = sides(program, letters.values(letters.require(program), States(model)))
@@ -116,7 +116,7 @@ def test_what_holds_by_mechanics(model, text):
 
 
 def test_letters_of_the_model_by_kind(model):
-    letters = Letters(model, DECLARED)
+    letters = Symbols(model, DECLARED)
     assert letters.of_kind("parameter") == ["l", "m", "M", "alpha"]
     assert letters.of_kind("coordinate") == ["s", "theta"]
     assert {"i", "j", "k", "λ", "r_G/P", "H/P", "ΣF"} <= letters.vectors
@@ -129,7 +129,7 @@ def test_a_letter_of_the_model_goes_before_gravity_and_directions():
     m.parameter("g", "3 N")
     m.parameter("k", "2 N/m")
     m.slot(point=m.particle("P", mass="1 kg").centre, along={"through": m.ground.O, "angle": 0}, coordinate="x", name="guide")
-    letters = Letters(m)
+    letters = Symbols(m)
     assert [letters.dimensions[n].unit() for n in "gk"] == ["N", "N/m"]
     assert letters.meanings["i"].texts == ("1", "0", "0")
 
@@ -137,11 +137,11 @@ def test_a_letter_of_the_model_goes_before_gravity_and_directions():
 def test_without_gravity_there_is_no_g():
     m = fb.Mechanism("a particle", gravity="none")
     m.slot(point=m.particle("P", mass="1 kg").centre, along={"through": m.ground.O, "angle": 0}, coordinate="x", name="guide")
-    assert "g" not in Letters(m).names
+    assert "g" not in Symbols(m).names
 
 
 def test_an_unknown_letter_is_told_with_its_place_and_a_near_one(model):
-    letters = Letters(model)
+    letters = Symbols(model)
     with pytest.raises(StatementError) as error:
         letters.require(parse("m s̈ = m thetta", letters.names))
     assert str(error.value) == (
@@ -151,7 +151,7 @@ def test_an_unknown_letter_is_told_with_its_place_and_a_near_one(model):
 
 
 def test_a_third_derivative_is_not_known(model):
-    letters = Letters(model)
+    letters = Symbols(model)
     with pytest.raises(StatementError, match="order 3"):
         letters.require(parse("diff(theta, t, 3) = 0", letters.names))
 
@@ -171,7 +171,7 @@ WRONG = [
 @pytest.mark.parametrize(("name", "said", "what"), WRONG)
 def test_declarations_that_mean_nothing(model, name, said, what):
     with pytest.raises(ModelProblem) as error:
-        Letters(model, {name: said})
+        Symbols(model, {name: said})
     assert what in f"{error.value.what} {error.value.hint}"
 
 

@@ -40,9 +40,9 @@ SLIPS = [
     ("l*theta'' + 2*x''*cos(theta) + g*sin(theta) = 0", "factor", "2"),
     ("theta'' + x''*cos(theta) + g*sin(theta) = 0", "missing factor", "thetaddot"),
     ("l*theta'' + x'*cos(theta) + g*sin(theta) = 0", "derivative", "xdot"),
-    ("(M+M)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) = F", "letter", "M"),
+    ("(M+M)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) = F", "symbol", "M"),
     ("(M+m)*x'' + m*l*theta''*cos(theta) - m*l*theta'*sin(theta) = F", "power", "thetadot"),
-    ("(M+m)*x'' + m*l*theta''*cos(theta) - m*l*x'*theta'*sin(theta) = F", "letter", "xdot"),
+    ("(M+m)*x'' + m*l*theta''*cos(theta) - m*l*x'*theta'*sin(theta) = F", "symbol", "xdot"),
     ("l*theta'' + x''*cos(theta) + g*sin(theta)*cos(theta) = 0", "extra factor", "g*sin(theta)*cos(theta)"),
     ("l*theta'' + x''*cos(theta) + g*sin(theta) + g*cos(theta) = 0", "extra term", "g*cos(theta)"),
 ]

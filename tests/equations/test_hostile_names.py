@@ -109,7 +109,7 @@ def test_what_is_printed_is_read_back_as_true(seed: int) -> None:
             if is_tree(block.left) and is_tree(block.right)
         ]
         for line in lines:
-            assert checker.check(line, mending=False).kind is Kind.TRUE, (form, line)
+            assert checker.check(line, correcting=False).kind is Kind.TRUE, (form, line)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

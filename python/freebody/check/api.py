@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.model.errors import ModelProblem
 
-from .case import Case, StatementLetters
+from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, Family
 from .language.dimensions import misfit
 from .motion_sampler import MotionSampler
-from .symbols import Letters
+from .symbols import Symbols
 from .verdict import Verdict, holds, judged, of_wrong_dimensions
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 Declared = Mapping[str, str | Sequence[str | float]]
-"""Own letters, each an expression of the model language, components of a vector or a phrase; see ``Letters``."""
+"""Own letters, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
 
 class Checker:
@@ -34,34 +34,34 @@ class Checker:
         self.declared = dict(letters or {})
         self.sampler = MotionSampler(mechanism, seed)
         self.hypothesis = ALL
-        self.mending = True
+        self.correcting = True
         self._run: Any = None
 
-    def letters(self, declared: Declared | None = None) -> Letters:
+    def letters(self, declared: Declared | None = None) -> Symbols:
         """The letters of the model with own ones. Raises ``ModelProblem``."""
-        return Letters(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity)
+        return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity)
 
     def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
         """A statement beside the motions that decide about it. Raises ``StatementError`` and ``ModelProblem``."""
         known = self.letters(letters)
         program = known.read(text)
-        meaning = StatementLetters(known, program, self.sampler)
-        return Case(program, meaning, self.sampler, hypothesis or self.hypothesis, self.mending)
+        meaning = StatementSymbols(known, program, self.sampler)
+        return Case(program, meaning, self.sampler, hypothesis or self.hypothesis, self.correcting)
 
     def check(
-        self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, mending: bool = True
+        self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, correcting: bool = True
     ) -> Verdict:
         """The verdict about an equation, several lines of them, or a claim (see docs/check.md).
 
-        ``hypothesis``: the motions of which it is said. Without ``mending`` it is only judged, which is quicker where it is wrong.
+        ``hypothesis``: the motions of which it is said. Without ``correcting`` it is only judged, which is quicker where it is wrong.
         Raises ``StatementError`` and ``ModelProblem``.
         """
-        before = self.hypothesis, self.mending
-        self.hypothesis, self.mending = hypothesis or self.hypothesis, mending and self.mending
+        before = self.hypothesis, self.correcting
+        self.hypothesis, self.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         try:
             return claimed(self, text, letters or {}) or self._equations(text, letters)
         finally:
-            self.hypothesis, self.mending = before
+            self.hypothesis, self.correcting = before
 
     def _equations(self, text: str, letters: Declared | None) -> Verdict:
         case = self.case(text, letters)

@@ -10,8 +10,7 @@ import numpy as np
 
 from freebody.core import ModelError
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import Array
-from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Fn, Sym, walk
 
 from .case import Case
@@ -95,7 +94,7 @@ def first_order(case: Case, equation: Equation, family: Family) -> bool:
 def _beside_terms(equation: Equation, values: Mapping[str, Array]) -> float:
     """What is left of an equation beside the least of its terms, in the median."""
     left = np.abs(residual(equation, values).sides.residual).max(axis=1)
-    sizes = [np.abs(evaluate(term.node, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
+    sizes = [np.abs(sampled(term.node, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
     with np.errstate(all="ignore"):
         return float(np.max([np.median(left / size) for size in sizes], initial=0.0))
 
@@ -143,7 +142,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
 def mattering(case: Case) -> list[str]:
     """Free parameters that are more than numbers of the start, and may go far without opening a closed loop."""
     known = {text for n in case.meaning.vocabulary.parameters for text in case.meaning.texts(n)}
-    return [name for name in case.sampler.free_parameters if name in known and not case.sampler.shapes_loops(name)]
+    return [name for name in case.sampler.free_parameters if name in known and not case.sampler.shapes_loop(name)]
 
 
 def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:

@@ -21,8 +21,8 @@ from .language.dimensions import misfit
 from .language.statements import Equation, Program, inlined
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
-from .symbols import Letters
-from .user_symbols import Meaning as One
+from .symbols import Symbols
+from .user_symbols import Meaning
 from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
@@ -39,10 +39,10 @@ _ROUND_OFF = 1e-11  # of what is typical of a dimension
 _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
 
-class StatementLetters:
+class StatementSymbols:
     """What the letters of a program mean in a model. Raises ``StatementError`` at a letter without a meaning."""
 
-    def __init__(self, letters: Letters, program: Program, sampler: MotionSampler) -> None:
+    def __init__(self, letters: Symbols, program: Program, sampler: MotionSampler) -> None:
         self.letters, self.sampler, self.figures = letters, sampler, False
         self.required = letters.require(program)
         self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
@@ -67,7 +67,7 @@ class StatementLetters:
         """Whether its terms have one dimension, as far as that is known."""
         return misfit(Program((equation,)), self.letters.dimensions, figures=self.figures) is None
 
-    def in_figures(self) -> StatementLetters:
+    def in_figures(self) -> StatementSymbols:
         """The same where figures stand for measures in SI units, so that they fit any dimension."""
         other = copy(self)
         other.figures = True
@@ -83,7 +83,7 @@ class StatementLetters:
         return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
     def given(self) -> frozenset[str]:
-        """Letters made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
+        """Symbols made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
         return frozenset(n.key for n in self._valued if not n.dots and self._is_fixed(n))
 
     @cached_property
@@ -116,7 +116,7 @@ class StatementLetters:
         known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
 
-    def _one(self, letter: Sym) -> One:
+    def _one(self, letter: Sym) -> Meaning:
         return self.letters.meanings[letter.name]
 
     def _dimension(self, letter: Sym) -> Known:
@@ -159,7 +159,7 @@ class StatementLetters:
 
     @cached_property
     def _coordinates(self) -> list[Sym]:
-        """Letters that measure the configuration, those of the statement first; the model's own where some are missing."""
+        """Symbols that measure the configuration, those of the statement first; the model's own where some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         own = [Sym(c["name"]) for c in self.sampler.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
@@ -183,13 +183,13 @@ class StatementLetters:
 @dataclass
 class Case:
     """A program of statements, what its letters mean, and true motions. ``hypothesis`` is the family of which it is said;
-    ``mending``: whether corrections are wanted where it is wrong."""
+    ``correcting``: whether corrections are wanted where it is wrong."""
 
     program: Program
-    meaning: StatementLetters
+    meaning: StatementSymbols
     sampler: MotionSampler
     hypothesis: Family = ALL
-    mending: bool = True
+    correcting: bool = True
     known: dict[tuple[Family, int, int], Mapping[str, Array]] = field(default_factory=dict)
 
     @property

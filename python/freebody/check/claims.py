@@ -12,13 +12,13 @@ import numpy as np
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
 from .assumptions import first_order
 from .case import Case
-from .families import Family, Sample, Samples
+from .families import Sample, Samples
 from .hypothesis import FAR, family
 from .language.parser import parse_expression
 from .language.spelling import spell
@@ -60,8 +60,7 @@ def _defined(text: str) -> tuple[dict[str, str], str]:
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """Under a hypothesis."""
-    given = family(condition, checker.sampler, lambda more: checker.letters({**declared, **more}))
-    verdict = checker.check(statement, declared, given)
+    verdict = checker.check(statement, declared, family(condition, checker, declared))
     return replace(verdict, assumption=condition) if verdict.ok else verdict
 
 
@@ -70,7 +69,7 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
     under = _if(checker, declared, condition, statement)
     if not under.ok:
         return under
-    always = checker.check(statement, declared, mending=False)
+    always = checker.check(statement, declared, correcting=False)
     if always.ok:
         return replace(always, kind=Kind.WRONG, reason=f"it holds without `{condition}`, too")
     reason = f"holds where {condition}; broken without it"
@@ -79,11 +78,11 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
 
 def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
     """In a limit: what is left shrinks with the parameter, or vanishes."""
-    given = family(limits, checker.sampler, lambda more: checker.letters({**declared, **more}))
-    if given.small:
-        return _small(checker, declared, statement, limits, given)
-    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
+    given = family(limits, checker, declared)
     case = checker.case(statement, declared, given)
+    if given.small:
+        return _small(case, statement, limits)
+    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
     values, before = case.values(), case.values(near)
     for equation in case.equations:
         found = residual(equation, values)
@@ -93,11 +92,10 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
 
 
-def _small(checker: Checker, declared: Declared, statement: str, limits: str, given: Family) -> Verdict:
+def _small(case: Case, statement: str, limits: str) -> Verdict:
     """For small motions, to first order."""
-    case = checker.case(statement, declared, given)
     for equation in case.equations:
-        if not first_order(case, equation, given):
+        if not first_order(case, equation, case.hypothesis):
             found = residual(equation, case.values())
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(case, found))
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
@@ -111,7 +109,7 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     for sample in case.samples(count=_RUNS).samples:
         along = _along(checker, sample)
         values = case.meaning.values(along)
-        value, size = evaluate(node, values), magnitude(node, values)
+        value, size = sampled(node, values), magnitude(node, values)
         spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), 1e-300))
         if np.isnan(spread):
             return Verdict(Kind.UNDECIDABLE, expression, "it has no value along the motion")
@@ -150,9 +148,9 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
     """The value of an expression, when some coordinates or rates are changed and all else stays."""
     case = _reading(checker, declared, expression)
     node, values = case.equations[0].left, case.values()
-    before, size = evaluate(node, values), magnitude(node, values)
+    before, size = sampled(node, values), magnitude(node, values)
     for name, moved in _changed_alone(checker, declared, names, case):
-        after = evaluate(node, moved)
+        after = sampled(node, moved)
         change = np.abs(after - before) / np.maximum(size, 1e-300)
         if change.max() > 1e-8:
             k = int(np.argmax(change.reshape(len(change), -1).max(axis=1)))
@@ -258,8 +256,7 @@ _WHOLE = {
     "report": "report: NAME = 1.23",
 }
 """Words with which a claim begins, and how it goes on."""
-_Judge = Callable[..., Verdict]
-_FORMS: tuple[tuple[re.Pattern[str], _Judge], ...] = (
+_FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
     (re.compile(r"constant:(.+)", re.S), _constant),

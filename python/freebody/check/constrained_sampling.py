@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from freebody.core import State
 
 from .families import NoMotion
+from .static_facts import StaticFacts
 
 _TRIES = 40  # of the secant method
 _STEP = 1e-4  # rad or m, its first one
@@ -20,8 +20,7 @@ _SEEN = 1e-9  # change by a first step below which a coordinate has no hold on t
 class Loop:
     """Where to look: near a state, moving ``free`` coordinates, which are as many as may be given at will."""
 
-    core: Any
-    names: Sequence[str]
+    sampler: StaticFacts
     free: Sequence[str]
     branch: Mapping[str, int]
 
@@ -34,8 +33,8 @@ class Loop:
         raise NoMotion(f"`{text}` depends on nothing that is free in this mechanism")
 
     def _moved(self, text: str, state: State, name: str) -> State | None:
-        i = self.names.index(name)
-        x = state.q[i], state.q[i] + _STEP
+        at = self.sampler.named(state.q)[name]
+        x = at, at + _STEP
         tried = [self._closed(state, {name: at}, self._rates(state)) for at in x]
         f = tuple(self._value(text, each) for each in tried)
         if abs(f[1] - f[0]) < _SEEN * _STEP:
@@ -51,18 +50,19 @@ class Loop:
 
     def _hurried(self, text: str, state: State, name: str) -> State | None:
         """Rates enter linearly, so that one step is enough."""
-        here, rates = dict(zip(self.names, state.q.tolist(), strict=True)), self._rates(state)
+        here, rates = self.sampler.named(state.q), self._rates(state)
         fixed = {n: here[n] for n in self.free}
         one, two = (self._closed(state, fixed, rates | {name: rates[name] + more}) for more in (0.0, 1.0))
         f, g = self._value(text, one), self._value(text, two)
         return None if abs(g - f) < _SEEN else self._closed(state, fixed, rates | {name: rates[name] - f / (g - f)})
 
     def _closed(self, state: State, fixed: Mapping[str, float], rates: Mapping[str, float]) -> State:
-        near = dict(zip(self.names, state.q.tolist(), strict=True))
-        return self.core.assemble(state.p, state.t, fixed=fixed, guess=near, rates=rates, branch=self.branch)[0]
+        near = self.sampler.named(state.q)
+        return self.sampler.core.assemble(state.p, state.t, fixed=fixed, guess=near, rates=rates, branch=self.branch)[0]
 
     def _rates(self, state: State) -> dict[str, float]:
-        return {name: float(state.u[self.names.index(name)]) for name in self.free}
+        rates = self.sampler.named(state.u)
+        return {name: rates[name] for name in self.free}
 
     def _value(self, text: str, state: State) -> float:
-        return float(self.core.evaluate([text], state)[0])
+        return float(self.sampler.core.evaluate([text], state)[0])

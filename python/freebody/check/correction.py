@@ -12,10 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import Array
-from freebody.symbolic.evaluate import sampled as evaluate
-from freebody.symbolic.tree import Negative, Node, Num, Sym
-from freebody.symbolic.tree import exchange as replaced
+from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.tree import Negative, Node, Num, Sym, exchange
 
 from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
 from .fitted_edits import FittedEdits
@@ -29,7 +27,7 @@ if TYPE_CHECKING:
 
 EQUAL = 0.35
 """Edits whose sizes differ by less are equally small."""
-_VAIN = 0.3  # more, for a mend by what is always 0
+_VAIN = 0.3  # more, for a correction by what is always 0
 _FEW = 5  # states on which an edit is tried first
 _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
@@ -40,7 +38,7 @@ _SHOWN = 6
 _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
-_SWAPPED = ("missing factor", "letter", "other term")
+_SWAPPED = ("missing factor", "symbol", "other term")
 _LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
 
 
@@ -97,7 +95,7 @@ Step = Callable[["_Search"], Iterator[_Found]]
 
 
 def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
-    """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits mend it."""
+    """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits make it true."""
     given, families = case.hypothesis, [(case.hypothesis, "")]
     said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Sym(letter.name)))
     unsaid = case.sampler.free_parameters.keys() - set(re.findall(r"\w+", said)) if given.zeros else ()
@@ -145,7 +143,7 @@ class _Search:
         self.right = self._worst(equation, self.values) < HOLDS
 
     def singles(self) -> Iterator[_Found]:
-        """Every single edit that may mend it."""
+        """Every single edit that may make it true."""
         return ((_Found((edit,))) for edit in self._promising(self._all(self.equation)))
 
     def other_terms(self) -> Iterator[_Found]:
@@ -213,7 +211,7 @@ class _Search:
         return any(edit.old in alone and edit.old is not None for edit in found.edits), length
 
     def _size(self, found: _Found) -> float:
-        """How large a mend is; larger where it adds what is always 0 here."""
+        """How large a correction is; larger where it adds what is always 0 here."""
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
     def _is_idle(self, found: _Found) -> bool:
@@ -228,7 +226,7 @@ class _Search:
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""
         try:
-            return bool(np.any(evaluate(node, self.few)))
+            return bool(np.any(sampled(node, self.few)))
         except (StatementError, KeyError, ValueError):
             return True
 
@@ -288,7 +286,7 @@ def _both(first: Edit, second: Edit) -> Edit | None:
     """The second edit after the first, where both can be made."""
     if second.old is None or (second.new is None and second.kind != "extra term"):
         return None
-    after = replaced(first.after, second.old, second.new or Num(0.0, "0"))
+    after = exchange(first.after, second.old, second.new or Num(0.0, "0"))
     return None if after is first.after else replace(second, after=after)
 
 

@@ -33,7 +33,7 @@ from .language.spelling import spell
 from .language.statements import Equation
 from .vocabulary import Vocabulary
 
-_PLAIN = ("sign", "function", "letter", "angle", "derivative", "factor", "power", "rates", "brackets", "unit vector")
+_PLAIN = ("sign", "function", "symbol", "angle", "derivative", "factor", "power", "rates", "brackets", "unit vector")
 _LARGER = {
     "extra factor": 1.1,
     "missing factor": 1.1,
@@ -110,12 +110,12 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
     at = {"span": node.span}
     match node:
         case Sym(name=name, dots=dots):
-            yield from (("letter", Sym(other.name, other.dots, **at)) for other in vocabulary.alike(node))
+            yield from (("symbol", Sym(other.name, other.dots, **at)) for other in vocabulary.alike(node))
             if Sym(name) in vocabulary.coordinates:
                 yield from (("derivative", Sym(name, n, **at)) for n in range(3) if n != dots)
             if node in vocabulary.vectors:
                 yield "sign", Negative(node, **at)
-                yield from (("letter", Negative(other, **at)) for other in vocabulary.alike(node))
+                yield from (("symbol", Negative(other, **at)) for other in vocabulary.alike(node))
         case Fn(name=function, args=(argument,)):
             yield from (("function", Fn(other, (argument,), **at)) for other in _SWAPS.get(function, ()))
             yield from (("angle", Fn(function, (angle,), **at)) for angle in _angles(argument, vocabulary))

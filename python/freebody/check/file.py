@@ -30,7 +30,7 @@ class Statement(BaseModel):
     says: str = Field(description="an equation, lines of them, or a claim")
     model: str | None = Field(None, description="another model, a file beside this one")
     set_: dict[str, Any] = Field({}, alias="set", description="parameters with other numbers; a list tries each")
-    letters: dict[str, _SAID] = Field({}, description="own letters")
+    letters: dict[str, _SAID] = Field({}, description="symbols of your own")
     verdict: Literal["right", "if", "wrong", "undecidable", "dimensions", "unreadable"] | None = Field(
         None, description="what is expected: right, if, wrong, undecidable, dimensions or unreadable"
     )
@@ -52,7 +52,7 @@ class Statements(BaseModel):
         """Statements without a name, by their numbers."""
         if not isinstance(found, list):
             return found
-        whole = [{"says": one} if isinstance(one, str) else one for one in found]
+        whole = ({"says": one} if isinstance(one, str) else one for one in found)
         return [{"id": str(i), **one} if isinstance(one, dict) else one for i, one in enumerate(whole, 1)]
 
 
@@ -135,15 +135,12 @@ def judged_alone(checker: Checker, text: str, letters: Mapping[str, _SAID] | Non
 def _settings(given: Mapping[str, Any]) -> list[dict[str, Any]]:
     """One mapping for each number of a list."""
     lists = {name: value for name, value in given.items() if isinstance(value, Sequence) and not isinstance(value, str)}
-    if not lists:
-        return [dict(given)]
-    count = max(len(values) for values in lists.values())
+    count = max(map(len, lists.values()), default=1)
     return [{name: lists[name][i] if name in lists else value for name, value in given.items()} for i in range(count)]
 
 
 def as_json(verdict: Verdict) -> dict[str, Any]:
     """A verdict as plain data."""
-    seen = verdict.evidence
     return {
         "statement": verdict.text,
         "verdict": verdict.kind.value,
@@ -160,7 +157,5 @@ def as_json(verdict: Verdict) -> dict[str, Any]:
         ],
         "nearest true equation": verdict.true,
         "untested": list(verdict.untested),
-        "evidence": None
-        if seen is None
-        else {"letters": seen.letters, "left": seen.left, "right": seen.right, "ratio": seen.ratio, "states": seen.states},
+        "evidence": None if verdict.evidence is None else vars(verdict.evidence),
     }

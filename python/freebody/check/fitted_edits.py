@@ -12,8 +12,7 @@ from itertools import permutations
 import numpy as np
 
 from freebody.symbolic.dimensions import NUMBER_ONLY, Dimension, Known
-from freebody.symbolic.evaluate import Array
-from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .edits import Edit, depth
@@ -42,7 +41,7 @@ class FittedEdits:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
         with np.errstate(all="ignore"):
             for required in required_terms(equation, self.values):
-                yield from (Edit.at(equation, "letter", required.node, new, size) for new, size in self._letters(required))
+                yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._letters(required))
                 found = _constant(required.needed) if _is_figure(required.node) else None
                 if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
                     yield Edit.at(equation, "factor", required.node, number)
@@ -187,7 +186,7 @@ class FittedEdits:
             if id(factor) not in seen:
                 seen[id(factor)] = places.setdefault(factor, len(places) + 1)
         count = len(next(iter(self.values.values())))
-        known = np.array([np.ones(count), *(evaluate(factor, self.values) for factor in places)])
+        known = np.array([np.ones(count), *(sampled(factor, self.values) for factor in places)])
         rows = np.ones((len(nodes), count))
         for i in range(max(map(len, parts), default=0)):
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]

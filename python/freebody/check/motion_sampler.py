@@ -123,7 +123,7 @@ class MotionSampler(OnRuns):
         size, sign = rng.random(), rng.choice([-1.0, 1.0])
         if family.numbers or (value == 0 and not family.zeros):
             return value
-        low, high = _ANGLE_FACTOR if dimension == ANGLE else _LOOP_FACTOR if self.shapes_loop(dimension) else _FACTOR
+        low, high = _ANGLE_FACTOR if dimension == ANGLE else _LOOP_FACTOR if self.shapes_loop(name) else _FACTOR
         factor = low * (high / low) ** size
         return value * factor if value else sign * factor * self.unit(dimension)
 
@@ -149,9 +149,8 @@ class MotionSampler(OnRuns):
         solved = self.core.instant(state)
         if not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
             return None
-        slow = np.all(np.abs(state.u) < _FAST * self.rate * self.sizes)
-        good = solved.residual < BALANCED and np.isfinite(solved.accelerations).all() and slow
-        return Sample(state) if good else None
+        judges = solved.residual < BALANCED and np.isfinite(solved.accelerations).all()
+        return Sample(state) if judges and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
 
     def _vanished(self, text: str, state: State, free: list[str], branch: Mapping[str, int]) -> State:
         """The nearest place, or else the nearest rates there, where an expression is 0."""
@@ -159,7 +158,7 @@ class MotionSampler(OnRuns):
         if self.loops:
             if abs(self._slope(text, state, q, u, 0)[0]) > _NOTHING and not free:
                 raise NoMotion(f"`{_stated(text)}` cannot be arranged: the loops of this mechanism leave it no freedom")
-            return Loop(self.core, self.names, free, branch).vanished(text, state) if free else state
+            return Loop(self, free, branch).vanished(text, state) if free else state
         for _ in range(30):
             value, slope = self._slope(text, state, q, u, 0)
             if not slope.any() or abs(value) < 1e-14:

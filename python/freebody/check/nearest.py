@@ -65,7 +65,7 @@ def nearest(case: Case, equation: Equation) -> str:
     best = min(common, key=lambda each: each.distance(said, unknown or _rates(said)))
     table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in stated.letters.items()})
     stated = equation_text(best.left, best.right, table, width=_LONG)
-    return f"{best.words} reads: {stated}" if len(stated) < _LONG else f"{best.words} is too long to be told"
+    return f"{best.words} reads: {stated}" if len(stated) < _LONG else f"{best.words} is too long to be printed"
 
 
 def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:

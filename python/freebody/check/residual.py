@@ -9,8 +9,7 @@ from functools import reduce
 import numpy as np
 
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import Array, advice, is_zero, size, spread
-from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.evaluate import Array, advice, is_zero, sampled, size, spread
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Quotient, exchange, walk
 
 from .language.statements import Equation, Program, inlined
@@ -54,7 +53,7 @@ def sides(program: Program, values: Mapping[str, Array]) -> list[Sides]:
 
 def equation_sides(equation: Equation, values: Mapping[str, Array]) -> Sides:
     """Both sides of an equation. Raises ``StatementError`` where they are of different kinds."""
-    left, right = evaluate(equation.left, values), evaluate(equation.right, values)
+    left, right = sampled(equation.left, values), sampled(equation.right, values)
     if is_zero(equation.right):
         right = np.zeros_like(left)
     elif is_zero(equation.left):
@@ -102,7 +101,7 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
         case Mul(factors=factors):
             return reduce(_times, [inside(factor) for factor in factors])
         case Quotient(top=top, bottom=bottom):
-            above, below = inside(top), np.abs(evaluate(bottom, values))
+            above, below = inside(top), np.abs(sampled(bottom, values))
             return above[:, 2] / below[:, 2] if above.ndim == below.ndim == 2 else above / spread(below, above)
         case Cross(left=left, right=right):
             a, b = inside(left), inside(right)
@@ -116,8 +115,8 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
         case Matrix(rows=rows):
             return np.stack([np.stack([_scalar(inside(x)) for x in row], axis=-1) for row in rows], axis=1)
         case Fn(name=function, args=(of,)) if function in _THROUGH_ZERO:
-            return np.maximum(np.abs(evaluate(node, values)), np.minimum(_scalar(inside(of)), 1.0))
-    return np.abs(evaluate(node, values))
+            return np.maximum(np.abs(sampled(node, values)), np.minimum(_scalar(inside(of)), 1.0))
+    return np.abs(sampled(node, values))
 
 
 def _times(a: Array, b: Array) -> Array:
@@ -138,7 +137,7 @@ def unreached(equation: Equation, values: Mapping[str, Array]) -> list[Node]:
         found = terms_of(equation)
     size = _length(magnitude(equation.left, values)) + _length(magnitude(equation.right, values))
     with np.errstate(all="ignore"):
-        reach = [np.nan_to_num(_length(np.abs(evaluate(term.node, values))) / size) for term in found]
+        reach = [np.nan_to_num(_length(np.abs(sampled(term.node, values))) / size) for term in found]
     needed = min(OFTEN, len(size) // 2 or 1)
     return [term.node for term, share in zip(found, reach, strict=True) if np.sum(share >= REACH) < needed]
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, Limit, State, quote
+from freebody.core import Array, CompiledModel, State, quote
 
 from .families import ALL, Family, Sample
 from .static_facts import StaticFacts
@@ -119,7 +119,7 @@ class OnRuns(StaticFacts):
         found, _ = self.core.assemble(state.p, state.t, guess=self.named(state.q), rates=self.rates(rng, ALL))
         if not np.allclose(found.q, state.q, atol=1e-9 * self.length):
             return state
-        closed = [i for i, limit in enumerate(self._limits(self.core, state, state.q)) if not limit.is_open]
+        closed = [i for i, limit in enumerate(self.core.instant(state.at(state.q)).limits.values()) if not limit.is_open]
         u, rows = found.u - state.u, self._slopes(state, closed)
         seen = np.linalg.pinv(rows) @ (rows @ u) if rows.size else 0.0
         return State(state.p, state.t, state.q, found.u - seen)
@@ -132,10 +132,7 @@ class OnRuns(StaticFacts):
 
     def _gaps(self, state: State, q: Array) -> Array:
         """How far every limit is from closing, less than 0 where it is violated, NaN where it has no gap."""
-        return np.array([limit.gap for limit in self._limits(self._untouched, state, q)])
-
-    def _limits(self, core: CompiledModel, state: State, q: Array) -> list[Limit]:
-        return list(core.instant(state.at(q)).limits.values())
+        return np.array([limit.gap for limit in self._untouched.instant(state.at(q)).limits.values()])
 
     @cached_property
     def _untouched(self) -> CompiledModel:
@@ -149,7 +146,7 @@ class OnRuns(StaticFacts):
         return self._mode(motion, motion.end)
 
     def _mode(self, motion: Any, state: State) -> tuple[Any, ...]:
-        """How every limit is held, to which side it slides, to which side every joint rubs, and at how many places contacts hold."""
+        """How every limit is held, to which side it slides, to which side friction acts in every joint, and at how many places contacts hold."""
         limits = tuple(
             (x.state, np.sign(round(np.nan_to_num(x.T), 12)) if x.state == "sliding" else 0)
             for x in motion.instant(state.t).limits.values()

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.symbolic.evaluate import Array, is_zero, spread
-from freebody.symbolic.evaluate import sampled as evaluate
+from freebody.symbolic.evaluate import Array, is_zero, sampled, spread
 from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient
 
 from .language.statements import Equation
@@ -44,7 +43,7 @@ class RequiredTerm:
 def required_terms(equation: Equation, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
     """Every part of numbers or vectors for which the equation can be solved, sides first."""
     with np.errstate(all="ignore"):
-        left, right = (None if is_zero(side) else evaluate(side, values) for side in (equation.left, equation.right))
+        left, right = (None if is_zero(side) else sampled(side, values) for side in (equation.left, equation.right))
         if left is not None and right is not None and left.ndim != right.ndim:
             return  # a number beside a vector
         for side, value, other in ((equation.left, left, right), (equation.right, right, left)):
@@ -56,7 +55,7 @@ def _inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[Req
     yield required
     match required.node:
         case Add(terms=terms):
-            parts = [(term, evaluate(term, values)) for term in terms if not is_zero(term)]
+            parts = [(term, sampled(term, values)) for term in terms if not is_zero(term)]
             for term, value in parts:
                 yield from _inside(RequiredTerm(term, value, value + required.missing, True), values)
         case Negative(of=of):
@@ -68,14 +67,14 @@ def _inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[Req
         case Quotient(top=top, bottom=bottom):
             yield from _quotient(required, top, bottom, values)
         case Pow(base=base, exponent=Num(value=n)) if n and not isinstance(base, Fn):
-            value = evaluate(base, values)
+            value = sampled(base, values)
             root = np.abs(required.needed) ** (1 / n) * np.sign(value)
             if value.ndim == 1 and np.all(required.needed >= 0):
                 yield from _inside(RequiredTerm(base, value, root), values)
 
 
 def _factors(required: RequiredTerm, factors: tuple[Node, ...], values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
-    found = [evaluate(factor, values) for factor in factors]
+    found = [sampled(factor, values) for factor in factors]
     if any(value.ndim > 2 for value in found) or sum(value.ndim == 2 for value in found) > 1:
         return
     for i, (factor, value) in enumerate(zip(factors, found, strict=True)):
@@ -96,7 +95,7 @@ def _factors(required: RequiredTerm, factors: tuple[Node, ...], values: Mapping[
 def _quotient(required: RequiredTerm, top: Node, bottom: Node, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
     if isinstance(top, Num) and isinstance(bottom, Num):
         return  # ½ is one figure
-    above, below = evaluate(top, values), evaluate(bottom, values)
+    above, below = sampled(top, values), sampled(bottom, values)
     if below.ndim == 1:
         yield from _inside(RequiredTerm(top, above, required.needed * spread(below, above)), values)
         if (factor := required.factor) is not None:

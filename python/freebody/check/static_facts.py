@@ -30,7 +30,8 @@ class StaticFacts:
         self.gravity = self._parametrised_gravity()
         self.core = CompiledModel.of(self.spec)
         self.about = self.core.about
-        self.fixed_counts = _counts(mechanism)
+        text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
+        self.counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
 
     def _parametrised_gravity(self) -> str | None:
         """A gravity that is a plain number becomes a parameter, so that nothing is true by the number 9.81."""
@@ -46,9 +47,9 @@ class StaticFacts:
 
     @cached_property
     def free_parameters(self) -> dict[str, float]:
-        """Parameters that are plain numbers in the model, with those; the others follow from them."""
+        """Parameters that are plain numbers in the model, with those; the others follow from them, or count items."""
         numbers = {p["name"]: p["value"] for p in self.spec["parameters"] if isinstance(p["value"], int | float)}
-        return {name: float(value) for name, value in numbers.items() if name not in self.fixed_counts}
+        return {name: float(value) for name, value in numbers.items() if name not in self.counts}
 
     @cached_property
     def parameter_names(self) -> list[str]:
@@ -66,7 +67,7 @@ class StaticFacts:
         return [c["name"] for c in self.coordinates]
 
     def named(self, q: Array) -> dict[str, float]:
-        """Coordinates by their names."""
+        """Coordinates, or rates, by their names."""
         return dict(zip(self.names, q.tolist(), strict=True))
 
     @cached_property
@@ -132,16 +133,7 @@ class StaticFacts:
         """How many joints close a loop."""
         return len(self.about.get("closure_coordinates", [])) + sum(1 for j in self.about["joints"] if j.get("cut"))
 
-    def shapes_loop(self, dimension: Dimension | None) -> bool:
-        """Whether what has this dimension may be a length of a closed loop."""
-        return self.loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
-
-    def shapes_loops(self, name: str) -> bool:
+    def shapes_loop(self, name: str) -> bool:
         """Whether a parameter may be a length of a closed loop."""
-        return self.shapes_loop(self.start.parameters.get(name))
-
-
-def _counts(mechanism: Builder) -> set[str]:
-    """Parameters that say how many items there are; those cannot vary."""
-    text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
-    return {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
+        dimension = self.start.parameters.get(name)
+        return self.loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))

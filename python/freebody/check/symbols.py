@@ -44,7 +44,7 @@ _SHORT = {"Fx": "x", "Fy": "y"}
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
 
-class Letters:
+class Symbols:
     """All letters that a statement about a model may use.
 
     By themselves: parameters, coordinates and gauges (with dots: rates, accelerations), ``t``, ``g``, the unit vectors ``i j k``,
@@ -92,17 +92,17 @@ class Letters:
         return {name: m.dimension for name, m in self.meanings.items() if m.dimension is not None}
 
     def of_kind(self, *kinds: str) -> list[str]:
-        """Letters that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""
+        """Symbols that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""
         return [name for name, m in self.meanings.items() if m.kind in kinds]
 
     @property
     def still(self) -> list[str]:
-        """Letters that do not change with time."""
+        """Symbols that do not change with time."""
         return self.of_kind("parameter", "gravity", "direction")
 
     @property
     def vectors(self) -> frozenset[str]:
-        """Letters that are vectors."""
+        """Symbols that are vectors."""
         return frozenset(name for name, m in self.meanings.items() if m.is_vector)
 
     def read(self, text: str) -> Program:
@@ -151,8 +151,8 @@ class Letters:
             if isinstance(node, Sym) and node not in given:
                 try:
                     self._meaning(node).needed(node.dots)
-                except ModelProblem as complaint:
-                    raise StatementError(complaint.what, node.span, complaint.hint, program.text) from None
+                except ModelProblem as problem:
+                    raise StatementError(problem.what, node.span, problem.hint, program.text) from None
                 found[node] = None
         return list(found)
 
@@ -183,41 +183,32 @@ class Letters:
             if owner:
                 out.setdefault(f"{stem}_{owner}", out[name])  # as LaTeX prints it
         out.setdefault("t", Meaning("time", ("t",), TIME))
-        if (text := gravity or self._gravity()) is not None:
-            out.setdefault("g", Meaning("gravity", (text,), LENGTH.times(TIME, -2)))
+        x, y = self.spec["gravity"] or (None, None)
+        if gravity or x == 0:  # it points down
+            down = gravity or (repr(-y) if isinstance(y, int | float) else f"-({y})")
+            out.setdefault("g", Meaning("gravity", (down,), LENGTH.times(TIME, -2)))
         for name, texts in _DIRECTIONS.items():
             out.setdefault(name, Meaning("direction", texts, NUMBER_ONLY))
         for name, meaning in self._reactions().items():
             out.setdefault(name, meaning)
         return out
 
-    def _gravity(self) -> str | None:
-        """The size of a gravity that points down."""
-        given = self.spec["gravity"]
-        if given is None or given[0] != 0:
-            return None
-        down = given[1]
-        return repr(-down) if isinstance(down, int | float) else f"-({down})"
-
     def _reactions(self) -> dict[str, Meaning]:
         """Forces by the names of what makes them, in two spellings."""
         out: dict[str, Meaning] = {}
+        rough = {joint["name"] for joint in self.spec["joints"] if joint["with"].get("friction")}
+        joints = {joint["name"]: joint for joint in self.about["joints"] if joint["reaction"]}
         for owner, kind in self.named.owners.items():
-            for part in self._joint_parts(owner) if kind == "joint" else _PARTS.get(kind, ()):
+            parts = _PARTS.get(kind, ())
+            if owner in joints:
+                there = {"M": joints[owner]["couple"], "friction": owner in rough}
+                parts = tuple(part for part in joints[owner]["readings"] if there.get(part, True))
+            for part in parts:
                 text = f"{spell(owner)}.{part}"
                 meaning = Meaning("reaction", (text,), self.named.dimension(f"{owner}.{part}", self.writer.scope))
                 endings = [f".{part}", f"_{part}", *([f"_{_SHORT[part]}"] if part in _SHORT else [])]
                 out |= {text: meaning, **{f"{owner.replace(' ', '_')}{end}": meaning for end in endings}}
         return out
-
-    def _joint_parts(self, name: str) -> list[str]:
-        """What can be read of a joint's reaction."""
-        joint = next((j for j in self.about["joints"] if j["name"] == name), None)
-        if joint is None or not joint["reaction"]:
-            return []
-        has_friction = any(j["name"] == name and j["with"].get("friction") for j in self.spec["joints"])
-        there = {"M": joint["couple"], "friction": has_friction}
-        return [part for part in joint["readings"] if there.get(part, True)]
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
         bodies = [b["name"] for b in self.about["bodies"]]
@@ -225,8 +216,8 @@ class Letters:
         joints = {j["name"]: (j["first"], j["second"]) for j in self.about["joints"]}
         try:
             self._put(name, Reader(self._measured, joints, bodies, particles).read(said))
-        except ModelProblem as complaint:
-            raise ModelProblem(f"symbol `{name}`: {complaint.what}", complaint.hint) from None
+        except ModelProblem as problem:
+            raise ModelProblem(f"symbol `{name}`: {problem.what}", problem.hint) from None
 
     def _put(self, name: str, meaning: Meaning) -> None:
         self.meanings[name] = meaning
@@ -240,11 +231,11 @@ class Letters:
         """The same; what is none of the model language, like ``m g/k``, is read as in a statement."""
         try:
             return self._measure(said)
-        except ModelProblem as complaint:
+        except ModelProblem as problem:
             try:
                 return self._measure(written(parse_expression(said, self.names, self.still)))
             except (StatementError, ModelProblem):
-                raise complaint from None
+                raise problem from None
 
     def _written_out(self, token: str, is_call: bool) -> str:
         if is_call or token in self.named.values or token in self._bodies:
@@ -258,11 +249,11 @@ class Letters:
 
     @cached_property
     def _spellings(self) -> Names:
-        return Names.of(self.meanings)
+        return Names(self.names)
 
 
 def declarations(lines: Iterable[str]) -> dict[str, str]:
-    """Letters declared in lines like ``phi = theta - alpha`` or ``phi: theta - alpha``. Raises ``ModelProblem``."""
+    """Symbols declared in lines like ``phi = theta - alpha`` or ``phi: theta - alpha``. Raises ``ModelProblem``."""
     out = {}
     for line in lines:
         found = re.fullmatch(r"\s*([^\s:=]+)\s*[:=]\s*(.+)", line)

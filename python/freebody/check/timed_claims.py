@@ -10,9 +10,8 @@ import numpy as np
 
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
-from freebody.symbolic.evaluate import sampled as evaluate
-from freebody.symbolic.tree import Num
-from freebody.symbolic.tree import exchange as replaced
+from freebody.symbolic.evaluate import sampled
+from freebody.symbolic.tree import Num, exchange
 
 from .case import Case
 from .correction import Correction
@@ -53,7 +52,7 @@ def report(checker: Checker, declared: Declared, label: str, figure: str) -> Ver
     if label not in run.report:
         raise ModelProblem(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
     printed = parse(f"0 = {figure}").equations[0]
-    value, said = float(run.report[label].value), float(evaluate(printed.right, {})[0])
+    value, said = float(run.report[label].value), float(sampled(printed.right, {})[0])
     allowed = float(rounding(printed, {}).max())
     kind = Kind.TRUE if abs(value - said) <= allowed * (1 + _ROUND) else Kind.WRONG
     return Verdict(kind, label, f"{label} is {value:.6g} against {said:g}" + (", as printed" if kind is Kind.TRUE else ""))
@@ -68,7 +67,7 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
         for number in (part.strip() for part in numbers.split(",")):
             checker.mechanism.parameters[name] = number
             case, values, _ = _read(type(checker)(checker.mechanism, checker.declared), declared, moment, f"{expression} = 0")
-            found[number] = evaluate(case.equations[0].left, values)[0]
+            found[number] = sampled(case.equations[0].left, values)[0]
     finally:
         checker.mechanism.parameters[name] = before
     every = np.array(list(found.values()))
@@ -98,7 +97,7 @@ def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[
         places = len(figure.text.partition("e")[0].split(".")[1])
         power = 10.0 ** int(figure.text.partition("e")[2] or 0)
         text = f"{(figure.value + step) / power:.{places}f}" + figure.text[len(figure.text.partition("e")[0]) :]
-        after = replaced(after, figure, Num(float(text), text))
+        after = exchange(after, figure, Num(float(text), text))
         edits.append(("figure", figure.text, text))
         last &= abs(float(text) - figure.value) < 1.5 * last_digit(figure)
     left = np.abs(equation_sides(after, values).residual)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
@@ -91,7 +91,6 @@ class Verdict(PlainText):
     true: str = ""
     notes: tuple[str, ...] = ()
     """What the statement calls by a name that means something else in this model."""
-    parts: tuple[Verdict, ...] = field(default=(), repr=False)
 
     @property
     def ok(self) -> bool:
@@ -128,7 +127,7 @@ def judged(case: Case) -> Verdict:
     assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
     untested = tuple(term for part in parts for term in part.untested)
     true = "\n  ".join(dict.fromkeys(part.true for part in parts if part.true))
-    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true, parts=tuple(parts))
+    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true)
 
 
 def judged_one(case: Case, equation: Equation) -> Verdict:
@@ -170,7 +169,7 @@ def holds(case: Case, *equations: Equation) -> bool:
 
 def of_wrong_dimensions(case: Case, equations: Iterable[Equation], text: str, reason: str) -> Verdict:
     """The verdict where dimensions do not fit: each equation with its corrections, or with the nearest true one."""
-    if not case.mending:
+    if not case.correcting:
         return Verdict(Kind.DIMENSIONS, text, reason)
     try:
         fixes = {equation: tuple(corrections(case, equation)) for equation in equations}
@@ -213,7 +212,7 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
     """A slip where one edit corrects it; else an assumption that excuses what was left out; else wrong."""
     seen = evidence(case, found)
-    if not case.mending:
+    if not case.correcting:
         return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(corrections(case, equation))
     if small := linearised(case, equation):

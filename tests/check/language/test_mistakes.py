@@ -32,7 +32,7 @@ MISTAKES = [
     ("d/dt(m^x) = F", "     ^^^", "an exponent that changes"),
     ("d/dt(max(x, m)) = F", "     ^^^^^^^^^", "no derivative"),
     ("∂Q/∂x = F", " ^", "what `Q` is made of is not said"),
-    ("L = x; ∂L/∂3 = F", "           ^", "where a letter is expected"),
+    ("L = x; ∂L/∂3 = F", "           ^", "where a symbol is expected"),
     ("diff(m x, m) = 0", "^^^^^^^^^^^^", "by t alone"),
     ("m" * 500 + " = 0", "^" * 500, "500 letters without a sign"),
     ("(" * 400 + "m" + ")" * 400 + " = 0", "^" * 805, "brackets in brackets"),

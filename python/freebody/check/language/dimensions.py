@@ -45,7 +45,7 @@ def check_dimensions(
 
 
 def misfit(program: Program, dimensions: Mapping[str, Dimension], **read: bool) -> DimensionError | None:
-    """The first two terms that do not go together, or None; kinds that do not are told with the verdict."""
+    """The first two terms that do not go together, or None; kinds that do not are reported with the verdict."""
     try:
         check_dimensions(program, dimensions, **read)
     except DimensionError as error:

@@ -48,7 +48,7 @@ class Line:
             raise StatementError(f"it ends where a `{kind}` is missing", self.end())
         if kind == "end" and self.now.kind in (")", "]", "}"):
             raise StatementError(f"a `{self.now.text}` that was never opened", self.now.span)
-        expected = {"end": "the end", "letter": "a letter"}.get(kind, f"`{kind}`")
+        expected = {"end": "the end", "letter": "a symbol"}.get(kind, f"`{kind}`")
         raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span)
 
     def end(self) -> Span:

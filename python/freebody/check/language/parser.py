@@ -17,6 +17,7 @@ Rules of reading:
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import dropwhile
 
 from freebody.symbolic.differentiate import partial, rate
@@ -25,7 +26,7 @@ from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Node, Sym, exchange, substitute, walk
 
 from .grammar import CLOSES, RELATIONS, SIGNED, Line
-from .statements import Assignment, Equation, Partial, Program, Rate
+from .statements import Assignment, Equation, Partial, Program, Rate, written_out
 from .tokens import Names, Token, tokens
 
 
@@ -36,9 +37,9 @@ def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
     own = tuple(names)
-    known = Names.of(own, still, units)
+    known = Names(own, frozenset(still), units)
     try:
-        known = known.also(_assigned(tokens(text, known), known))
+        known = replace(known, known=(*own, *_assigned(tokens(text, known), known)))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
         lines = _written_out(_meanings(rows, set(own)), known)
         program = Program((*_rates(lines, known), *lines), text, span=(0, len(text)))
@@ -53,7 +54,7 @@ def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units
 
 def parse_expression(text: str, names: Iterable[str] = (), still: Iterable[str] = ()) -> Node:
     """An expression without a sign of relation. Raises ``StatementError``."""
-    known = Names.of(names, still)
+    known = Names(tuple(names), frozenset(still))
     row = [t for t in tokens(text, known) if t.kind != "line"]
     try:
         parser = Line(row, known, text)
@@ -108,9 +109,7 @@ def _definition(line: Equation, taken: set[str], begun: set[Node], alone: Sequen
 
 def _written_out(lines: list[Assignment | Equation], names: Names) -> list[Assignment | Equation]:
     """The lines with partial derivatives of names that lines give written out."""
-    given = {line.name: line.expression for line in lines if isinstance(line, Assignment)}
-    for _ in given:
-        given = {name: substitute(expression, given) for name, expression in given.items()}
+    given = written_out(line for line in lines if isinstance(line, Assignment))
     while (found := next((n for line in lines for n in walk(line) if isinstance(n, Partial)), None)) is not None:
         if found.of not in given:
             hint = f"give it in a line: `{found.of.key} = …`"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from freebody.symbolic.evaluate import is_zero
@@ -105,10 +106,16 @@ def _has_one(node: Node) -> bool:
 
 def inlined(program: Program) -> tuple[Equation, ...]:
     """The equations with the assigned names written out, in whichever order the lines stand."""
-    given = {line.name: line.expression for line in program.assignments}
+    given = written_out(program.assignments)
+    return tuple(substitute(line, given) for line in program.equations)
+
+
+def written_out(assignments: Iterable[Assignment]) -> dict[Sym, Node]:
+    """What lines give names to, with the names of the other lines written out."""
+    given = {line.name: line.expression for line in assignments}
     for _ in given:
         given = {name: substitute(expression, given) for name, expression in given.items()}
-    return tuple(substitute(line, given) for line in program.equations)
+    return given
 
 
 def terms(equation: Equation, expand: bool = False) -> list[Term]:

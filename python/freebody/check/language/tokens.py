@@ -53,15 +53,6 @@ class Names:
     units: bool = False
     """Whether what may be a unit behind a number is one, known letter or not."""
 
-    @classmethod
-    def of(cls, names: Iterable[str], still: Iterable[str] = (), units: bool = False) -> Names:
-        """Known letters, each once."""
-        return cls(tuple(dict.fromkeys(names)), frozenset(still), units)
-
-    def also(self, names: Iterable[str]) -> Names:
-        """These and more."""
-        return Names.of([*self.known, *names], self.still, self.units)
-
     @cached_property
     def by_spelling(self) -> dict[str, str]:
         """The declared name of each folded spelling; a name that is spelled just so goes first."""
@@ -72,11 +63,6 @@ class Names:
         """Folded names with strokes, points and brackets in them, long ones first."""
         return sorted((s for s in self.by_spelling if not re.fullmatch(r"[\w']+", s)), key=len, reverse=True)
 
-    @property
-    def primed(self) -> bool:
-        """Whether every prime is part of a name; otherwise one behind a known name is a derivative."""
-        return not self.known
-
     def find(self, spelling: str) -> tuple[str, int] | None:
         """The name and its number of time derivatives, e.g. of ``thetaddot``; None where it is not known."""
         known = self.by_spelling
@@ -86,7 +72,7 @@ class Names:
             if (stem := spelling.removesuffix(suffix)) != spelling and stem in known:
                 return known[stem], count
         ends = [n for n in range(len(spelling.rstrip("'")), len(spelling)) if spelling[:n] in known]
-        if len(ends) == 1 and not self.primed:  # each prime is a derivative, unless two names could be meant
+        if len(ends) == 1:  # each prime behind a known name is a derivative, unless two names could be meant
             return known[spelling[: ends[0]]], len(spelling) - ends[0]
         short = _SHORT.fullmatch(spelling) if "d" not in known else None
         name = known.get(short["name"]) if short else None
@@ -223,7 +209,7 @@ class _Reader:
         if len(rivals) > 1 and start == self.at and least[1][0].end <= end:
             ways = " or ".join("`" + " ".join(p.name for p in way) + "`" for _, way in rivals)
             span = (self.row[start].span[0], self.row[end - 1].span[1])
-            raise StatementError(f"this can be read as {ways}", span, "put blanks between the letters")
+            raise StatementError(f"this can be read as {ways}", span, "put blanks between the symbols")
         return least
 
     def pieces(self, start: int, end: int) -> list[_Piece]:
@@ -254,7 +240,7 @@ class _Reader:
                 return None
             at, left = at + 1, left.removeprefix(text)
         behind = self.row[at : at + 1]
-        if behind and behind[0].kind is Kind.PRIME and not self.names.primed:
+        if behind and behind[0].kind is Kind.PRIME and self.names.known:
             return at
         if behind and (behind[0].kind in (Kind.LOW, Kind.PRIME) or (behind[0].kind in _IN_NAMES and name[-1].isalnum())):
             return None
@@ -279,7 +265,7 @@ class _Reader:
         """An unknown letter; the word ``dot`` behind it is still a derivative."""
         spelling, count = self.spelling(start, end), self.marks(start, end)
         if not spelling.strip("'"):
-            raise StatementError("a mark without a letter before it", self.row[start].span)
+            raise StatementError("a mark without a symbol before it", self.row[start].span)
         if spelling in CALLS and not count:
             return _Piece("function", CALLS[spelling], 0, end)
         for suffix, dots in _SUFFIXES.items():
