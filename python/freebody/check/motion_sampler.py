@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -81,13 +82,9 @@ class MotionSampler(OnRuns):
 
     def _sample(self, rng: np.random.Generator, family: Family) -> Sample | None:
         for _ in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
-            try:
-                values = self._parameters(rng, family)
-                made = self._made(rng, values, family)
-            except (MotionError, ModelError, ModelProblem, ZeroDivisionError):
-                continue
-            if made is not None:
-                return made
+            with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError):
+                if (made := self._made(rng, self._parameters(rng, family), family)) is not None:
+                    return made
         return None
 
     def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:

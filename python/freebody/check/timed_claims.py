@@ -82,8 +82,7 @@ def _corrected(equation: Equation, values: Mapping[str, Array]) -> tuple[tuple[C
     """The fewest figures to be printed otherwise, and whether they are off by no more than one in the last digit."""
     printed = figures(equation)
     for count in range(1, len(printed) + 1):
-        found = [correction for some in combinations(printed, count) for correction in _printed_again(equation, some, values)]
-        if found:
+        if found := [each for some in combinations(printed, count) for each in _printed_again(equation, some, values)]:
             return tuple(correction for correction, _ in found), all(last for _, last in found)
     return (), False
 
@@ -94,9 +93,9 @@ def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[
     steps = -np.linalg.pinv(slopes) @ equation_sides(equation, values).residual[0]
     after, edits, last = equation, [], True
     for figure, step in zip(chosen, steps, strict=True):
-        places = len(figure.text.partition("e")[0].split(".")[1])
-        power = 10.0 ** int(figure.text.partition("e")[2] or 0)
-        text = f"{(figure.value + step) / power:.{places}f}" + figure.text[len(figure.text.partition("e")[0]) :]
+        digits, _, power = figure.text.partition("e")
+        places = len(digits.split(".")[1])
+        text = f"{(figure.value + step) / 10.0 ** int(power or 0):.{places}f}" + figure.text[len(digits) :]
         after = exchange(after, figure, Num(float(text), text))
         edits.append(("figure", figure.text, text))
         last &= abs(float(text) - figure.value) < 1.5 * last_digit(figure)

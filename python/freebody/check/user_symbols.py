@@ -49,46 +49,27 @@ class Meaning:
 
 
 @dataclass(frozen=True)
-class Momentum(Meaning):
-    """Angular momentum of some bodies about a point, as a vector along k; with one dot Σ r×m a + I α, r from that point.
-
-    ``texts`` are, for each body, m-fold and I-fold parts; ``dotted`` those with accelerations. With ``loads`` it is the moment
-    of all that acts on the bodies from outside, which is the latter.
-    """
+class OfBodies(Meaning):
+    """A sum over bodies as a vector along i, j, k: Σ (m x, m y, m z + I s), where ``texts`` are x, y, z, s of each body; the
+    resultant of the forces from outside, their moment, or angular momentum. ``rates``: the same of the derivatives that are known."""
 
     bodies: tuple[str, ...] = ()
-    dotted: tuple[str, ...] = ()
-    loads: bool = False
+    rates: tuple[tuple[str, ...], ...] = ()
 
     @property
     def is_vector(self) -> bool:
         return True
 
     def needed(self, dots: int) -> list[str]:
-        if dots > (0 if self.loads else 1):
-            raise ModelProblem("only the first rate of an angular momentum is known, and none of a moment")
-        return list(self.dotted if dots or self.loads else self.texts)
+        if dots > len(self.rates):
+            raise ModelProblem("only the first rate of an angular momentum is known, and none of a force or a moment")
+        return list((self.texts, *self.rates)[dots])
 
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
-        parts, known = [values[text] for text in self.needed(dots)], [*map(masses().__getitem__, self.bodies)]
-        total = sum(m * orbit + i * spin for (m, i), orbit, spin in zip(known, parts[::2], parts[1::2], strict=True))
-        return np.stack([np.zeros_like(total), np.zeros_like(total), total], axis=-1)
-
-
-@dataclass(frozen=True)
-class Resultant(Meaning):
-    """The sum of all forces from outside on some bodies: Σ m a of their mass centres. ``texts``: ax, ay of each."""
-
-    bodies: tuple[str, ...] = ()
-
-    @property
-    def is_vector(self) -> bool:
-        return True
-
-    def value(self, dots: int, values: Values, masses: Masses) -> Array:
-        parts, known = [values[text] for text in self.needed(dots)], [*map(masses().__getitem__, self.bodies)]
-        x, y = (sum(m * a for (m, _), a in zip(known, parts[i::2], strict=True)) for i in (0, 1))
-        return np.stack([x, y, np.zeros_like(x)], axis=-1)
+        parts, known = np.array([values[text] for text in self.needed(dots)]), masses()
+        weights = np.array([(m, m, m, i) for m, i in map(known.__getitem__, self.bodies)])
+        x, y, z, s = np.sum(weights * parts.reshape(weights.shape), axis=0)
+        return np.stack([x, y, z + s], axis=-1)
 
 
 _KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}
@@ -173,24 +154,27 @@ class Reader:
 
     def moment(self, what: str, bodies: str, point: str) -> Meaning:
         """Angular momentum of bodies about a point, or the moment on them."""
-        group, loads = self.group(bodies), what == "moment"
+        group = self.group(bodies)
         still, moving = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
-        return Momentum("declared", still, ENERGY if loads else ENERGY.times(TIME), bodies=group, dotted=moving, loads=loads)
+        if what == "moment":
+            return OfBodies("declared", moving, ENERGY, group)
+        return OfBodies("declared", still, ENERGY.times(TIME), group, (moving,))
 
     def orbits(self, group: Sequence[str], point: str, letter: str, spin: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""
-        out = []
+        out: list[str] = []
         for body in group:
             g = f"{body}.G"
             turn = f"(x({g}) - x({point}))*{letter}y({g}) - (y({g}) - y({point}))*{letter}x({g})"
-            out += [self.measured(turn)[0], "0" if body in self.particles else self.measured(f"{spin}({body})")[0]]
+            turns = "0" if body in self.particles else self.measured(f"{spin}({body})")[0]
+            out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)
 
     def resultant(self, bodies: str) -> Meaning:
-        """All that acts on bodies from outside."""
+        """All that acts on bodies from outside: Σ m a of their mass centres."""
         group = self.group(bodies)
-        texts = [self.measured(f"{a}({body}.G)")[0] for body in group for a in ("ax", "ay")]
-        return Resultant("declared", tuple(texts), FORCE, bodies=group)
+        found = [[self.measured(f"{a}({body}.G)")[0] for a in ("ax", "ay")] for body in group]
+        return OfBodies("declared", tuple(text for x, y in found for text in (x, y, "0", "0")), FORCE, group)
 
     def group(self, bodies: str) -> tuple[str, ...]:
         """The bodies of ``upper, lower`` or ``all``."""

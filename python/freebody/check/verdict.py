@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -123,16 +124,16 @@ def judged(case: Case) -> Verdict:
     worst = max(parts, key=lambda part: _ORDER.index(part.kind))
     which = [f"equation {i}: {p.kind.value}" for i, p in enumerate(parts, 1) if not p.ok]
     reason = "; ".join(which) or _sufficiency(case)
-    together = tuple(correction for part in parts for correction in part.mends)
+    together = tuple(chain(*(part.mends for part in parts)))
     assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
-    untested = tuple(term for part in parts for term in part.untested)
+    untested = tuple(chain(*(part.untested for part in parts)))
     true = "\n  ".join(dict.fromkeys(part.true for part in parts if part.true))
     return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true)
 
 
 def judged_one(case: Case, equation: Equation) -> Verdict:
     """The verdict about one equation."""
-    text = _text(case, equation)
+    text = case.program.text[slice(*equation.span)].strip() or case.program.text
     try:
         found = case.residual(equation)
     except NoMotion as error:
@@ -175,24 +176,21 @@ def of_wrong_dimensions(case: Case, equations: Iterable[Equation], text: str, re
         fixes = {equation: tuple(corrections(case, equation)) for equation in equations}
     except NoMotion:
         return Verdict(Kind.DIMENSIONS, text, reason)
-    least = min((correction.size for found in fixes.values() for correction in found), default=np.inf)
+    every = tuple(chain(*fixes.values()))
+    least = min((each.size for each in every), default=np.inf)
     inside = _in_figures(case, list(fixes)) if least > 1.5 else ()
-    if inside and min(correction.size for correction in inside) < least:
+    if inside and min(each.size for each in inside) < least:
         return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
     true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
-    return Verdict(
-        Kind.DIMENSIONS, text, reason, mends=tuple(correction for found in fixes.values() for correction in found), true=true
-    )
+    return Verdict(Kind.DIMENSIONS, text, reason, mends=every, true=true)
 
 
 def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, ...]:
     """The corrections of equations whose figures stand for measures in SI units; none where dimensions do not fit so, either."""
     other = replace(case, meaning=case.meaning.in_figures())
-    if not all(other.meaning.fits(equation) for equation in equations):
+    if not all(map(other.meaning.fits, equations)):
         return ()
-    return tuple(
-        correction for equation in equations if not holds(other, equation) for correction in corrections(other, equation)
-    )
+    return tuple(chain(*(corrections(other, equation) for equation in equations if not holds(other, equation))))
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
@@ -217,18 +215,16 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     fixes = tuple(corrections(case, equation))
     if small := linearised(case, equation):
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
-    if not any(correction.is_slip and len(correction.edits) == 1 for correction in fixes) and (
-        assumed := assumption(case, equation)
-    ):
+    slip = any(each.is_slip and len(each.edits) == 1 for each in fixes)
+    if not slip and (assumed := assumption(case, equation)):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         words, near = small
-        fixes = tuple(replace(correction, given=words) for correction in corrections(near, equation))
+        fixes = tuple(replace(each, given=words) for each in corrections(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
-    return Verdict(
-        Kind.WRONG, text, "wrong, and no single or double edit corrects it", evidence=seen, true=nearest(case, equation)
-    )
+    what = "wrong, and no single or double edit corrects it"
+    return Verdict(Kind.WRONG, text, what, evidence=seen, true=nearest(case, equation))
 
 
 def _looked_at_again(case: Case, equation: Equation) -> float:
@@ -284,11 +280,6 @@ def evidence(case: Case, found: Residual) -> Evidence:
     """The state at which the two sides are farthest apart."""
     k = int(np.abs(found.ratio).max(axis=1).argmax())
     return Evidence.at(found.sides, case.values(), k, float(np.abs(found.ratio[k]).max()), len(found.ratio))
-
-
-def _text(case: Case, equation: Equation) -> str:
-    start, end = equation.span
-    return case.program.text[start:end].strip() or case.program.text
 
 
 def _plain(value: Any) -> str:

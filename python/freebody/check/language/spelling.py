@@ -11,6 +11,7 @@ from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Neg
 from .statements import Assignment, Equation, Program
 
 _SUM, _DOT, _CROSS, _PRODUCT, _FACTOR, _ATOM = range(6)
+_LEVELS = {Add: _SUM, Negative: _SUM, Dot: _DOT, Cross: _CROSS, Mul: _PRODUCT, Quotient: _PRODUCT, Pow: _FACTOR}
 _MARKS = ("", "\u0307", "\u0308", "\u20db")
 
 
@@ -28,20 +29,7 @@ def spell(node: Node) -> str:
 
 def level(node: Node) -> int:
     """How tightly a node holds together; looser ones need brackets inside tighter ones."""
-    match node:
-        case Add() | Negative():
-            return _SUM
-        case Dot():
-            return _DOT
-        case Cross():
-            return _CROSS
-        case Mul() | Quotient():
-            return _PRODUCT
-        case Pow():
-            return _FACTOR
-        case Num(value=value) if value < 0:
-            return _SUM
-    return _ATOM
+    return _SUM if isinstance(node, Num) and node.value < 0 else _LEVELS.get(type(node), _ATOM)
 
 
 def _plain(node: Node, least: int) -> str:
