@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -35,13 +36,8 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     for families in _assumptions(case):
         if found := tuple(words for words, family in families if _holds(case, equation, family)):
             return found
-    if words := _small(case, equation):
-        return (words,)
-    for words, families in _limits(case):
-        with suppress(NoMotion, StatementError, ModelError):
-            if _tends(case, equation, families):
-                return (words,)
-    return ()
+    words = _small(case, equation) or _limit(case, equation)
+    return (words,) if words else ()
 
 
 def linearised(case: Case, equation: Equation) -> str:
@@ -94,7 +90,7 @@ def first_order(case: Case, equation: Equation, family: Family) -> bool:
 def _beside_terms(equation: Equation, values: Mapping[str, Array]) -> float:
     """What is left of an equation beside the least of its terms, in the median."""
     left = np.abs(residual(equation, values).sides.residual).max(axis=1)
-    sizes = [np.abs(sampled(term.node, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
+    sizes = [np.abs(sampled(term, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
     with np.errstate(all="ignore"):
         return float(np.max([np.median(left / size) for size in sizes], initial=0.0))
 
@@ -145,19 +141,16 @@ def mattering(case: Case) -> list[str]:
     return [name for name in case.sampler.free_parameters if name in known and not case.sampler.shapes_loop(name)]
 
 
-def _limits(case: Case) -> Iterator[tuple[str, tuple[Family, ...]]]:
-    given = case.hypothesis
-    for name in mattering(case) if not given.since else ():
-        if case.sampler.free_parameters[name] == 0 or name in dict(given.held):
-            continue
-        for words, power in (("→ ∞", 1), ("→ 0", -1)):
-            yield f"{name} {words}", tuple(replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)
-
-
-def _tends(case: Case, equation: Equation, families: tuple[Family, ...]) -> bool:
-    """Whether the residual vanishes in a limit in which every term still takes part."""
-    near, far = (case.values(family, count=_STATES) for family in families)
-    sizes = [float(np.median(np.abs(residual(equation, values).ratio).max(axis=1))) for values in (near, far)]
-    if not sizes[0] < _SLOPE or not sizes[1] < max(_SLOPE * sizes[0], HOLDS):
-        return False
-    return residual(equation, far).worst < 1e-2 and not unreached(equation, far)
+def _limit(case: Case, equation: Equation) -> str:
+    """A limit in which the residual vanishes though every term still takes part, in words; nothing where there is none."""
+    given, free = case.hypothesis, case.sampler.free_parameters
+    names = [name for name in mattering(case) if not given.since and free[name] != 0 and name not in dict(given.held)]
+    for name, (words, power) in product(names, (("→ ∞", 1), ("→ 0", -1))):
+        families = (replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)
+        with suppress(NoMotion, StatementError, ModelError):
+            near, far = (case.values(family, count=_STATES) for family in families)
+            first, last = (float(np.median(np.abs(residual(equation, values).ratio).max(axis=1))) for values in (near, far))
+            shrinks = first < _SLOPE and last < max(_SLOPE * first, HOLDS)
+            if shrinks and residual(equation, far).worst < 1e-2 and not unreached(equation, far):
+                return f"{name} {words}"
+    return ""

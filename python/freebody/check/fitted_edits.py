@@ -17,8 +17,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .edits import Edit, depth
 from .language.dimensions import dimension
-from .language.statements import Equation, letters
-from .language.statements import terms as terms_of
+from .language.statements import Equation, letters, terms
 from .solve_for_term import RequiredTerm, required_terms
 from .vocabulary import Vocabulary
 
@@ -163,7 +162,7 @@ class FittedEdits:
 
     def _dictionary(self, equation: Equation, less: Dimension) -> tuple[list[Node], Array]:
         """Terms that an equation may hold, of its dimension over ``less``, and their values."""
-        found = (dimension(term.node, self.vocabulary.dimensions) for term in terms_of(equation, expand=True))
+        found = (dimension(term, self.vocabulary.dimensions) for term in terms(equation, expand=True))
         known = [each for each in found if each is not None]
         wanted: Known = max(known, key=known.count).times(less, -1) if known else None  # one of them may be wrong
         moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)

@@ -12,8 +12,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, advice, is_zero, sampled, size, spread
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Quotient, exchange, walk
 
-from .language.statements import Equation, Program, inlined
-from .language.statements import terms as terms_of
+from .language.statements import Equation, Program, inlined, terms
 
 HOLDS = 1e-10
 """Below it, relative to the terms, an equation holds but for round-off."""
@@ -132,14 +131,13 @@ def _scalar(value: Array) -> Array:
 
 def unreached(equation: Equation, values: Mapping[str, Array]) -> list[Node]:
     """The terms that stay so small beside the others that this says nothing about them."""
-    found = terms_of(equation, expand=True)
-    if len(found) > _MANY:
-        found = terms_of(equation)
+    found = terms(equation, expand=True)
+    found = found if len(found) <= _MANY else terms(equation)
     size = _length(magnitude(equation.left, values)) + _length(magnitude(equation.right, values))
     with np.errstate(all="ignore"):
-        reach = [np.nan_to_num(_length(np.abs(sampled(term.node, values))) / size) for term in found]
+        reach = [np.nan_to_num(_length(np.abs(sampled(term, values))) / size) for term in found]
     needed = min(OFTEN, len(size) // 2 or 1)
-    return [term.node for term, share in zip(found, reach, strict=True) if np.sum(share >= REACH) < needed]
+    return [term for term, share in zip(found, reach, strict=True) if np.sum(share >= REACH) < needed]
 
 
 def _length(value: Array) -> Array:

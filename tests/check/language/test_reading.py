@@ -10,7 +10,7 @@ from typeset import latex
 from freebody.check.language.parser import parse, parse_expression
 from freebody.check.language.spelling import spell
 from freebody.check.language.statements import inlined, letters, terms
-from freebody.symbolic.tree import Add, Mul, Negative, Num, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Mul, Negative, Num, Sym, addends, exchange, walk
 
 KNOWN = known("eps m l g theta phi alpha x y t m1 m2 R I1 I2 T omega F i j k a_G r_G1/O pivot.Fx link[2].angle")
 
@@ -162,17 +162,13 @@ def test_chains_are_two_equations():
     assert [spell(e) for e in parse("a = b = c").equations] == ["a = b", "b = c"]
 
 
-def test_terms_keep_signs_and_sides():
-    found = terms(parse("a − (b − c) = −d + 2*(e + f)").equations[0])
-    assert [(t.sign, spell(t.node), t.side) for t in found] == [
-        (1, "a", "left"),
-        (-1, "b", "left"),
-        (1, "c", "left"),
-        (1, "d", "right"),
-        (-1, "2*(e + f)", "right"),
-    ]
-    expanded = terms(parse("0 = −2*(e − f)/m").equations[0], expand=True)
-    assert [(t.sign, spell(t.node)) for t in expanded] == [(1, "2*e/m"), (-1, "2*f/m")]
+def test_terms_keep_their_signs():
+    equation = parse("a − (b − c) = −d + 2*(e + f)").equations[0]
+    assert [(sign, spell(term)) for sign, term in addends(equation.left)] == [(1, "a"), (-1, "b"), (1, "c")]
+    assert [(sign, spell(term)) for sign, term in addends(equation.right)] == [(-1, "d"), (1, "2*(e + f)")]
+    assert [spell(term) for term in terms(equation)] == ["a", "b", "c", "d", "2*(e + f)"]
+    expanded = addends(parse("0 = −2*(e − f)/m").equations[0].right, expand=True)
+    assert [(sign, spell(term)) for sign, term in expanded] == [(-1, "2*e/m"), (1, "2*f/m")]
 
 
 def test_replacing_one_of_two_that_read_alike():

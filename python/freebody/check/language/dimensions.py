@@ -10,7 +10,7 @@ from freebody.symbolic.tree import Add, Fn, Node, Num, Pow, Sym, Unit, addends
 
 from ...model.units import unit
 from .spelling import spell
-from .statements import Program, inlined, letters
+from .statements import Program, inlined, letters, terms
 
 _DIRECTIONS = {"i", "j", "k"}
 
@@ -39,7 +39,7 @@ def check_dimensions(
     rules = _OfStatements(units_of_symbols, figures, strictly)
     try:
         for line in inlined(program):
-            rules.agreed(term for side in (line.left, line.right) for _, term in addends(side))
+            rules.agreed(terms(line))
     except StatementError as error:
         raise error.within(program.text) from None
 

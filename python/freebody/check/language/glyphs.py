@@ -78,11 +78,7 @@ def glyphs(text: str) -> list[Glyph]:
     """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and what fits the width
     read as blanks. Raises ``StatementError``."""
     fitted = _FITTED.sub(lambda found: f"{' ' * len(found[1])}{found[2]}  ", _COMMENT.sub(_blank, text))
-    bare = _LABEL.sub(_blank, fitted)
-    try:
-        return _Reader(bare).all()
-    except StatementError as error:
-        raise error.within(text) from None
+    return _Reader(_LABEL.sub(_blank, fitted)).all()
 
 
 def _blank(found: re.Match[str]) -> str:

@@ -55,11 +55,10 @@ def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units
 def parse_expression(text: str, names: Iterable[str] = (), still: Iterable[str] = ()) -> Node:
     """An expression without a sign of relation. Raises ``StatementError``."""
     known = Names(tuple(names), frozenset(still))
-    row = [t for t in tokens(text, known) if t.kind != "line"]
     try:
-        parser = Line(row, known, text)
-        found = parser.sum()
-        parser.expect("end")
+        line = Line([t for t in tokens(text, known) if t.kind != "line"], known, text)
+        found = line.sum()
+        line.expect("end")
     except StatementError as error:
         raise error.within(text) from None
     return found

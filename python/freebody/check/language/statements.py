@@ -75,15 +75,6 @@ class Program(Node):
         return tuple(line for line in self.lines if isinstance(line, Equation))
 
 
-@dataclass(frozen=True)
-class Term:
-    """An additive term of an equation: Σ sign × node over all terms is 0. ``side`` is ``left`` or ``right``, where it stands."""
-
-    sign: int
-    node: Node
-    side: str
-
-
 def letters(node: Node) -> list[Sym]:
     """The letters in it, each once, in the order of the text."""
     return list(dict.fromkeys(n for n in walk(node) if isinstance(n, Sym)))
@@ -118,13 +109,9 @@ def written_out(assignments: Iterable[Assignment]) -> dict[Sym, Node]:
     return given
 
 
-def terms(equation: Equation, expand: bool = False) -> list[Term]:
-    """The writer's own additive terms, both sides, signed so that their sum is 0.
-
-    Goes through outer sums and signs; brackets are multiplied out only with ``expand``.
-    """
-    left = [Term(sign, node, "left") for sign, node in addends(equation.left, expand)]
-    return left + [Term(-sign, node, "right") for sign, node in addends(equation.right, expand)]
+def terms(equation: Equation, expand: bool = False) -> list[Node]:
+    """The writer's own additive terms, both sides, without their signs; brackets are multiplied out only with ``expand``."""
+    return [node for side in (equation.left, equation.right) for _, node in addends(side, expand)]
 
 
 # -- columns

@@ -83,11 +83,7 @@ class Names:
 
 def tokens(text: str, names: Names = Names()) -> list[Token]:
     """The tokens of a statement, plain or LaTeX, closed by one of kind ``end``. Raises ``StatementError``."""
-    row = glyphs(text)
-    try:
-        return [*_Reader(row, names).all(), Token("end", "", (len(text), len(text)))]
-    except StatementError as error:
-        raise error.within(text) from None
+    return [*_Reader(glyphs(text), names).all(), Token("end", "", (len(text), len(text)))]
 
 
 @dataclass(frozen=True)
