@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from itertools import product
@@ -36,38 +36,28 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     for families in _assumptions(case):
         if found := tuple(words for words, family in families if _holds(case, equation, family)):
             return found
-    words = _small(case, equation) or _limit(case, equation)
+    words = _to_first_order(case, equation) or _limit(case, equation)
     return (words,) if words else ()
 
 
 def linearised(case: Case, equation: Equation) -> str:
     """In words, what is small where an equation in which angles stand outside of sines and cosines is true to first order."""
-    return _small(case, equation) if _bare_angles(case, equation) else ""
+    return _to_first_order(case, equation) if _has_bare_angles(case, equation) else ""
 
 
 def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
     """The statement of motions so small that sines are angles, in words; None where no angle stands outside of sines and cosines."""
-    if not _bare_angles(case, equation):
+    if not _has_bare_angles(case, equation):
         return None
-    angles = _angles(case, equation)
-    small = tuple((text, _TINY) for n in angles for text in case.meaning.texts(n))
-    return _words(angles), replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
+    words, family = _small(case, equation, _TINY)
+    return words, replace(case, hypothesis=family, known={})
 
 
-def _bare_angles(case: Case, equation: Equation) -> list[Sym]:
-    """Coordinates that are angles and stand outside of functions."""
+def _has_bare_angles(case: Case, equation: Equation) -> bool:
+    """Whether angles stand outside of functions."""
     inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
-    return [n for n in _angles(case, equation) if any(m == n and id(m) not in inside for m in walk(equation))]
-
-
-def _small(case: Case, equation: Equation) -> str:
-    """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
-    given, angles = case.hypothesis, _angles(case, equation)
-    small = tuple((text, SMALL) for n in angles for text in case.meaning.texts(n))
-    with suppress(NoMotion, StatementError, ModelError):
-        if small and not given.small and first_order(case, equation, replace(given, small=small)):
-            return f"{_words(angles)}, to first order"
-    return ""
+    angles = _angles(case, equation)
+    return any(n in angles and id(n) not in inside for n in walk(equation))
 
 
 def _angles(case: Case, equation: Equation) -> list[Sym]:
@@ -76,8 +66,20 @@ def _angles(case: Case, equation: Equation) -> list[Sym]:
     return [n for n in plain if n in known.coordinates and n in known.angular]
 
 
-def _words(angles: Iterable[Sym]) -> str:
-    return f"small {', '.join(n.name for n in angles)}"
+def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
+    """The motions in which the angles of an equation are small, in words."""
+    angles = _angles(case, equation)
+    small = tuple((text, size) for n in angles for text in case.meaning.texts(n))
+    return f"small {', '.join(n.name for n in angles)}", replace(case.hypothesis, small=small)
+
+
+def _to_first_order(case: Case, equation: Equation) -> str:
+    """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
+    words, family = _small(case, equation, SMALL)
+    with suppress(NoMotion, StatementError, ModelError):
+        if family.small and not case.hypothesis.small and first_order(case, equation, family):
+            return f"{words}, to first order"
+    return ""
 
 
 def first_order(case: Case, equation: Equation, family: Family) -> bool:

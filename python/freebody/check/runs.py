@@ -29,7 +29,7 @@ BALANCED = 1e-11
 
 
 class OnRuns(StaticFacts):
-    """The part of ``Truth`` that samples runs from the model's start, as long as nothing switches."""
+    """The part of ``MotionSampler`` that samples runs from the model's start, as long as nothing switches."""
 
     @cached_property
     def own(self) -> Sample:
@@ -146,7 +146,7 @@ class OnRuns(StaticFacts):
         return self._mode(motion, motion.end)
 
     def _mode(self, motion: Any, state: State) -> tuple[Any, ...]:
-        """How every limit is held, to which side it slides, to which side friction acts in every joint, and at how many places contacts hold."""
+        """How every limit is held and to which side it slides, the sense of friction in every joint, at how many places contacts hold."""
         limits = tuple(
             (x.state, np.sign(round(np.nan_to_num(x.T), 12)) if x.state == "sliding" else 0)
             for x in motion.instant(state.t).limits.values()

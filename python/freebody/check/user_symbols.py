@@ -68,8 +68,8 @@ class OfBodies(Meaning):
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
         parts, known = np.array([values[text] for text in self.needed(dots)]), masses()
         weights = np.array([(m, m, m, i) for m, i in map(known.__getitem__, self.bodies)])
-        x, y, z, s = np.sum(weights * parts.reshape(weights.shape), axis=0)
-        return np.stack([x, y, z + s], axis=-1)
+        x, y, z, s = (weights * parts.reshape(weights.shape)).swapaxes(0, 1)
+        return np.stack([sum(x), sum(y), sum(z + s)], axis=-1)
 
 
 _KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}

@@ -98,13 +98,13 @@ class _Piece:
 
 class _Reader:
     def __init__(self, row: list[Glyph], names: Names) -> None:
-        self.row, self.names, self.at = row, names, 0
+        self.row, self.names, self.at = [*row, Glyph(Kind.LINE, "\n", (0, 0))], names, 0
         self.out: list[Token] = []
         self.blank = True
         self.best = lru_cache(None)(self._best)
 
     def all(self) -> list[Token]:
-        while self.at < len(self.row):
+        while self.at < len(self.row) - 1:
             glyph = self.row[self.at]
             if glyph.kind is Kind.SPACE:
                 self.at += 1
@@ -113,7 +113,7 @@ class _Reader:
                 self.run()
             elif glyph.kind is Kind.RAISED:
                 start = self.at
-                while self.at < len(self.row) and self.row[self.at].kind is Kind.RAISED:
+                while self.row[self.at].kind is Kind.RAISED:
                     self.at += 1
                 self.put("raised", self.spelling(start, self.at), start)
             else:
@@ -122,9 +122,11 @@ class _Reader:
 
     def put(self, kind: str, text: str, start: int, dots: int = 0) -> None:
         """A token from the glyph ``start`` to where the reading stands."""
-        span = (self.row[start].span[0], self.row[self.at - 1].span[1])
-        self.out.append(Token(kind, text, span, dots, not self.blank))
+        self.out.append(Token(kind, text, self.span(start, self.at), dots, not self.blank))
         self.blank = False
+
+    def span(self, start: int, end: int) -> Span:
+        return self.row[start].span[0], self.row[end - 1].span[1]
 
     def sign(self, glyph: Glyph) -> None:
         start, kind, text = self.at, glyph.text, glyph.text
@@ -156,14 +158,15 @@ class _Reader:
         if found := self.derivative():
             return self.take([found])
         end = self.run_end(self.at)
-        if end - self.at > _LONGEST:
-            span = (self.row[self.at].span[0], self.row[end - 1].span[1])
-            raise StatementError(f"{end - self.at} letters without a sign between them", span, "write signs between them")
-        if self.spelling(self.at, end) in _WORDS and not self.names.find(self.spelling(self.at, end)):
+        if (count := end - self.at) > _LONGEST:
+            what = f"{count} letters without a sign between them"
+            raise StatementError(what, self.span(self.at, end), "write signs between them")
+        text = self.spelling(self.at, end)
+        if text in _WORDS and not self.names.find(text):
             return self.take([_Piece("line", "\n", 0, end)])
-        if (end - self.at == 1 and self.row[self.at].text == "x") and self.crosses(end):
+        if text == "x" and self.crosses(end):
             return self.take([_Piece("×", "×", 0, end)])
-        self.take((self.best(self.at, end) or (0, self.unknown(self.at, end)))[1])
+        self.take(self.best(self.at, end) or self.unknown(self.at, end))
 
     def take(self, pieces: Iterable[_Piece]) -> None:
         for piece in pieces:
@@ -171,10 +174,7 @@ class _Reader:
             self.put(piece.kind, piece.name, start, piece.dots)
 
     def run_end(self, start: int) -> int:
-        end = start
-        while end < len(self.row) and self.row[end].kind in _IN_NAMES:
-            end += 1
-        return end
+        return next(i for i in range(start, len(self.row)) if self.row[i].kind not in _IN_NAMES)
 
     def spelling(self, start: int, end: int) -> str:
         return "".join(g.text for g in self.row[start:end])
@@ -186,26 +186,20 @@ class _Reader:
         """Whether an x between blanks is the sign of a cross product: only where no letter x is known."""
         if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind not in _OPERANDS:
             return False
-        after = self.row[end : end + 1]
-        return self.blank and bool(after) and after[0].kind is Kind.SPACE
+        return self.blank and self.row[end].kind is Kind.SPACE
 
-    def _best(self, start: int, end: int) -> tuple[int, tuple[_Piece, ...]] | None:
+    def _best(self, start: int, end: int) -> tuple[_Piece, ...] | None:
         """The fewest known names that the glyphs from ``start`` to ``end`` are; None where there is no way."""
         if start >= end:
-            return 0, ()
-        found: list[tuple[int, tuple[_Piece, ...]]] = []
-        for piece in self.pieces(start, end):
-            after = self.best(piece.end, end)
-            if after is not None:
-                found.append((after[0] + 1, (piece, *after[1])))
-        if not found:
+            return ()
+        ways = [(p, *rest) for p in self.pieces(start, end) if (rest := self.best(p.end, end)) is not None]
+        if not ways:
             return None
-        least = min(found, key=lambda f: f[0])
-        rivals = [f for f in found if f[0] == least[0] and f[1][0].end <= end]
-        if len(rivals) > 1 and start == self.at and least[1][0].end <= end:
-            ways = " or ".join("`" + " ".join(p.name for p in way) + "`" for _, way in rivals)
-            span = (self.row[start].span[0], self.row[end - 1].span[1])
-            raise StatementError(f"this can be read as {ways}", span, "put blanks between the symbols")
+        least = min(ways, key=len)
+        rivals = [way for way in ways if len(way) == len(least) and way[0].end <= end]
+        if len(rivals) > 1 and start == self.at and least[0].end <= end:
+            shown = " or ".join(f"`{' '.join(piece.name for piece in way)}`" for way in rivals)
+            raise StatementError(f"this can be read as {shown}", self.span(start, end), "put blanks between the symbols")
         return least
 
     def pieces(self, start: int, end: int) -> list[_Piece]:
@@ -230,17 +224,15 @@ class _Reader:
         """The glyph behind a name with signs in it, where it stands here."""
         at, left = start, name
         while left:
-            glyph = self.row[at] if at < len(self.row) else Glyph(Kind.LINE, "\n", (0, 0))
+            glyph = self.row[at]
             text = "" if glyph.kind is Kind.SPACE and ("'" in name or "(" in name) else glyph.text
             if not left.startswith(text) or not (text or at > start):
                 return None
             at, left = at + 1, left.removeprefix(text)
-        behind = self.row[at : at + 1]
-        if behind and behind[0].kind is Kind.PRIME and self.names.known:
+        behind = self.row[at].kind
+        if behind is Kind.PRIME and self.names.known:
             return at
-        if behind and (behind[0].kind in (Kind.LOW, Kind.PRIME) or (behind[0].kind in _IN_NAMES and name[-1].isalnum())):
-            return None
-        return at
+        return None if behind in (Kind.LOW, Kind.PRIME) or (behind in _IN_NAMES and name[-1].isalnum()) else at
 
     def unknown(self, start: int, end: int) -> list[_Piece]:
         """Names that nobody declared: Latin and Greek letters part, and a label after a stroke belongs to the name."""
@@ -254,7 +246,7 @@ class _Reader:
         out: list[_Piece] = []
         for first, stop in pairwise([start, *ends, end]):
             known = self.best(first, stop) if (first, stop) != (self.at, end) else None
-            out += known[1] if known else [self.bare(first, stop)]
+            out += known or [self.bare(first, stop)]
         return out
 
     def bare(self, start: int, end: int) -> _Piece:
@@ -276,7 +268,7 @@ class _Reader:
 
     def relative(self, start: int, end: int) -> int | None:
         """The glyph behind a name like ``r_G1/O``, or None."""
-        if self.row[end : end + 1] and self.row[end].text == "/":
+        if self.row[end].text == "/":
             after = self.run_end(end + 1)
             base = self.spelling(start, end)
             low = any(g.kind is Kind.LOW for g in self.row[start:end]) or base.removeprefix("sum") in ("H", "M", "L")
@@ -294,15 +286,15 @@ class _Reader:
         if row[at].text != "d" or row[at].dots:
             return None
         order, at = self.order(at + 1)
-        while at < len(row) and row[at].kind is Kind.SPACE:
+        while row[at].kind is Kind.SPACE:
             at += 1
-        stroke = next((i for i in range(at, len(row)) if row[i].kind not in _IN_NAMES), len(row))
+        stroke = self.run_end(at)
         if self.spelling(stroke, stroke + 3) != "/dt":
             return None
         again, end = self.order(stroke + 3)
         if stroke == at and again == order:
             return _Piece("rate", "d/dt", order, end)
-        if again != order or (end < len(row) and row[end].kind in _IN_NAMES):
+        if again != order or row[end].kind in _IN_NAMES:
             return None
         spelling = self.spelling(at, stroke)
         name, dots = self.names.find(spelling) or (spelling, 0)
