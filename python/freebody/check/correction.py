@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations
@@ -167,8 +168,9 @@ class _Search:
         """The edits after which the least is left."""
 
         def left(edit: Edit) -> float:
-            residual = self._residual(edit.after, self.few)
-            return (residual and float(np.sqrt(np.mean(residual.ratio**2)))) or float("inf")
+            found = self._residual(edit.after, self.few)
+            size = np.mean(found.ratio**2) if found else 0.0
+            return size if size > 0 else float("inf")
 
         return sorted(found, key=left)[:count]
 
@@ -182,10 +184,8 @@ class _Search:
         )
 
     def _fitted(self, equation: Equation) -> Iterator[Edit]:
-        try:
+        with suppress(StatementError):
             yield from self.fits.edits(equation)
-        except StatementError:
-            return
 
     def best(self, found: Iterable[_Found]) -> list[_Found]:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
@@ -227,7 +227,7 @@ class _Search:
         """Whether a part has a value other than 0."""
         try:
             return bool(np.any(sampled(node, self.few)))
-        except (StatementError, KeyError, ValueError):
+        except (KeyError, ValueError):
             return True
 
     def _confirmed(self, equation: Equation) -> bool:
@@ -245,7 +245,7 @@ class _Search:
     def _residual(self, equation: Equation, values: Mapping[str, Array]) -> Residual | None:
         try:
             return residual(equation, values)
-        except (StatementError, ValueError):
+        except ValueError:
             return None
 
     def _mark(self, equation: Equation) -> tuple[float, ...] | None:
