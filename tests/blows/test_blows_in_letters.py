@@ -11,7 +11,7 @@ from freebody.equations.solve import TooLarge
 from freebody.equations.topics import topic
 from freebody.equations.topics.impact_equations import after, blow
 from freebody.equations.topics.impulse_momentum import jumps
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import replace
 
 LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}

@@ -16,7 +16,7 @@ from freebody.equations.topics.impact_equations import after, hammered
 from freebody.equations.topics.impact_rows import Rows
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.impact.applied_impulse import strike
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.algebra import equal
 
 BAT = """
 parameters: {m: 2 kg, l: 1.2 m, b: 0.8 m}

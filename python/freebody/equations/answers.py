@@ -27,8 +27,8 @@ from freebody.solve.perturbed_states import nearby, others
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letters
+from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.radicals import distances, with_plain_roots
-from freebody.symbolic.simplify import PATIENCE, shortest
 from freebody.symbolic.to_sympy import to_sympy
 from freebody.symbolic.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, mul, negative, operations, power, symbols
 
@@ -258,7 +258,7 @@ def _where(system: SufficientSet, chosen: Substitutions) -> list[Block]:
     there = symbols(*stated, *(row.acceleration for row in system.rows))
     known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
     used = [
-        (x, shortest(to_sympy(chosen.put(known[x])), patience=_BRIEF))
+        (x, presented(chosen.put(known[x]), patience=_BRIEF))
         for x in sorted(there & known.keys(), key=lambda x: (x.dots, x.name))
     ]
     return [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(used)]

@@ -6,8 +6,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from freebody.equations.derivation.data import Row
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.simplify import PATIENCE, equal, shortest
+from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, operations, replace
 
@@ -61,5 +62,5 @@ def _shortly(tree: Tree) -> Tree:
     """Without tangents, which are in no balance and would not cancel there."""
     import sympy
 
-    short = to_sympy(shortest(to_sympy(tree), patience=PATIENCE / 5))
+    short = to_sympy(presented(tree, patience=PATIENCE / 5))
     return from_sympy(short.replace(sympy.tan, lambda angle: sympy.sin(angle) / sympy.cos(angle)))

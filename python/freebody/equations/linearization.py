@@ -13,7 +13,7 @@ from freebody.equations.linear import linear_in
 from freebody.equations.solve import TooLarge, solve
 from freebody.symbolic.decimals import exact, exact_angle, is_measured, measured, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.simplify import shortest
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ONE, PI, ZERO, Sym, Tree, is_zero, negative, operations, read, symbols
 
@@ -197,7 +197,7 @@ def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: SymbolicState
     a, m, b = (sympy.Matrix([[to_sympy(entry) for entry in row] for row in part]) for part in (left, matrix, right))
     product = a.T * m * b
     if all(entry.count_ops() <= MOST_OPERATIONS for entry in product):
-        made = [[shortest(entry, subject.letters, PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
+        made = [[presented(entry, subject.letters, patience=PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
         if all(operations(entry) <= READABLE for row in made for entry in row):
             return made
     raise TooLarge("the linear equations of what is left free are too long symbolically")

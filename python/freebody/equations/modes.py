@@ -9,8 +9,8 @@ import numpy as np
 from freebody.core import Array
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import Linearised, Matrix
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import is_zero
 
 _SMALL = 1e-7

@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import is_measured, ratio, rational
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.simplify import PATIENCE, equal, shortest
+from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
 
@@ -47,7 +48,7 @@ def solve(
             f"{len(right)} unknowns are too many for a symbolic answer (at most {MOST_UNKNOWNS}); "
             "ask for numbers, or for a smaller set of equations"
         )
-    found = _solved_measured(a, b) if numeric else [shortest(entry, letters, patience) for entry in _solved(a, b)]
+    found = _solved_measured(a, b) if numeric else [presented(entry, letters, patience=patience) for entry in _solved(a, b)]
     for row, entry in zip(matrix, right, strict=True):
         if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
             raise ArithmeticError(
@@ -98,7 +99,7 @@ def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | 
         raise ValueError(f"there is no limit for {letter} to {to}: it goes to and fro without end; put a number for {letter}")
     if isinstance(found, sympy.Limit) or found.has(sympy.nan):
         raise ValueError(f"no symbolic limit was found for {letter} to {to}; set some symbols to numbers")
-    return from_sympy(found) if found.is_infinite else shortest(found, letters)
+    return from_sympy(found) if found.is_infinite else presented(found, letters, patience=PATIENCE)
 
 
 def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None = None) -> Tree:
@@ -106,7 +107,7 @@ def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None =
     import sympy
 
     chosen = {sympy.Symbol(name): to_sympy(value) for name, value in values.items()}
-    return shortest(to_sympy(tree).subs(chosen, simultaneous=True), letters)
+    return presented(to_sympy(tree).subs(chosen, simultaneous=True), letters, patience=PATIENCE)
 
 
 def _require_square(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from freebody.equations.solve import TooLarge
 from freebody.symbolic.decimals import is_measured
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.simplify import shortest
+from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
 
@@ -45,7 +45,7 @@ class Stability:
 
 def characteristic(matrix: Sequence[Sequence[Tree]], letters: Letters | None = None) -> list[Tree]:
     """The coefficients of det(s I − A), that of the highest power, 1, first."""
-    return [shortest(factor, letters) for factor in _polynomial(matrix, ()).all_coeffs()]
+    return [presented(factor, letters, patience=PATIENCE) for factor in _polynomial(matrix, ()).all_coeffs()]
 
 
 def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[tuple[list[Tree], int]]:
@@ -65,7 +65,7 @@ def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[
     s = sympy.Dummy("s")
     above, _ = sympy.fraction(sympy.together(sympy.Poly(expressions, s).as_expr()))
     found = [(sympy.Poly(factor, s), count) for factor, count in sympy.factor_list(above)[1] if factor.has(s)]
-    return made + [([shortest(c / p.LC(), letters) for c in p.all_coeffs()], count) for p, count in found]
+    return made + [([presented(c / p.LC(), letters, patience=PATIENCE) for c in p.all_coeffs()], count) for p, count in found]
 
 
 def eigenvalues(
@@ -102,7 +102,7 @@ def stability(
     left = _oscillates(a)[: 2 if symmetric else 3] if even else _hurwitz(a)
     kept = [found for condition in left if (found := _reduced(condition)) is not None]
     never = any(condition.is_nonpositive for condition in kept)
-    shown = tuple(dict.fromkeys(shortest(condition, letters) for condition in kept))
+    shown = tuple(dict.fromkeys(presented(condition, letters, patience=PATIENCE) for condition in kept))
     return Stability("oscillates" if even else "decays", shown, never)
 
 
@@ -165,7 +165,7 @@ def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
     real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
         real, imaginary = _apart(root)
-    parts = (_one_root(shortest(sympy.radsimp(sympy.simplify(part)), letters)) for part in (real, imaginary))
+    parts = (_one_root(presented(sympy.radsimp(sympy.simplify(part)), letters, patience=PATIENCE)) for part in (real, imaginary))
     return Eigenvalue(*parts, count)
 
 

@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from dataclasses import replace as replaced
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from freebody.equations.linear import Linear
 from freebody.equations.solve import TooLarge, coefficients, solve
 from freebody.symbolic.decimals import measured
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.simplify import PATIENCE, shortest
+from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, mul, negative, operations, over, replace, symbols
@@ -153,22 +152,12 @@ def _sum_up(found: Ratios, subject: SymbolicState, put: Put, names: Sequence[str
     inertia = [mul(k[i], entry, k[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
     moved = [mul(k[i], entry, c[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
     rests = [mul(k[i], rest) for i, (_, rest) in enumerate(rows)]
-    found.inertia = _collected(add(*inertia), subject)
-    found.load = _collected(negative(add(*moved, *rests)), subject)
+    found.inertia = _by_loads(add(*inertia), subject)
+    found.load = _by_loads(negative(add(*moved, *rests)), subject)
 
 
-def _collected(tree: Tree, subject: SymbolicState) -> Tree:
-    """A sum by masses and loads, each with the short form of its factor."""
-    import sympy
-
-    expression = sympy.expand(to_sympy(_plain(tree)))
-    heavy = [sympy.Symbol(name) for name in sorted(subject.letters.of_kind("parameter", "constant"), key=subject.letters.place)
-             if name not in subject.letters.geometric()]  # fmt: skip
-    parts: dict[Any, Any] = {}
-    for term in sympy.Add.make_args(expression):
-        key = sympy.Mul(*(f for f in sympy.Mul.make_args(term) if f in heavy))
-        parts[key] = parts.get(key, 0) + term / key
-    return add(*(mul(from_sympy(key), shortest(factor, subject.letters, PATIENCE / 5)) for key, factor in parts.items()))
+def _by_loads(tree: Tree, subject: SymbolicState) -> Tree:
+    return presented(_plain(tree), subject.letters, by_loads=True, patience=PATIENCE / 5)
 
 
 def blocks(found: Ratios, wanted: Sequence[str], shown: Put) -> list[Block]:

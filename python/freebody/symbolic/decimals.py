@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.algebra import factored, quotient
 from freebody.symbolic.to_sympy import from_sympy
-from freebody.symbolic.tree import PI, ZERO, Add, Fn, Mul, Num, Pow, Sym, Tree, add, mul, number
+from freebody.symbolic.tree import PI, ZERO, Num, Sym, Tree, add, mul, number, rebuilt
 
 _RATIONAL = 1e-12
 _DENOMINATORS = 1000
@@ -73,22 +72,7 @@ def _sum(terms: list[tuple[float, Any]], unit: float) -> Tree:
 
 def with_exact_numbers(tree: Tree) -> Tree:
     """An expression with its plain measured numbers as fractions."""
-    return _with_numbers(tree, lambda value: exact(value) if isinstance(value, float) else Num(value))
-
-
-def _with_numbers(tree: Tree, stated: Callable[[float | Fraction], Tree]) -> Tree:
-    """An expression with every number as it is ``told``."""
-    match tree:
-        case Num(value):
-            return stated(value)
-        case Add(parts) | Mul(parts):
-            return type(tree)(tuple(_with_numbers(part, stated) for part in parts))
-        case Pow(base, exponent):
-            return Pow(_with_numbers(base, stated), exponent)
-        case Fn(name, args):
-            return Fn(name, tuple(_with_numbers(arg, stated) for arg in args))
-        case _:
-            return tree
+    return rebuilt(tree, lambda part: exact(part.value) if isinstance(part, Num) and isinstance(part.value, float) else None)
 
 
 def exact_angle(value: float) -> Tree:
@@ -105,16 +89,11 @@ def exact(value: float) -> Tree:
 
 def shown(tree: Tree) -> Tree:
     """With numbers to five figures, as they are printed."""
-    return _with_numbers(tree, _in_figures)
+    return rebuilt(tree, lambda part: _in_figures(part.value) if isinstance(part, Num) else None)
 
 
-def _in_figures(value: float | Fraction) -> Tree:
-    plain = isinstance(value, Fraction) and (
-        value.denominator <= _PLAIN or (value.denominator <= _MOST and not _is_decimal(value))
-    )
+def _in_figures(value: float | Fraction) -> Num:
+    exact = isinstance(value, Fraction)
+    ends = exact and 10**6 % value.denominator == 0  # as a decimal number
+    plain = exact and (value.denominator <= _PLAIN or (value.denominator <= _MOST and not ends))
     return Num(value if plain else float(f"{float(value):.{_FIGURES}g}"))
-
-
-def _is_decimal(value: Fraction) -> bool:
-    """Whether its decimals end."""
-    return 10**6 % value.denominator == 0

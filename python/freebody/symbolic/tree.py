@@ -312,19 +312,7 @@ def symbols(*trees: Tree) -> set[Sym]:
 
 def replace(tree: Tree, new: Mapping[Sym, Tree]) -> Tree:
     """The tree with letters replaced."""
-    match tree:
-        case Sym():
-            return new.get(tree, tree)
-        case Num():
-            return tree
-        case Add(terms):
-            return add(*(replace(term, new) for term in terms))
-        case Mul(factors):
-            return mul(*(replace(factor, new) for factor in factors))
-        case Pow(base, exponent):
-            return Pow(replace(base, new), exponent)
-        case Fn(name, args):
-            return Fn(name, tuple(replace(arg, new) for arg in args))
+    return rebuilt(tree, lambda part: new.get(part) if isinstance(part, Sym) else None)
 
 
 def rebuilt(tree: Tree, put: Callable[[Tree], Tree | None]) -> Tree:

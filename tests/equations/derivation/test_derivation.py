@@ -12,8 +12,9 @@ import freebody as fb
 from freebody.cli import app
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.data import SymbolicState
-from freebody.symbolic.collect import collected, factored, quotient
+from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Sym, mul, power, read, symbols
 
 GUN = "examples/new_gun.yaml"
@@ -119,7 +120,7 @@ SUMS = [
 def test_factors_in_front_leave_the_value(data):
     tree, rng = read(data), np.random.default_rng(1)
     values = {letter: rng.uniform(0.5, 2) for letter in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
-    for made in (factored(tree), collected(tree, [Sym("x", 2)])):
+    for made in (presented(tree), presented(tree, unknowns=[Sym("x", 2)])):
         assert evaluate(made, values) == pytest.approx(evaluate(tree, values), rel=1e-14)
 
 

@@ -9,7 +9,7 @@ import freebody as fb
 from freebody.equations.derivation.derive import FORMS
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import TOPICS, NotHere, topic
-from freebody.symbolic.collect import pythagorean
+from freebody.symbolic.algebra import pythagorean
 from freebody.symbolic.tree import Add, Fn, Sym, Tree, add, children, mul, number, power
 
 SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")

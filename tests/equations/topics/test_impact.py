@@ -9,7 +9,7 @@ from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.topics import NotHere, topic
 from freebody.equations.topics.impact_equations import after, blow
 from freebody.equations.topics.impulse_momentum import jumps
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.algebra import equal
 
 
 def carts(restitution: float) -> fb.Mechanism:

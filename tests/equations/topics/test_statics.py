@@ -7,7 +7,7 @@ from models import tree
 
 import freebody as fb
 from freebody.equations import Equation, evaluate, symbols, to_sympy
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import Sym
 
 LADDER = """

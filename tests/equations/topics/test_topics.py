@@ -22,7 +22,7 @@ from freebody.equations.topics import TOPICS, NotHere, described, topic
 from freebody.equations.topics.common import place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 
 TREES = ["19.3.1", "19.3.10", "19.3.15", "19.3.17", "19.3.20", "19.3.28", "EX-BLOCK", "GEN-CHAIN", "S19.17", "S19.18"]

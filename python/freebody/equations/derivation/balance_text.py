@@ -17,8 +17,8 @@ from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbols import load_words
-from freebody.symbolic.collect import collected, factored
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Add, Sym, Tree, is_negative, is_zero, negative, symbols
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
@@ -55,7 +55,7 @@ class Stated:
         """Both sides, each unknown with one factor; and whether all their signs are changed, so that the acceleration that it is for
         is positive, or, where it is for none, some term that has one, or some term."""
         unknowns = list(self.balance.linear.coefficients)
-        left, right = collected(self.balance.right, unknowns), collected(self.balance.left, unknowns)
+        left, right = presented(self.balance.right, unknowns=unknowns), presented(self.balance.left, unknowns=unknowns)
         every = left.terms if isinstance(left, Add) else (left,)
         terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
         turned = self.own < 0 or (self.own == 0 and all(map(is_negative, terms)))
@@ -82,12 +82,12 @@ class Stated:
         what, sign, rate = ("moments", "Σ M = Ḣ", "angular momentum") if balance.turns else ("components", "Σ F = L̇", "momentum")
         unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
         acting: list[Words] = [
-            [f"{load_words(subject.free.loads[c.load], balance.bodies)}: ", factored(c.tree)]
+            [f"{load_words(subject.free.loads[c.load], balance.bodies)}: ", presented(c.tree)]
             for c in balance.contributions
             if not c.absent and c.load not in cancelled
         ]
         moved = [(body, tree) for body, tree in balance.inertia if not is_zero(tree)]
-        inertia: list[Words] = [[f"inertia of {body}: ", collected(tree, unknowns)] for body, tree in moved]
+        inertia: list[Words] = [[f"inertia of {body}: ", presented(tree, unknowns=unknowns)] for body, tree in moved]
         made += [Paragraph(f"Applied {what}:"), Bullets(acting)] if acting else [Paragraph("No other load enters this equation.")]
         made += [Paragraph(f"Rate of change of {rate}:"), Bullets(inertia)] if inertia else []
         turned = ", with all signs changed," * self._collected[2]

@@ -18,7 +18,7 @@ from freebody.equations.derivation.form import Form, Printed
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.equations.derivation.single_unknown import wanted
-from freebody.symbolic.collect import quotient
+from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, Tree, symbols
 

@@ -11,8 +11,8 @@ from fractions import Fraction
 from freebody.document.blocks import Vector, Words, Written
 from freebody.equations.derivation.data import Arrow, Motion
 from freebody.equations.derivation.sentences import joined
-from freebody.symbolic.collect import factored
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import Name, Taken, direction, subscript, unicode_name
 from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, mul, negative, number, symbols
 
@@ -127,7 +127,7 @@ class Directions:
             for _ in range(pair.quarters):
                 x, y = y, negative(x)
             parts += [(x, pair.along), (y, pair.across)]
-        return Vector(tuple((factored(tree), name) for tree, name in parts if not is_zero(tree)))
+        return Vector(tuple((presented(tree), name) for tree, name in parts if not is_zero(tree)))
 
     def rates(self) -> list[tuple[Written, Vector]]:
         """How the directions turn: dλ/dt = ω n, dn/dt = −ω λ."""

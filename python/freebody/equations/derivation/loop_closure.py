@@ -9,7 +9,7 @@ from freebody.equations.derivation.data import Row
 from freebody.equations.derivation.form import Printed, System
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.equations.linear import Linear, linear_in
-from freebody.symbolic.collect import common_number, divided
+from freebody.symbolic.algebra import common_number, divided
 from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, negative, symbols
 
 _WHAT = {

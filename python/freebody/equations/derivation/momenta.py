@@ -15,9 +15,10 @@ from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.perturbed_states import wandering
 from freebody.solve.symbols import load_words
-from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import Script, typed, word
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Add, Tree, add, is_negative, is_zero, negative, power, symbols
 
 _ABSENT = 1e-9
@@ -87,7 +88,7 @@ def _written(subject: SymbolicState, balance: Balance) -> Tree:
         return balance.momentum
     x, y = balance.place.xy
     size = float(np.hypot(*(evaluate(tree, subject.values, subject.tables) for tree in (x, y))))
-    made = factored(balance.momentum)
+    made = presented(balance.momentum)
     made = made if abs(size - 1) < _ABSENT else quotient(made, power(add(power(x, 2), power(y, 2)), "1/2"))
     return negative(made) if not isinstance(made, Add) and is_negative(made) else made
 

@@ -13,7 +13,7 @@ from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import clause
 from freebody.equations.linear import Linear
 from freebody.solve.perturbed_states import independent
-from freebody.symbolic.collect import common_number, divided
+from freebody.symbolic.algebra import common_number, divided
 from freebody.symbolic.formula import typed
 from freebody.symbolic.symbols import name_formula, unicode_name
 from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read

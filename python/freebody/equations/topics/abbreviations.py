@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ONE, Add, Fn, Sym, Tree, mul, negative, operations, rebuilt, replace, symbols
 

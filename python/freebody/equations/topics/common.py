@@ -11,11 +11,9 @@ from freebody.equations.derivation import preamble
 from freebody.equations.derivation.data import Arrow, SymbolicState
 from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.sentences import lettered, readable
-from freebody.symbolic.collect import factored, pythagorean
 from freebody.symbolic.differentiate import derivative
 from freebody.symbolic.letters import Letter, Letters
-from freebody.symbolic.simplify import shortest
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, canonical, mul, negative
 
 if TYPE_CHECKING:
@@ -67,14 +65,12 @@ def cross(a: tuple[Tree, Tree], b: tuple[Tree, Tree]) -> Tree:
 
 def brief(tree: Tree, letters: Letters) -> Tree:
     """The shortest form found; it takes up to seconds."""
-    return shortest(to_sympy(tree), letters)
+    return presented(tree, letters, patience=PATIENCE)
 
 
 def spread(tree: Tree) -> Tree:
     """The sum of all products, sin² + cos² being 1, with what they have in common in front."""
-    import sympy
-
-    return factored(pythagorean(from_sympy(sympy.expand(to_sympy(tree)))))
+    return presented(tree, multiplied_out=True)
 
 
 def place_of(subject: SymbolicState, point: str) -> Arrow:

@@ -12,9 +12,9 @@ from freebody.equations.derivation.data import Arrow, Direction, SymbolicState
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere, document, known, place_of, rates, spread, subject_of
-from freebody.symbolic.collect import factored, quotient
+from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.formula import Atom, Script, bold
-from freebody.symbolic.simplify import equal
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, is_zero, negative, read, replace, symbols
@@ -132,7 +132,7 @@ def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow],
 
 
 def _put(tree: Tree, known: Mapping[Sym, Tree]) -> Tree:
-    return factored(from_sympy(to_sympy(replace(tree, known))))
+    return presented(from_sympy(to_sympy(replace(tree, known))))
 
 
 def _vector(name: str) -> Written:

@@ -20,7 +20,7 @@ from freebody.equations.topics.impact_equations import Impact, after, blow, hamm
 from freebody.equations.topics.impact_rows import Rows
 from freebody.equations.topics.impulse_momentum import Solution, jumps
 from freebody.solve.symbols import load_words
-from freebody.symbolic.collect import collected
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import ZERO, Num, Sym, is_zero, symbols
 
 if TYPE_CHECKING:
@@ -128,8 +128,8 @@ def _of_bodies(found: Impact, stated: Sequence[Stated]) -> list[Block]:
 
 def _with_impulses(found: Impact, each: Stated) -> Equation:
     unknown = [Sym(after(name), 1) for name in found.subject.names]
-    left = collected(found.acting(each.balance), list(found.impulses.values()))
-    return Equation(left, collected(found.jump(each.balance), unknown), _title(each.title), note=_left_out(found, each))
+    left = presented(found.acting(each.balance), unknowns=list(found.impulses.values()))
+    return Equation(left, presented(found.jump(each.balance), unknowns=unknown), _title(each.title), note=_left_out(found, each))
 
 
 def _left_out(found: Impact, each: Stated) -> Words:

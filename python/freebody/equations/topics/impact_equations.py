@@ -21,7 +21,7 @@ from freebody.equations.topics.common import NotHere
 from freebody.impact.impacts import Impulsive, NoImpact
 from freebody.impact.symbols import ImpulseNaming
 from freebody.solve.symbols import load_words
-from freebody.symbolic.collect import quotient
+from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.symbols import Name

@@ -14,9 +14,9 @@ from freebody.equations.topics.abbreviations import Names
 from freebody.equations.topics.common import spread
 from freebody.equations.topics.impact_equations import Impact, after
 from freebody.equations.topics.impact_rows import MOST_OPERATIONS, Row, Rows, require_brief
-from freebody.symbolic.collect import factored, quotient, without_circles
+from freebody.symbolic.algebra import quotient, without_circles
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.simplify import length, shortest
+from freebody.symbolic.presentation import length, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import (
     ONE,
@@ -178,7 +178,7 @@ class _System:
         return self.names.angles(small)
 
     def _entry(self, tree: Tree) -> Tree:
-        return self.names.entry(factored(self._put(tree)))
+        return self.names.entry(presented(self._put(tree)))
 
     def _named(self, row: Row) -> Row:
         return [self._entry(entry) for entry in row[0]], self._put(row[1])
@@ -296,7 +296,7 @@ class _System:
             [whole, self.names.plain_angles(_fourier(whole))] if any(isinstance(part, Fn) for part in walk(whole)) else [whole]
         )
         given = (sympy.together(to_sympy(form)) if isinstance(form, Add) else to_sympy(form) for form in forms)
-        made = (self._finished(shortest(form, letters, _PATIENCE)) for form in given)
+        made = (self._finished(presented(form, letters, patience=_PATIENCE)) for form in given)
         best = min(made, key=lambda form: length(form, letters))
         return best if self._signs(best) <= max(_READABLE, self._signs(short)) else short
 

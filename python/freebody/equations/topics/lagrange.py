@@ -21,10 +21,9 @@ from freebody.equations.derivation.sentences import joined
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, solve
 from freebody.equations.topics.common import document, subject_of
-from freebody.symbolic.collect import quotient
+from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import typed
-from freebody.symbolic.simplify import equal
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
 

@@ -10,8 +10,8 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Writte
 from freebody.document.document import Document
 from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, cross, document, group_of, known, place_of, rate, rates, spread, subject_of
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
-from freebody.symbolic.simplify import equal
 from freebody.symbolic.symbols import name_formula
 from freebody.symbolic.tree import Tree, add, is_zero
 

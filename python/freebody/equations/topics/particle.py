@@ -10,8 +10,8 @@ from freebody.document.document import Document
 from freebody.equations.derivation.data import Arrow, Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
 from freebody.solve.symbols import load_words
-from freebody.symbolic.collect import factored
 from freebody.symbolic.letters import Letter
+from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def _cartesian(subject: SymbolicState, body: str, balances: list[Balance]) -> li
             acting.append([f"{load_words(subject.free.loads[along_x.load])}: ", arrow])
     made.append(Bullets(acting or ["nothing"]))
     names = ("Σ F·i = m a_x", "Σ F·j = m a_y")
-    return made + [Equation(factored(b.right), b.left, name) for b, name in zip(balances, names, strict=True)]
+    return made + [Equation(presented(b.right), b.left, name) for b, name in zip(balances, names, strict=True)]
 
 
 def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[Letter]]:

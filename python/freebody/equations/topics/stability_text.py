@@ -12,9 +12,9 @@ from freebody.equations.linearization import Linearised, Matrix, numbers
 from freebody.equations.modes import Modes, first_order, modes
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.letters import Letter
-from freebody.symbolic.simplify import equal
 from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
 
 Factors = list[tuple[list[Tree], int]]

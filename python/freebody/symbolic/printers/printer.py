@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import ClassVar, Generic, TypeVar
 
-from freebody.symbolic import layout
 from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers import layout
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, is_zero
 
 Made = TypeVar("Made", bound=Sequence)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
-from freebody.symbolic import layout
 from freebody.symbolic.letters import Letters
+from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
 from freebody.symbolic.tree import Fn, Num, Sym, Tree

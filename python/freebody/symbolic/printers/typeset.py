@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.symbolic import layout
 from freebody.symbolic.formula import (
     GAP,
     MINUS,
@@ -28,6 +27,7 @@ from freebody.symbolic.formula import (
 from freebody.symbolic.formula import Fraction as Stacked
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers import latex as spelled
+from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.line_breaking import ROOM, equation
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import direction, name_formula

@@ -1,18 +1,24 @@
-"""Sums as a person writes them: common factors in front, squares of sums as such, unknowns with one factor each."""
+"""Identities of sums and products: common factors, quotients, sin² + cos² = 1; and whether two expressions are equal."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+import random
+from collections.abc import Sequence
 from fractions import Fraction
 
-from freebody.symbolic.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul, number, power, symbols
+import numpy as np
+
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul, number, power, rebuilt, symbols
 
 Powers = dict[Tree, Fraction]
 Term = tuple[Fraction | float, Powers]
 _ROUND_OFF = 1e-14
 """Part of a measured number by which it may be off a whole one."""
+_SAMPLES = 4
+_AGREEMENT = 1e-8  # relative difference of two forms that are equal
 _CIRCLES = ({("sin", 2), ("cos", -2)}, {("sin", -2), ("cos", 2)})
 
 
@@ -35,36 +41,31 @@ def common_number(trees: Sequence[Tree]) -> Tree:
     return mul(number(abs(_size(terms))), *(power(f, e) for f, e in shared.items())) if shared else ONE
 
 
-def collected(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
-    """A sum that is linear in some letters, with one factor for each of them; as it is if it is not linear."""
-    parts = _linear(tree, set(unknowns)) if isinstance(tree, Add) else None
-    if parts is None:
-        return tree
-    coefficients, rest = parts
-    made = [mul(factored(add(*coefficients[x])), x) for x in unknowns if x in coefficients]
-    return add(*made, *rest)
-
-
 def pythagorean(tree: Tree) -> Tree:
     """A sum in which sin²α and cos²α with the same factors have become one: a sin²α + b + a cos²α is a + b."""
     if not isinstance(tree, Add):
         return tree
     terms = [_split(term) for term in tree.terms]
     while pair := next(filter(_is_circle, itertools.combinations(terms, 2)), None):
-        terms = [term for term in terms if term not in pair] + [_radius(*pair)]
+        (size, powers), (_, rest) = pair
+        both = {f: least for f, e in powers.items() if f in rest and (least := min(e, rest[f]))}
+        terms = [term for term in terms if term not in pair] + [(size, both)]
     return add(*map(_joined, terms))
 
 
 def without_circles(tree: Tree) -> Tree:
-    """The expression with ``pythagorean`` applied to every sum in it."""
-    match tree:
-        case Add(terms):
-            return pythagorean(add(*map(without_circles, terms)))
-        case Mul(factors):
-            return mul(*map(without_circles, factors))
-        case Pow(base, exponent):
-            return power(without_circles(base), exponent)
-    return tree
+    """The expression with ``pythagorean`` applied to every sum in it, but those that functions are of."""
+
+    def put(part: Tree) -> Tree | None:
+        return (
+            pythagorean(add(*map(without_circles, part.terms)))
+            if isinstance(part, Add)
+            else part
+            if isinstance(part, Fn)
+            else None
+        )
+
+    return rebuilt(tree, put)
 
 
 def quotient(above: Tree, below: Tree) -> Tree:
@@ -83,6 +84,25 @@ def divided(tree: Tree, factor: Tree) -> Tree:
     return add(*(quotient(term, factor) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
 
 
+def equal(first: Tree, second: Tree) -> bool:
+    """Whether two expressions agree at random values of their letters; places where one has no value are passed over."""
+    draw, letters, compared = random.Random(7), sorted(symbols(first, second), key=str), 0
+    for _ in range(4 * _SAMPLES):
+        values = {letter: draw.uniform(0.3, 1.9) for letter in letters}
+        try:
+            with np.errstate(all="ignore"):
+                a, b = (complex(evaluate(tree, values)) for tree in (first, second))
+        except (ZeroDivisionError, OverflowError):
+            continue
+        if a == a and b == b:
+            if abs(a - b) > _AGREEMENT * max(1.0, abs(a), abs(b)):
+                return False
+            compared += 1
+        if compared == _SAMPLES:
+            break
+    return compared > 0
+
+
 def _whole(size: Fraction | float) -> Fraction | float:
     """A measured number that is whole but for round-off as that number."""
     near = isinstance(size, float) and size != 0 and abs(size - round(size)) < _ROUND_OFF * abs(size)
@@ -97,40 +117,15 @@ def _is_circle(pair: tuple[Term, Term]) -> bool:
     return size == other and len(angles) == 1 and {(getattr(f, "name", ""), e) for f, e in apart.items()} in _CIRCLES
 
 
-def _radius(first: Term, second: Term) -> Term:
-    """The sum of two such terms."""
-    (size, powers), rest = first, second[1]
-    return size, {f: min(e, rest[f]) for f, e in powers.items() if f in rest and min(e, rest[f])}
-
-
-def _linear(tree: Add, unknowns: set[Sym]) -> tuple[Mapping[Sym, list[Tree]], list[Tree]] | None:
-    coefficients: dict[Sym, list[Tree]] = {}
-    rest: list[Tree] = []
-    for term in tree.terms:
-        held = symbols(term) & unknowns
-        factors = list(term.factors) if isinstance(term, Mul) else [term]
-        if not held:
-            rest.append(term)
-        elif len(held) == 1 and (x := next(iter(held))) in factors:
-            factors.remove(x)
-            if x in symbols(*factors):
-                return None
-            coefficients.setdefault(x, []).append(mul(*factors))
-        else:
-            return None
-    return coefficients, rest
-
-
 def _split(term: Tree) -> Term:
     size: Fraction | float = Fraction(1)
     powers: Powers = {}
     for factor in term.factors if isinstance(term, Mul) else (term,):
         if isinstance(factor, Num):
             size *= factor.value
-        elif isinstance(factor, Pow):
-            powers[factor.base] = powers.get(factor.base, Fraction(0)) + factor.exponent
         else:
-            powers[factor] = powers.get(factor, Fraction(0)) + 1
+            base, exponent = (factor.base, factor.exponent) if isinstance(factor, Pow) else (factor, 1)
+            powers[base] = powers.get(base, Fraction(0)) + exponent
     return size, powers
 
 
@@ -155,28 +150,21 @@ def _size(terms: Sequence[Term]) -> Fraction | float:
 
 def _square(terms: Sequence[Term]) -> Tree | None:
     """(Σ k x)² if that is what the terms are."""
-    roots = [(c, next(iter(p))) for c, p in terms if len(p) == 1 and set(p.values()) == {2}]
-    n = len(roots)
-    if n < 2 or len(terms) != n * (n + 1) // 2 or any(_root(size) is None for size, _ in roots):
-        return None
     cross = {frozenset(p): c for c, p in terms if len(p) == 2 and set(p.values()) == {1}}
-    first = roots[0]
-    sized = [(_signed(first, root, cross), root[1]) for root in roots]
-    wanted = {frozenset((a, b)): 2 * p * q for i, (p, a) in enumerate(sized) for q, b in sized[:i]}
-    return power(add(*(mul(number(c), x) for c, x in sized)), 2) if cross == wanted else None
-
-
-def _signed(first: tuple, root: tuple, cross: Mapping[frozenset, Fraction | float]) -> Fraction:
-    size = _root(root[0]) or Fraction(0)
-    return -size if root is not first and cross.get(frozenset((first[1], root[1])), 0) < 0 else size
+    roots = {next(iter(p)): k for c, p in terms if len(p) == 1 and set(p.values()) == {2} and (k := _root(c))}
+    first, n = next(iter(roots), None), len(roots)
+    roots = {x: -k if cross.get(frozenset((first, x)), 0) < 0 else k for x, k in roots.items()}
+    products = {frozenset((x, y)): 2 * k * l for (x, k), (y, l) in itertools.combinations(roots.items(), 2)}
+    is_square = n > 1 and len(terms) == n * (n + 1) // 2 and cross == products
+    return power(add(*(mul(number(k), x) for x, k in roots.items())), 2) if is_square else None
 
 
 def _root(value: Fraction | float) -> Fraction | None:
-    if not isinstance(value, Fraction) or value <= 0:
+    """The square root of a fraction, where that is one."""
+    if isinstance(value, float) or value <= 0:
         return None
-    above, below = math.isqrt(value.numerator), math.isqrt(value.denominator)
-    exact = above * above == value.numerator and below * below == value.denominator
-    return Fraction(above, below) if exact else None
+    root = Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator))
+    return root if root**2 == value else None
 
 
 def _joined(term: Term) -> Tree:
