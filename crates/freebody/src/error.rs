@@ -57,6 +57,8 @@ pub enum Trouble {
     CreatesEnergy(String, f64),
     /// No impulses at contacts do what is asked: names, what, why.
     NoImpulses(String, &'static str, String),
+    /// Contacts between which prescribed motions and locks leave nothing that could yield: names.
+    DrivenTogether(String),
     /// The impulses found create energy: t, J.
     ImpulsesCreateEnergy(f64, f64),
     /// Impacts at once whose outcome rigid bodies leave open: names, what follows by each rule.
@@ -217,6 +219,11 @@ impl Trouble {
                 None,
             ),
             Self::NoImpulses(names, what, why) => ("no_impact", format!("no impulses at {names} {what}: {why}"), None),
+            Self::DrivenTogether(names) => (
+                "no_impact",
+                format!("prescribed motions drive together what meets at {names}, and nothing between them can yield; end the motion before, or let a spring stand for the contact"),
+                None,
+            ),
             Self::ImpulsesCreateEnergy(t, energy) => {
                 ("no_impact", format!("the impulses found at t = {t:.12} s would create the energy {energy:.6e} J"), None)
             }

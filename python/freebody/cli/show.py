@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3
+_SWITCHED = ("t [s]", "kind", "what", "energy lost [J]", "work of motions [J]", "")
 
 
 def dumped(data: Any) -> str:
@@ -76,7 +77,7 @@ def run(done: Run) -> None:
         _ending(done),
         *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
-        table("mode changes", ["t [s]", "kind", "what", "energy lost [J]", ""], switch_rows(done.changes)),
+        table("mode changes", _SWITCHED, switch_rows(done.changes)),
         table("report", ["quantity", "value", "unit", "t [s]", ""], reported),
         table("energy", ["", "start [J]", "end [J]"], ledger),
         f"Energy error below {closure(done):.1e} of the largest entry.\n",
@@ -119,10 +120,10 @@ def _run_as_dict(done: Run, files: Sequence[Path]) -> dict[str, Any]:
 
 def switch_rows(changes: Sequence[Change]) -> list[Row]:
     """Rows of a table; of many only the first and the last, with one between that says how many there are."""
-    rows: list[Row] = [(c.t, c.kind, ", ".join(c.of), c.lost if c.impulses or c.before else "", c.note) for c in changes]
+    rows: list[Row] = [(c.t, c.kind, ", ".join(c.of), c.lost if c.impulses or c.before else "", c.work, c.note) for c in changes]
     if len(rows) <= _FIRST + _LAST + 1:
         return rows
-    return [*rows[:_FIRST], ("…", f"{len(rows) - _FIRST - _LAST} more", f"of {len(rows)}", "", ""), *rows[-_LAST:]]
+    return [*rows[:_FIRST], ("…", f"{len(rows) - _FIRST - _LAST} more", f"of {len(rows)}", "", "", ""), *rows[-_LAST:]]
 
 
 # One instant

@@ -57,8 +57,8 @@ class Snapshot:
 class Impulses:
     """The impulses of an impact: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
     second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
-    ``drives`` (motions and couplings) and ``locks`` along what they hold. ``restitution`` is that of what was struck; ``spared`` was
-    reached too, but would have had to pull."""
+    ``drives`` (motions and couplings) and ``locks`` along what they hold; ``works`` of motions in J. ``restitution`` is that of what
+    was struck; ``spared`` was reached too, but would have had to pull."""
 
     contacts: Mapping[str, tuple[float, float]]
     joints: Mapping[str, tuple[float, float, float]]
@@ -67,19 +67,20 @@ class Impulses:
     spared: tuple[str, ...] = ()
     drives: Mapping[str, float] = field(default_factory=dict)
     locks: Mapping[str, float] = field(default_factory=dict)
+    works: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def sizes(self) -> dict[str, float]:
-        """How large the impulse of each contact, string, stop and lock is."""
-        locks = {name: abs(impulse) for name, impulse in self.locks.items()}
-        return {name: float(np.hypot(*force)) for name, force in self.contacts.items()} | dict(self.stops) | locks
+        """How large the impulse of each contact, string, stop, motion, coupling and lock is."""
+        held = {name: abs(impulse) for name, impulse in {**self.drives, **self.locks}.items()}
+        return {name: float(np.hypot(*force)) for name, force in self.contacts.items()} | dict(self.stops) | held
 
 
 @dataclass(frozen=True)
 class Change:
     """Something that switched: time in s; ``kind`` is impact, taut, slack, contact, lift-off, slip, stick, reversal, rest,
     released, engaged or reset; the names concerned; the energy lost in J. Where rates jumped, the state before and after;
-    where there was an impact, its impulses."""
+    where there was an impact, its impulses. What is lost is the ``work`` of the motions less the gain of energy."""
 
     t: float
     kind: str
@@ -89,6 +90,11 @@ class Change:
     impulses: Impulses | None = None
     before: Snapshot | None = None
     after: Snapshot | None = None
+
+    @property
+    def work(self) -> float | None:
+        """What motions put in by their impulses, J; None where they have none."""
+        return sum(self.impulses.works.values()) if self.impulses and self.impulses.works else None
 
 
 def there(changes: Sequence[Change], name: str, engaged: bool, times: Array) -> Array:
@@ -135,7 +141,7 @@ class Motion:
         return Change(**plain, of=tuple(of), note=note or "", impulses=impulses and self._impulses(**impulses),
                       **dict(zip(("before", "after"), sides, strict=True)))  # fmt: skip
 
-    def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str], drives: Any = ()) -> Impulses:
+    def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str], drives: Any = (), works: Any = ()) -> Impulses:
         stops = {limit["name"] for limit in self.about["limits"] if limit["type"] == "stop"}
         names = [joint["name"] for joint in self.about["joints"]]
         locks = {lock["name"] for lock in self.about["locks"]}
@@ -147,6 +153,7 @@ class Motion:
             spared=tuple(spared),
             drives={name: p for name, p in drives if name not in locks},
             locks={name: p for name, p in drives if name in locks},
+            works=dict(works),
         )
 
 

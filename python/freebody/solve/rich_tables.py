@@ -36,12 +36,15 @@ def table(
     title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], figures: Collection[str] = (), edge: bool = False
 ) -> Table:
     """A table for rich: words to the left, figures to the right. Figures are floats, what stands below a unit in brackets, and the
-    columns with the heads ``figures``; None is left blank. Names come from the model, so nothing is taken for markup."""
+    columns with the heads ``figures``; None is left blank, and a blank column is left out. Names come from the model, so nothing is
+    taken for markup."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
 
     rows = list(rows)
+    filled = [i for i in range(len(heads)) if not rows or any(row[i] not in ("", None) for row in rows)]
+    heads, rows = [heads[i] for i in filled], [[row[i] for i in filled] for row in rows]
     made = Table(title=Text(title, "bold") if title else None, title_justify="left", box=box.SIMPLE_HEAD, show_edge=edge)
     for i, head in enumerate(heads):
         right = "[" in head or head in figures or any(isinstance(row[i], float) for row in rows)

@@ -83,6 +83,11 @@ impl ClosedContacts {
         normal.iter().chain(tangent).enumerate().map(|(i, p)| (self.g[(i, i)] * p).abs())
     }
 
+    /// Change of the rate of gap `i` by a unit impulse along it, 1/kg.
+    pub fn response(&self, i: usize) -> f64 {
+        self.g[(i, i)]
+    }
+
     /// Of each unilateral constraint whether it approaches faster than `rest_speed`, or is coupled to one that does.
     pub fn takes_part(&self, rest_speed: f64) -> Vec<bool> {
         let k = self.len();

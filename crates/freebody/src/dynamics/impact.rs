@@ -1,8 +1,9 @@
 //! Impacts: what impulses through unilateral constraints and joints do.
 
 use super::contact_modes::force_on_first;
+use super::minimal::Force;
 use super::reactions::joint_load;
-use super::{ClosedContacts, ContactTolerances, JointLoad, Trouble, Workspace};
+use super::{ClosedContacts, ContactTolerances, JointLoad, Row, Trouble, Workspace};
 use crate::contact::complementarity::{self, ImpactProblem, Problem};
 use crate::mechanism::Friction;
 use crate::plane::{Twist, Vec2, Wrench};
@@ -26,6 +27,8 @@ pub struct ImpactSolution {
     pub joints: Vec<JointLoad>,
     /// Impulse of every coupling, motion and lock along its gauge.
     pub drives: Vec<f64>,
+    /// Work of these impulses, J.
+    pub drive_works: Vec<f64>,
     /// What was to be said of the law.
     pub note: Option<String>,
 }
@@ -82,12 +85,15 @@ impl Workspace<'_> {
         let solution = self.dense.saddle.solve(&force, &vec![0.0; self.rows.len()]);
         let mut change = vec![0.0; self.m.freedom()];
         self.to_user(&solution.a, &mut change);
-        let joints = self.impulsive_loads(contacts, &p, &solution.a, &solution.lambda);
+        let jumps = self.jumps(&solution.a);
+        let joints = self.impulsive_loads(contacts, &p, &jumps, &solution.lambda);
         let k = contacts.len();
         let on_first = (0..k).map(|i| self.on_first(contacts, i, p[i], p[k + i])).collect();
         let (normal, tangent) = (impulses.normal, impulses.tangent);
         let drives = self.of_drives(&solution.lambda);
-        ImpactSolution { change, normal, tangent, on_first, joints, drives, note }
+        // Of an actuator with a direction of its own the rate along it jumps: then the mean counts.
+        let drive_works = self.drive_powers_of(&solution.lambda, |body| self.k.twist[body] + jumps[body] * 0.5);
+        ImpactSolution { change, normal, tangent, on_first, joints, drives, drive_works, note }
     }
 
     /// The impulses by which the present closing rows come to rest, unilateral constraints apart from those that carry.
@@ -100,9 +106,40 @@ impl Workspace<'_> {
         let solution = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked);
         let mut change = vec![0.0; self.m.freedom()];
         self.to_user(&solution.a, &mut change);
-        let joints = self.impulsive_loads(&nothing, &[], &solution.a, &solution.lambda);
+        let jumps = self.jumps(&solution.a);
+        let joints = self.impulsive_loads(&nothing, &[], &jumps, &solution.lambda);
         let drives = self.of_drives(&solution.lambda);
-        Ok(ImpactSolution { change, normal: vec![], tangent: vec![], on_first: vec![], joints, drives, note: None })
+        // A drive that is engaged has its own rate from the first.
+        let drive_works = self.drive_powers_of(&solution.lambda, |body| self.k.twist[body] + jumps[body]);
+        let (normal, tangent, on_first) = (vec![], vec![], vec![]);
+        Ok(ImpactSolution { change, normal, tangent, on_first, joints, drives, drive_works, note: None })
+    }
+
+    /// Work of each drive in a jump of the rates at (t, q), from `u` to those placed, that the closing rows alone bring
+    /// about.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn drive_works_since(&mut self, u: &[f64]) -> Result<Vec<f64>, Trouble> {
+        let (t, q, after) = (self.placed.t, self.placed.q.clone(), self.placed.u.clone());
+        self.move_to(t, &q, u);
+        let before = self.k.twist.clone();
+        self.move_to(t, &q, &after);
+        self.update_rows();
+        super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
+        self.factor(Force::Gradient)?;
+        let jump = |body: usize| self.k.twist[body] - before[body];
+        let rate = |row: &Row| row.motion.iter().map(|(body, w)| w.power(jump(*body))).sum();
+        let jumps: Vec<f64> = self.rows.iter().map(rate).collect();
+        let lambda = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &jumps).lambda;
+        Ok(self.drive_powers_of(&lambda, |body| self.k.twist[body]))
+    }
+
+    /// Jumps of the velocities of all bodies by those of the joints of the tree.
+    fn jumps(&self, change: &[f64]) -> Vec<Twist> {
+        let mut bodies = vec![Twist::zero(); self.m.bodies.len()];
+        self.k.propagate_motion(self.m, change, false, &mut bodies);
+        bodies
     }
 
     /// The coefficient of friction of a unilateral constraint that slides: 0 where it is smooth, infinite where it
@@ -127,15 +164,12 @@ impl Workspace<'_> {
     }
 
     /// Reactions of all joints to impulses: the balance of momentum of all that hangs on them.
-    fn impulsive_loads(&self, contacts: &ClosedContacts, p: &[f64], change: &[f64], lambda: &[f64]) -> Vec<JointLoad> {
-        let n = self.m.bodies.len();
-        let mut bodies = vec![Twist::zero(); n];
-        self.k.propagate_motion(self.m, change, false, &mut bodies);
+    fn impulsive_loads(&self, contacts: &ClosedContacts, p: &[f64], jumps: &[Twist], lambda: &[f64]) -> Vec<JointLoad> {
         let momentum = |i: usize| {
             let arm = self.arms[i];
-            super::momentum(self.at(), i, bodies[i].at(arm), bodies[i].w).seen_from(arm)
+            super::momentum(self.at(), i, jumps[i].at(arm), jumps[i].w).seen_from(arm)
         };
-        let mut unbalanced: Vec<Wrench> = (0..n).map(|i| -momentum(i)).collect();
+        let mut unbalanced: Vec<Wrench> = (0..jumps.len()).map(|i| -momentum(i)).collect();
         for (i, &p) in p.iter().enumerate() {
             for &(body, load) in contacts.row(i).map_or(&[][..], |row| &row.motion) {
                 unbalanced[body] += load * p;

@@ -4,7 +4,7 @@ use super::rows::{Row, Source};
 use super::{constraint_rows, residual, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::{DriveKind, FrictionSource, Mechanism};
-use crate::plane::{vec2, Vec2, Wrench};
+use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::real;
 use crate::solve::{Matrix, Orthogonal};
 
@@ -155,10 +155,16 @@ impl Workspace<'_> {
 
     /// Power of each drive in the last solution, W.
     pub fn drive_powers(&self) -> Vec<f64> {
+        self.drive_powers_of(&self.solved.lambda, |body| self.k.twist[body])
+    }
+
+    /// Power of each motion by multipliers and velocities; its work, by impulses. Couplings and locks have none.
+    pub(super) fn drive_powers_of(&self, lambda: &[f64], twist: impl Fn(usize) -> Twist) -> Vec<f64> {
         let mut powers = vec![0.0; self.m.drives.len()];
-        for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {
-            if let Source::Drive(drive) = row.source {
-                let rate: f64 = row.loads().iter().map(|(body, w)| w.power(self.k.twist[*body])).sum();
+        for (row, &lambda) in self.rows.iter().zip(lambda) {
+            let Source::Drive(drive) = row.source else { continue };
+            if self.m.drives[drive].is_motion() {
+                let rate: f64 = row.loads().iter().map(|(body, w)| w.power(twist(*body))).sum();
                 powers[drive] = lambda * rate;
             }
         }

@@ -17,6 +17,8 @@ const RISE: f64 = 1e-11;
 const REGULARIZATION: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Speed, over the mechanism's own, up to which what yielding, or a long row of impacts, leaves over counts as none.
 pub(super) const LEFT_OVER: f64 = 1e-6;
+/// Energy that it would take to stop an approach, over the kinetic one, from which on nothing yields.
+const RIGID: f64 = 1e12;
 /// Part of the largest impulse below which one is round-off.
 const NOTHING: f64 = 1e-12;
 /// Part of what friction can do in an impact from which on all of it is used up.
@@ -75,7 +77,7 @@ impl HybridSystem<'_> {
                 }
             }
         }
-        let (impact, lost) = impacting?;
+        let (impact, lost) = impacting.map_err(|error| self.driven_together(contacts).unwrap_or(error))?;
         let (part, hit) = (contacts.takes_part(rest_speed), hit(&impact));
         let impacting = (0..part.len()).filter(|&i| part[i] && hit[i]);
         let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
@@ -93,8 +95,8 @@ impl HybridSystem<'_> {
         Ok((impacting, raised))
     }
 
-    /// Takes the velocities after an impact, with the energy lost in it, if there is less than before: large impulses
-    /// that all but cancel can bring energy from nowhere.
+    /// Takes the velocities after an impact, with the work of the drives and the energy lost in it, if there is any
+    /// lost: large impulses that all but cancel can bring energy from nowhere.
     fn apply_impact(
         &mut self,
         t: f64,
@@ -106,13 +108,23 @@ impl HybridSystem<'_> {
         let (before, energy) = (y.to_vec(), self.workspace.kinetic_energy());
         y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
         self.place_in(&contacts.opened, t, y);
-        let lost = energy - self.workspace.kinetic_energy();
-        if lost >= -RISE * energy {
+        let work = self.add_drive_works(y, &impact.drive_works);
+        let lost = energy + work - self.workspace.kinetic_energy();
+        if lost >= -RISE * (energy + work.abs()) {
             return Ok((impact, lost));
         }
         y.copy_from_slice(&before);
         self.place_in(&contacts.opened, t, y);
         Err(Trouble::ImpulsesCreateEnergy(t, -lost))
+    }
+
+    /// What approaches though hardly any impulse could stop it.
+    fn driven_together(&self, contacts: &ClosedContacts) -> Option<Trouble> {
+        let energy = self.workspace.kinetic_energy();
+        let rates = contacts.constraints.iter().enumerate().map(|(i, &l)| (i, l, contacts.rates[i]));
+        let rigid = rates.filter(|&(i, _, v)| v < 0.0 && contacts.response(i) * RIGID * energy < v * v);
+        let rigid: Vec<usize> = rigid.map(|(_, l, _)| l).collect();
+        (!rigid.is_empty()).then(|| Trouble::DrivenTogether(self.workspace.names_of(&rigid)))
     }
 
     /// The speed that yielding left over, m/s; 0 where it is too large to count as none.
@@ -153,8 +165,9 @@ impl HybridSystem<'_> {
             tangent: impact.tangent[i],
             restitution: self.workspace.restitution(contacts.constraints[i]),
         });
-        let (impacting, unloaded, drives) = (impacting.collect(), self.names(&unloaded), impact.drives.clone());
-        Impulses { groups: limits, joints, drives, contacts: impacting, unloaded, mode }
+        let (impacting, unloaded) = (impacting.collect(), self.names(&unloaded));
+        let (drives, drive_works) = (impact.drives.clone(), impact.drive_works.clone());
+        Impulses { groups: limits, joints, drives, drive_works, contacts: impacting, unloaded, mode }
     }
 
     /// The mode after bounces without end, if they are over within a moment: what takes part in them comes to rest.
@@ -191,7 +204,6 @@ impl HybridSystem<'_> {
         // What rocks alternates between its feet.
         let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
         let part = same.map_or(0.0, |(_, before)| (flight / before).min(0.999));
-        let n = self.workspace.m.freedom();
         let (energy, earlier) = (self.workspace.kinetic_energy(), y.to_vec());
         let fastest = parting.iter().map(|&i| contacts.rates[i]).fold(0.0, f64::max);
         let mut mode = mode.clone();
@@ -201,10 +213,8 @@ impl HybridSystem<'_> {
                 && self.workspace.slide_rate(constraint).abs() <= fastest;
             mode.contacts[constraint].mode = if rocks { ContactMode::Stick } else { ContactMode::Frictionless };
         }
-        let (q, rest) = y.split_at_mut(n);
-        self.workspace.project_velocities(&mode, t, q, &mut rest[..n])?;
-        self.place_in(&mode, t, y);
-        let lost = energy - self.workspace.kinetic_energy();
+        let work = self.project_velocities(&mode, t, y)?;
+        let lost = energy + work - self.workspace.kinetic_energy();
         self.begin_phase(t, 0.0, -lost);
         self.record(ModeChange {
             t: t + flight / (1.0 - part),

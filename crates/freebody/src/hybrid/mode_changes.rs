@@ -15,7 +15,7 @@ pub struct ModeChange {
     pub kind: &'static str,
     /// The contacts, stops, strings or parts concerned, by name.
     pub of: Vec<String>,
-    /// Energy that it took, J.
+    /// Energy that it took, J: the work of the drives less what the mechanism gained.
     pub lost: f64,
     /// State vectors before and after, where it jumped.
     pub states: Option<[Vec<f64>; 2]>,
@@ -34,6 +34,8 @@ pub struct Impulses {
     pub joints: Vec<[f64; 3]>,
     /// Of each coupling, motion and lock along its gauge, N·s or N·m·s.
     pub drives: Vec<f64>,
+    /// The work of these, J.
+    pub drive_works: Vec<f64>,
     /// Each unilateral constraint with an impulse.
     pub contacts: Vec<ContactImpulse>,
     /// Contacts, stops and strings that were reached, and that what took part in the impact acts on, but that would

@@ -47,6 +47,8 @@ impl HybridSystem<'_> {
                 self.perform_actions(event, t, y)?;
             }
         }
+        // The ledger begins after the events of the start.
+        y[2 * m.freedom()..].fill(0.0);
         self.open();
         Ok(())
     }
@@ -211,9 +213,9 @@ impl HybridSystem<'_> {
         contacts: &[usize],
     ) -> Result<Mode, Trouble> {
         let before = self.energy(t, y);
-        let mode = self.project_onto_contacts(mode, t, y, at_rest, contacts)?;
+        let (mode, work) = self.project_onto_contacts(mode, t, y, at_rest, contacts)?;
         let after = self.energy(t, y);
-        let [speed, height] = [0, 1].map(|i| after[i] - before[i]);
+        let [speed, height] = [after[0] - before[0] - work, after[1] - before[1]];
         if speed > GAIN * self.strength * self.workspace.length {
             return Err(Trouble::CreatesEnergy(self.workspace.names_of(contacts), speed));
         }
@@ -224,7 +226,7 @@ impl HybridSystem<'_> {
     }
 
     /// Brings the state exactly onto the unilateral constraints that hold, and out of those that open from rest. Where
-    /// nothing can move then, the mode rests.
+    /// nothing can move then, the mode rests. Returns the work of the drives in that, too.
     fn project_onto_contacts(
         &mut self,
         mut mode: Mode,
@@ -232,7 +234,7 @@ impl HybridSystem<'_> {
         y: &mut [f64],
         at_rest: &[usize],
         contacts: &[usize],
-    ) -> Result<Mode, Trouble> {
+    ) -> Result<(Mode, f64), Trouble> {
         let n = self.workspace.m.freedom();
         self.place_in(&mode, t, y);
         let is_open = |l: usize| mode.contacts[l].mode == ContactMode::Open;
@@ -240,7 +242,7 @@ impl HybridSystem<'_> {
         let opening: Vec<usize> = at_rest.iter().copied().filter(inside).collect();
         let carries = mode.contacts.iter().any(|contact| contact.mode.carries());
         if opening.is_empty() && !carries && self.workspace.m.joint_friction.is_empty() {
-            return Ok(mode);
+            return Ok((mode, 0.0));
         }
         let (q, rest) = y.split_at_mut(n);
         let shut = mode.with_contacts(&opening, ContactMode::Frictionless);
@@ -257,7 +259,7 @@ impl HybridSystem<'_> {
         let approaching: Vec<usize> = contacts.iter().copied().filter(approaching).collect();
         let still =
             mode.with_contacts(&turned, ContactMode::Stick).with_contacts(&approaching, ContactMode::Frictionless);
-        self.workspace.project_velocities(&still, t, q, &mut rest[..n])?;
+        let work = self.project_velocities(&still, t, y)?;
         self.place_in(&mode, t, y);
         self.workspace.solve()?;
         mode.resting = self.workspace.is_locked();
@@ -265,7 +267,21 @@ impl HybridSystem<'_> {
             // Nothing can move: not even by round-off.
             y[n..2 * n].fill(0.0);
         }
-        Ok(mode)
+        Ok((mode, work))
+    }
+
+    /// Brings the velocities onto what holds, by impulses; returns the work of the drives in that.
+    pub(super) fn project_velocities(&mut self, mode: &Mode, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
+        let n = self.workspace.m.freedom();
+        let before = y[n..2 * n].to_vec();
+        let (q, rest) = y.split_at_mut(n);
+        self.workspace.project_velocities(mode, t, q, &mut rest[..n])?;
+        self.place_in(mode, t, y);
+        if self.driven.is_empty() || y[n..2 * n] == before {
+            return Ok(0.0);
+        }
+        let works = self.workspace.drive_works_since(&before)?;
+        Ok(self.add_drive_works(y, &works))
     }
 
     /// Decides how unilateral constraints that neither approach nor part go on.

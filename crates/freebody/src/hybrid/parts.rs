@@ -90,13 +90,13 @@ impl HybridSystem<'_> {
         let before = y.to_vec();
         y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
         self.place(t, y);
-        let lost = energy - self.workspace.kinetic_energy();
+        let lost = energy + self.add_drive_works(y, &impact.drive_works) - self.workspace.kinetic_energy();
         if lost.abs() <= 1e-14 * energy {
             return Ok(());
         }
         let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
-        let impulses =
-            Some(Impulses { groups: vec![], joints, drives: impact.drives, contacts: vec![], unloaded: vec![], mode });
+        let (drives, drive_works, groups) = (impact.drives, impact.drive_works, vec![]);
+        let impulses = Some(Impulses { groups, joints, drives, drive_works, contacts: vec![], unloaded: vec![], mode });
         let states = Some([before, y.to_vec()]);
         self.record_jump(ModeChange { t, kind: "impact", of: engaged, lost, states, impulses, note: None });
         Ok(())

@@ -57,9 +57,12 @@ fn change(m: &Mechanism, c: &ModeChange) -> Value {
     let impulses = c.impulses.as_ref().map(|i| {
         let limits: Vec<_> = i.groups.iter().map(|(name, p)| json!([name, [p.x, p.y]])).collect();
         let impacting: Vec<_> = i.contacts.iter().map(impacting).collect();
-        let named = m.drives.iter().zip(&i.drives).filter(|(_, p)| **p != 0.0);
-        let drives: Vec<_> = named.map(|(drive, p)| json!([drive.name, p])).collect();
-        json!({"limits": limits, "joints": i.joints, "drives": drives, "struck": impacting, "spared": i.unloaded})
+        let named = |of: &[f64]| {
+            let named = m.drives.iter().zip(of).filter(|(_, x)| **x != 0.0);
+            named.map(|(drive, x)| json!([drive.name, x])).collect::<Vec<_>>()
+        };
+        let (drives, works) = (named(&i.drives), named(&i.drive_works));
+        json!({"limits": limits, "joints": i.joints, "drives": drives, "works": works, "struck": impacting, "spared": i.unloaded})
     });
     let side = |i: usize| c.states.as_ref().map(|states| state(m, &states[i], json!({})));
     json!({

@@ -186,6 +186,15 @@ impl<'m> HybridSystem<'m> {
         self.strength = energy / length;
     }
 
+    /// Enters the works of drives in an impact; returns what motions put in, J.
+    pub(super) fn add_drive_works(&self, y: &mut [f64], works: &[f64]) -> f64 {
+        let first = 2 * self.workspace.m.freedom() + self.worked.len();
+        for (sum, &drive) in y[first..].iter_mut().zip(&self.driven) {
+            *sum += works[drive];
+        }
+        self.driven.iter().map(|&drive| works[drive]).sum()
+    }
+
     /// Kinetic and potential energy at a state.
     pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
         self.place(t, y);

@@ -11,6 +11,7 @@ mod cables;
 mod closed_forms;
 mod contact_geometry;
 mod contacts;
+mod driven_impacts;
 mod free_bodies;
 mod gauges;
 mod joints;

@@ -95,9 +95,11 @@ def _mode_changes(run: Run) -> Table:
     rows = []
     for c in [*run.changes[:_FIRST], *run.changes[-_LAST:]] if many else run.changes:
         impulses = "; ".join(f"{name} {_figure(size)}" for name, size in (c.impulses.sizes if c.impulses else {}).items())
-        rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", impulses, c.note))
+        work = "" if c.work is None else _figure(c.work)
+        rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", work, impulses, c.note))
     remark = f"the first {_FIRST} and the last {_LAST} of {len(run.changes)}" if many else ""
-    return Table("Mode changes", ("t / s", "kind", "what", "energy lost / J", "impulse / N·s", ""), rows, remark, "across")
+    heads = ("t / s", "kind", "what", "energy lost / J", "work of motions / J", "impulse / N·s", "")
+    return Table("Mode changes", heads, rows, remark, "across")
 
 
 def _peaks(run: Run) -> Table:
