@@ -240,6 +240,7 @@ impl<'m> Workspace<'m> {
     /// As [`Workspace::solve`].
     pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
         self.placed.bearing = None;
+        self.joint_friction_forces.fill(0.0);
         self.solve_once(route)?;
         // To the other flank, and back again where teeth would pull there too.
         for _ in 0..2 {

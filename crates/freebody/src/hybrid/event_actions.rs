@@ -1,28 +1,10 @@
-//! What events do, and what a switching function is about.
+//! What events do.
 
-use super::guards::{FRICTION_GUARDS, GUARDS};
 use super::HybridSystem;
-use crate::dynamics::{Source, Trouble};
-use crate::mechanism::{Discontinuity, Event, EventAction, Mechanism};
+use crate::dynamics::Trouble;
+use crate::mechanism::{Discontinuity, Event, EventAction};
 
 impl HybridSystem<'_> {
-    /// What switching function `i` is about, in the model's words.
-    pub fn switch_name(m: &Mechanism, i: usize) -> String {
-        if let Some(event) = m.events.get(i) {
-            return format!("event `{}`", event.name);
-        }
-        let Some(guard) = (i - m.events.len()).checked_sub(m.discontinuities.len()) else {
-            return "kink of a law".to_string();
-        };
-        match guard.checked_sub(GUARDS * m.unilateral.len()) {
-            None => {
-                let group = &m.groups[m.unilateral[guard / GUARDS].group];
-                format!("{} `{}`", group.word, group.name)
-            }
-            Some(friction) => format!("friction of `{}`", Source::JointFriction(friction / FRICTION_GUARDS).name(m)),
-        }
-    }
-
     /// Whether all that an event would release is gone already.
     pub(super) fn is_spent(&self, event: &Event) -> bool {
         let mut actions = event.then.iter();

@@ -1,15 +1,64 @@
-//! Guards: functions that stay positive as long as the mode holds.
+//! Switching functions: of events, of laws that are not smooth, and guards, which stay positive as long as the mode holds.
 
 use super::mode_resolution::{CLOSED_GAP, REST_SPEED};
 use super::HybridSystem;
-use crate::dynamics::{Route, Trouble};
-use crate::mechanism::Gap;
+use crate::dynamics::{Route, Source, Trouble};
+use crate::mechanism::{Gap, Mechanism};
 use crate::mode::ContactMode;
 
-/// Guards of each unilateral constraint: gap or force, two for friction, border.
-pub(super) const GUARDS: usize = 4;
-/// Guards of each joint with friction: friction in either direction, or the speed.
-pub(super) const FRICTION_GUARDS: usize = 2;
+/// What a switching function of the motion is about.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum SwitchingFunction {
+    Event(usize),
+    Discontinuity(usize),
+    Contact(usize, ContactGuard),
+    /// Of a joint with friction: what keeps it from beginning to slide in a sense, or sliding.
+    JointFriction(usize, f64),
+}
+
+/// What keeps a unilateral constraint in its mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ContactGuard {
+    /// Its gap while it is open, its force while it is closed.
+    Hold,
+    /// The friction left, or the speed of sliding.
+    Friction,
+    /// The friction left in the other sense.
+    Counterfriction,
+    /// The border of its feature.
+    Border,
+}
+
+const CONTACT_GUARDS: [ContactGuard; 4] =
+    [ContactGuard::Hold, ContactGuard::Friction, ContactGuard::Counterfriction, ContactGuard::Border];
+/// Friction that is used up in a sense pushes against the sliding to come.
+const SENSES: [f64; 2] = [-1.0, 1.0];
+
+impl SwitchingFunction {
+    /// All of a mechanism, in the order of their values.
+    pub(super) fn all(m: &Mechanism) -> impl Iterator<Item = SwitchingFunction> {
+        let laws = (0..m.discontinuities.len()).map(SwitchingFunction::Discontinuity);
+        let contact = |l| CONTACT_GUARDS.map(|guard| SwitchingFunction::Contact(l, guard));
+        let joint = |friction| SENSES.map(|sense| SwitchingFunction::JointFriction(friction, sense));
+        let guards = (0..m.unilateral.len()).flat_map(contact).chain((0..m.joint_friction.len()).flat_map(joint));
+        (0..m.events.len()).map(SwitchingFunction::Event).chain(laws).chain(guards)
+    }
+
+    /// What it is about, in the model's words.
+    pub(super) fn name(self, m: &Mechanism) -> String {
+        match self {
+            SwitchingFunction::Event(event) => format!("event `{}`", m.events[event].name),
+            SwitchingFunction::Discontinuity(_) => "kink of a law".to_string(),
+            SwitchingFunction::Contact(l, _) => {
+                let group = &m.groups[m.unilateral[l].group];
+                format!("{} `{}`", group.word, group.name)
+            }
+            SwitchingFunction::JointFriction(friction, _) => {
+                format!("friction of `{}`", Source::JointFriction(friction).name(m))
+            }
+        }
+    }
+}
 
 /// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
 const OCCLUDED: f64 = 2.0 * CLOSED_GAP;
@@ -27,10 +76,10 @@ impl HybridSystem<'_> {
         }
         let shared = if carries { self.workspace.safest_margin(self.strength) } else { None };
         let forces = if carries && shared.is_none() { self.workspace.contact_forces() } else { vec![] };
-        let (out, friction) = out.split_at_mut(GUARDS * m.unilateral.len());
+        let (out, friction) = out.split_at_mut(CONTACT_GUARDS.len() * m.unilateral.len());
         self.joint_friction_guards(friction);
         let apart = self.workspace.apart();
-        for (l, values) in out.chunks_exact_mut(GUARDS).enumerate() {
+        for (l, values) in out.chunks_exact_mut(CONTACT_GUARDS.len()).enumerate() {
             match apart[m.unilateral[l].group] {
                 // Apart, as their bodies are.
                 Some(least) if self.mode.contacts[l].mode == ContactMode::Open => {
@@ -42,7 +91,7 @@ impl HybridSystem<'_> {
         // One guard is of them all.
         let first = self.mode.contacts.iter().position(|contact| contact.mode.carries());
         if let Some((first, shared)) = first.zip(shared) {
-            out[GUARDS * first] = shared / self.strength;
+            out[CONTACT_GUARDS.len() * first] = shared / self.strength;
         }
         Ok(())
     }
@@ -69,9 +118,12 @@ impl HybridSystem<'_> {
                     *value = margin / self.strength;
                 }
                 match contact.mode {
-                    ContactMode::Slip(sense) => values[1] = sense * self.workspace.slide_rate(l) / self.speed,
+                    ContactMode::Slip(sense) => {
+                        values[ContactGuard::Friction as usize] = sense * self.workspace.slide_rate(l) / self.speed
+                    }
                     ContactMode::PartialFriction(_) => {
-                        values[1] = SLIPPING - self.workspace.slide_rate(l).abs() / self.speed
+                        values[ContactGuard::Friction as usize] =
+                            SLIPPING - self.workspace.slide_rate(l).abs() / self.speed
                     }
                     _ => {}
                 }
@@ -79,13 +131,14 @@ impl HybridSystem<'_> {
         }
         // A string keeps count of its turns, slack or taut.
         if contact.mode.touches() || matches!(constraint.gap, Gap::Cable(_)) {
-            values[3] = self.workspace.border(l).map_or(1.0, |(value, _)| value / self.workspace.length);
+            values[ContactGuard::Border as usize] =
+                self.workspace.border(l).map_or(1.0, |(value, _)| value / self.workspace.length);
         }
     }
 
     /// The values of the guards of all joints with friction, at the state of the last solution.
     fn joint_friction_guards(&self, out: &mut [f64]) {
-        for (friction, values) in out.chunks_exact_mut(FRICTION_GUARDS).enumerate() {
+        for (friction, values) in out.chunks_exact_mut(SENSES.len()).enumerate() {
             values.fill(1.0);
             match self.mode.joint_friction[friction] {
                 ContactMode::Stick => {
@@ -112,19 +165,18 @@ impl HybridSystem<'_> {
         (-gap).min(self.workspace.compliant_force(l) / self.strength)
     }
 
-    /// One guard, if it is of places and speeds alone: then nothing needs to be solved.
-    pub(super) fn guard_value(&mut self, guard: usize, t: f64, y: &[f64]) -> Option<f64> {
-        let (l, which) = (guard / GUARDS, guard % GUARDS);
-        let is_force = match self.mode.contacts.get(l)?.mode {
-            ContactMode::Stick => which < 3,
-            mode => mode.carries() && which == 0,
+    /// One guard of a contact, if it is of places and speeds alone: then nothing needs to be solved.
+    pub(super) fn guard_value(&mut self, l: usize, guard: ContactGuard, t: f64, y: &[f64]) -> Option<f64> {
+        let is_force = match self.mode.contacts[l].mode {
+            ContactMode::Stick => guard != ContactGuard::Border,
+            mode => mode.carries() && guard == ContactGuard::Hold,
         };
         if is_force {
             return None;
         }
         self.place(t, y);
-        let mut values = [0.0; GUARDS];
+        let mut values = [0.0; CONTACT_GUARDS.len()];
         self.guards_of(l, None, &mut values);
-        Some(values[which])
+        Some(values[guard as usize])
     }
 }

@@ -1,5 +1,6 @@
 //! From one mode to the next: what collides, holds, slides and lets go.
 
+use super::guards::ContactGuard;
 use super::impacts::{Rule, LEFT_OVER};
 use super::{HybridSystem, Start};
 use crate::dynamics::{ContactTolerances, Trouble};
@@ -54,11 +55,17 @@ impl HybridSystem<'_> {
     }
 
     /// A guard of unilateral constraint `l` fell to zero.
-    pub(super) fn switch_contact(&mut self, l: usize, guard: usize, t: f64, y: &mut [f64]) -> Result<(), Trouble> {
+    pub(super) fn switch_contact(
+        &mut self,
+        l: usize,
+        guard: ContactGuard,
+        t: f64,
+        y: &mut [f64],
+    ) -> Result<(), Trouble> {
         self.place(t, y);
         let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
         let contact = &mut mode.contacts[l];
-        if guard == 3 {
+        if guard == ContactGuard::Border {
             let (_, beyond) = self.workspace.border(l).expect("a guard of a border belongs to one");
             contact.feature.index = beyond;
             if constraint.gap.can_close(beyond) {
@@ -77,17 +84,15 @@ impl HybridSystem<'_> {
         self.resolve_mode(t, y, None)
     }
 
-    /// A guard of a joint with friction fell to zero: it sticks no more, or stopped.
+    /// A guard of a joint with friction fell to zero: it sticks no more and slides in a sense, or it stopped.
     pub(super) fn switch_joint_friction(
         &mut self,
         friction: usize,
-        guard: usize,
+        sense: f64,
         t: f64,
         y: &mut [f64],
     ) -> Result<(), Trouble> {
         let slides = self.mode.joint_friction[friction] == ContactMode::Stick;
-        // The friction that is used up pushes against the sliding to come.
-        let sense = if guard == 0 { -1.0 } else { 1.0 };
         self.resolve_mode(t, y, slides.then_some(Released { friction, sense }))
     }
 

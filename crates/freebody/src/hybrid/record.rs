@@ -1,7 +1,8 @@
 //! What is told of a run, as data.
 
+use super::guards::SwitchingFunction;
 use super::mode_changes::{ContactImpulse, ModeChange};
-use super::{HybridSystem, Trajectory};
+use super::Trajectory;
 use crate::mechanism::Mechanism;
 use crate::motion::{Kind, Outcome};
 use serde_json::{json, Value};
@@ -37,7 +38,7 @@ impl Trajectory {
             Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
             Outcome::Chatter { index } => format!(
                 "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
-                HybridSystem::switch_name(m, *index)
+                SwitchingFunction::all(m).nth(*index).map_or(String::new(), |of| of.name(m))
             ),
             other => other.to_string(),
         }

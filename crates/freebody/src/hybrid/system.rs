@@ -1,6 +1,6 @@
 //! A mechanism as a system of differential equations with events.
 
-use super::guards::{FRICTION_GUARDS, GUARDS};
+use super::guards::SwitchingFunction;
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
 use crate::dynamics::{Trouble, Workspace};
@@ -32,6 +32,7 @@ pub struct Phase {
 /// A mechanism in motion.
 pub struct HybridSystem<'m> {
     pub(super) workspace: Workspace<'m>,
+    switching_functions: Vec<SwitchingFunction>,
     /// What is active now.
     pub(super) mode: Mode,
     /// Forces whose work is integrated.
@@ -82,6 +83,7 @@ impl<'m> HybridSystem<'m> {
         let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(friction) + usize::from(presses);
         HybridSystem {
             workspace,
+            switching_functions: SwitchingFunction::all(m).collect(),
             mode,
             worked,
             driven,
@@ -329,11 +331,7 @@ impl System for HybridSystem<'_> {
     }
 
     fn switches(&self) -> usize {
-        let m = self.workspace.m;
-        m.events.len()
-            + m.discontinuities.len()
-            + GUARDS * m.unilateral.len()
-            + FRICTION_GUARDS * m.joint_friction.len()
+        self.switching_functions.len()
     }
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
@@ -354,8 +352,10 @@ impl System for HybridSystem<'_> {
     }
 
     fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, Trouble> {
-        let first = self.workspace.m.events.len() + self.workspace.m.discontinuities.len();
-        Ok(i.checked_sub(first).and_then(|guard| self.guard_value(guard, t, y)))
+        Ok(match self.switching_functions[i] {
+            SwitchingFunction::Contact(l, guard) => self.guard_value(l, guard, t, y),
+            _ => None,
+        })
     }
 
     fn check(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
@@ -367,39 +367,42 @@ impl System for HybridSystem<'_> {
     }
 
     fn switch(&self, i: usize) -> EventSpec {
-        let m = self.workspace.m;
-        match m.events.get(i) {
-            Some(event) => EventSpec { is_positive: event.guard, ..EventSpec::event(event.direction) },
-            None if i < m.events.len() + m.discontinuities.len() => EventSpec::discontinuity(),
-            None => EventSpec::guard(self.roundoff_scale),
+        match self.switching_functions[i] {
+            SwitchingFunction::Event(event) => {
+                let event = &self.workspace.m.events[event];
+                EventSpec { is_positive: event.guard, ..EventSpec::event(event.direction) }
+            }
+            SwitchingFunction::Discontinuity(_) => EventSpec::discontinuity(),
+            _ => EventSpec::guard(self.roundoff_scale),
         }
     }
 
     fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, Trouble> {
-        let m = self.workspace.m;
-        if m.events.get(i).is_some_and(|event| event.guard && self.is_spent(event)) {
+        let SwitchingFunction::Event(event) = self.switching_functions[i] else { return Ok(true) };
+        let event = &self.workspace.m.events[event];
+        if event.guard && self.is_spent(event) {
             return Ok(false);
         }
-        let Some(condition) = m.events.get(i).and_then(|e| e.condition.as_ref()) else { return Ok(true) };
+        let Some(condition) = &event.condition else { return Ok(true) };
         Ok(self.read(&[condition.as_expr()], t, y)?[0] > 0.5)
     }
 
     fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
         let m = self.workspace.m;
-        let Some(event) = m.events.get(i) else {
-            match m.discontinuities.get(i - m.events.len()) {
-                Some(discontinuity) => self.switch_branch(discontinuity, t),
-                None => {
-                    let guard = i - m.events.len() - m.discontinuities.len();
-                    match guard.checked_sub(GUARDS * m.unilateral.len()) {
-                        None => self.switch_contact(guard / GUARDS, guard % GUARDS, t, y)?,
-                        Some(friction) => {
-                            self.switch_joint_friction(friction / FRICTION_GUARDS, friction % FRICTION_GUARDS, t, y)?
-                        }
-                    }
-                }
+        let event = match self.switching_functions[i] {
+            SwitchingFunction::Event(event) => &m.events[event],
+            SwitchingFunction::Discontinuity(discontinuity) => {
+                self.switch_branch(&m.discontinuities[discontinuity], t);
+                return Ok(After::Restart);
             }
-            return Ok(After::Restart);
+            SwitchingFunction::Contact(l, guard) => {
+                self.switch_contact(l, guard, t, y)?;
+                return Ok(After::Restart);
+            }
+            SwitchingFunction::JointFriction(friction, sense) => {
+                self.switch_joint_friction(friction, sense, t, y)?;
+                return Ok(After::Restart);
+            }
         };
         let changed = self.perform_actions(event, t, y)?;
         let stops = event.then.iter().any(|d| matches!(d, EventAction::Stop));

@@ -73,6 +73,20 @@ pub fn loads(now: &Instant) -> Vec<f64> {
 }
 
 #[test]
+fn a_solution_knows_nothing_of_those_before() {
+    every_state(recipe, 3, |bench, workspace, state, label, _| {
+        let mode = workspace.mode().clone();
+        for (word, route) in Route::ALL {
+            let mut fresh = bench.balance();
+            fresh.place(&mode, state.t, &state.q, &state.u);
+            let (now, first) = (workspace.instant(*route), fresh.instant(*route));
+            let told = |found: &Result<Instant, _>| format!("{found:?}");
+            assert_eq!(told(&now), told(&first), "{word}, {label}");
+        }
+    });
+}
+
+#[test]
 fn every_joint_holds_at_the_pose_thrown() {
     for seed in 0..MECHANISMS {
         let thrown = recipe(seed).draw(seed, HOME);
