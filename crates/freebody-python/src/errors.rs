@@ -1,6 +1,6 @@
 //! Errors of the core as the exceptions of `freebody.core.errors`.
 
-use freebody::dynamics::Trouble;
+use freebody::dynamics::DynamicsError;
 use freebody::error::CompileError;
 use freebody::expr::ExprError;
 use pyo3::import_exception;
@@ -20,7 +20,7 @@ pub fn expression(text: &str, e: ExprError) -> PyErr {
     ExpressionError::new_err((characters(e.at.start), characters(e.at.end), e.what, e.hint))
 }
 
-pub fn motion(t: Trouble) -> PyErr {
+pub fn motion(t: DynamicsError) -> PyErr {
     let (what, hint) = t.what_and_hint();
     MotionError::new_err((t.name(), t.path().unwrap_or_default().to_string(), what, hint))
 }

@@ -7,7 +7,7 @@ use crate::trajectory::Trajectory;
 use freebody::assembly::assemble;
 use freebody::builder::chosen;
 use freebody::compile::Compiled;
-use freebody::dynamics::{Route, Trouble, Workspace};
+use freebody::dynamics::{DynamicsError, Route, Workspace};
 use freebody::gauges::ModelExpr;
 use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
@@ -214,7 +214,7 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
 
 /// A setting and questions in letters.
 pub fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Query>)> {
-    let wrong = |e: serde_json::Error| errors::motion(Trouble::WrongQuestion(e.to_string()));
+    let wrong = |e: serde_json::Error| errors::motion(DynamicsError::WrongQuestion(e.to_string()));
     Ok((data(setting)?.map_err(wrong)?, data(questions)?.map_err(wrong)?))
 }
 

@@ -1,6 +1,6 @@
 //! Assembly: coordinates and rates that close all loops and keep what was asked for.
 
-use crate::dynamics::{Row, Source, Trouble, Workspace, CLOSED, OPEN};
+use crate::dynamics::{DynamicsError, Row, Source, Workspace, CLOSED, OPEN};
 use crate::gauges::ModelExpr;
 use crate::kinematics::{jet, MotionView};
 use crate::scalar::real;
@@ -49,7 +49,7 @@ const ATTEMPTS: usize = 64;
 ///
 /// # Errors
 /// `cannot_assemble` with the gap at each joint, `branch_not_found`, `inconsistent_velocities`.
-pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Result<Assembled, Trouble> {
+pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Result<Assembled, DynamicsError> {
     let first = attempt(workspace, t, request, &request.start);
     let q = match first {
         Ok(q) if on_branch(workspace, t, &q, request) => q,
@@ -80,7 +80,12 @@ fn worst(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
 }
 
 /// One attempt from one start: first drawn to what should be near, then closed exactly.
-fn attempt(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, start: &[f64]) -> Result<Vec<f64>, Trouble> {
+fn attempt(
+    workspace: &mut Workspace,
+    t: f64,
+    request: &AssemblyRequest,
+    start: &[f64],
+) -> Result<Vec<f64>, DynamicsError> {
     let mut q = start.to_vec();
     if !request.near.is_empty() {
         let near: Vec<_> = request.near.iter().map(|(law, x)| (String::new(), law.clone(), *x)).collect();
@@ -143,8 +148,8 @@ fn search(
     workspace: &mut Workspace,
     t: f64,
     request: &AssemblyRequest,
-    first: Result<Vec<f64>, Trouble>,
-) -> Result<Vec<f64>, Trouble> {
+    first: Result<Vec<f64>, DynamicsError>,
+) -> Result<Vec<f64>, DynamicsError> {
     for k in 1..=ATTEMPTS {
         let start = scattered(workspace, request, k);
         if let Ok(q) = attempt(workspace, t, request, &start) {
@@ -154,7 +159,7 @@ fn search(
         }
     }
     first?;
-    Err(Trouble::BranchNotFound(request.branch.iter().map(|(text, ..)| text.clone()).collect()))
+    Err(DynamicsError::BranchNotFound(request.branch.iter().map(|(text, ..)| text.clone()).collect()))
 }
 
 /// Start `k` of a sequence that covers angles and lengths evenly (a lattice of square roots of primes).
@@ -216,7 +221,12 @@ fn unit(workspace: &Workspace, i: usize) -> f64 {
 }
 
 /// Rates that keep the loops closed and what is held, nearest to the starting rates.
-fn velocities(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> Result<Vec<f64>, Trouble> {
+fn velocities(
+    workspace: &mut Workspace,
+    t: f64,
+    request: &AssemblyRequest,
+    q: &[f64],
+) -> Result<Vec<f64>, DynamicsError> {
     let mut u = request.start_rates.clone();
     for _ in 0..3 {
         workspace.project_velocities_with(t, q, &mut u, &request.held_rates)?;
@@ -234,13 +244,13 @@ fn velocities(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &
     let worst = drive.chain(held).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match worst {
         Some(((name, path), left)) if left.abs() > 1e-8 * speed * workspace.length.max(1.0) => {
-            Err(Trouble::InconsistentRates(name, left, path))
+            Err(DynamicsError::InconsistentRates(name, left, path))
         }
         _ => Ok(u),
     }
 }
 
-fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> Trouble {
+fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> DynamicsError {
     workspace.move_to(t, q, &vec![0.0; q.len()]);
     // Name and, for what is no wish, place in the model; how far open.
     let mut gaps: Vec<(String, Option<String>, f64)> = vec![];
@@ -258,5 +268,5 @@ fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest,
     gaps.retain(|(_, _, gap)| *gap > 1e-9 * workspace.length);
     let open = gaps.iter().map(|(name, _, gap)| (name.clone(), *gap)).collect();
     let widest = gaps.into_iter().filter(|g| g.1.is_some()).max_by(|a, b| a.2.total_cmp(&b.2));
-    Trouble::CannotAssemble(open, widest.and_then(|(_, path, _)| path))
+    DynamicsError::CannotAssemble(open, widest.and_then(|(_, path, _)| path))
 }

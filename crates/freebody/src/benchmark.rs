@@ -1,6 +1,6 @@
 //! The mechanism by which speed is measured against a plain sweep; see `benchmarks/`.
 
-use crate::spec::{Body, Element, Number, Piece, Point, Spec, Value};
+use crate::spec::{Body, Element, MassElement, Number, Point, Spec, Value};
 use std::collections::BTreeMap;
 
 /// A chain of `n` uniform bars, 1 m and 1 kg each, hinged in series to ground.
@@ -9,7 +9,7 @@ pub fn chain_model(n: usize) -> Spec {
     let mut spec = Spec { gravity: Some([number(0.0), number(-9.81)]), ..Spec::default() };
     for i in 0..n {
         let name = format!("bar{i}");
-        let piece = Piece {
+        let piece = MassElement {
             shape: "rod".into(),
             mass: number(1.0),
             at: [number(0.0), number(0.0)],

@@ -1,6 +1,6 @@
 //! The numbers of a mechanism at given parameters.
 
-use crate::error::{CompileError, Trouble};
+use crate::error::{CompileError, DynamicsError};
 use crate::expr::{Env, Table};
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::mechanism::{Body, Coordinate, Mechanism, PointLocation, ValueId};
@@ -216,7 +216,7 @@ impl Mechanism {
     ///
     /// # Errors
     /// `wrong_size`, `not_finite`.
-    pub fn check_state(&self, p: &[f64], t: f64, q: &[f64], u: &[f64]) -> Result<(), Trouble> {
+    pub fn check_state(&self, p: &[f64], t: f64, q: &[f64], u: &[f64]) -> Result<(), DynamicsError> {
         let coordinate = |i: usize| &self.coordinate(i).name;
         self.check_parameters(p)?;
         check_array("coordinate", q, self.freedom(), |i| coordinate(i).clone())?;
@@ -228,7 +228,7 @@ impl Mechanism {
     ///
     /// # Errors
     /// `wrong_size`, `not_finite`.
-    pub fn check_parameters(&self, p: &[f64]) -> Result<(), Trouble> {
+    pub fn check_parameters(&self, p: &[f64]) -> Result<(), DynamicsError> {
         check_array("parameter", p, self.parameters.len(), |i| self.parameters[i].name.clone())
     }
 }
@@ -238,12 +238,12 @@ fn check_array(
     values: &[f64],
     wanted: usize,
     name: impl Fn(usize) -> String,
-) -> Result<(), Trouble> {
+) -> Result<(), DynamicsError> {
     if values.len() != wanted {
-        return Err(Trouble::WrongSize { what, wanted, given: values.len() });
+        return Err(DynamicsError::WrongSize { what, wanted, given: values.len() });
     }
     match values.iter().position(|x| !x.is_finite()) {
-        Some(i) => Err(Trouble::NoFiniteNumber(name(i), values[i])),
+        Some(i) => Err(DynamicsError::NoFiniteNumber(name(i), values[i])),
         None => Ok(()),
     }
 }

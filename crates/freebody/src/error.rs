@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Why a state has no answer. An item of the model is told by its path, e.g. `joints.pivot`.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Trouble {
+pub enum DynamicsError {
     /// Something (in words) can move without inertia: words, item.
     ZeroInertia(String, Option<String>),
     /// A system of equations is singular.
@@ -96,7 +96,7 @@ pub enum Paradox {
     Unsolved,
 }
 
-impl Trouble {
+impl DynamicsError {
     /// Whether friction lets no motion go on, or none that was found.
     pub fn is_jam(&self) -> bool {
         matches!(self, Self::Paradox(Paradox::Inconsistent | Paradox::Unsolved, ..) | Self::CreatesEnergy(..))
@@ -268,13 +268,13 @@ impl Trouble {
     }
 }
 
-impl fmt::Display for Trouble {
+impl fmt::Display for DynamicsError {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         write!(out, "{}: {}", self.name(), self.sentence())
     }
 }
 
-impl std::error::Error for Trouble {}
+impl std::error::Error for DynamicsError {}
 
 /// What is wrong with a model.
 #[derive(Clone, Debug, PartialEq)]

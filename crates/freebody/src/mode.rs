@@ -3,7 +3,7 @@
 use crate::mechanism::{Mechanism, Part};
 use std::collections::HashMap;
 
-/// Which arms, parts and unilateral constraints are active.
+/// Which branches, parts and unilateral constraints are active.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mode {
     branches: Vec<Option<bool>>,
@@ -109,13 +109,13 @@ impl Mode {
             resting: false,
         }
     }
-    /// The arm at which a switch is frozen.
+    /// The branch at which a switch is frozen.
     pub fn branch(&self, discontinuity: usize) -> Option<bool> {
         self.branches.get(discontinuity).copied().flatten()
     }
-    /// Freezes a switch at an arm.
-    pub fn freeze(&mut self, discontinuity: usize, arm: bool) {
-        self.branches[discontinuity] = Some(arm);
+    /// Freezes a switch at a branch.
+    pub fn freeze(&mut self, discontinuity: usize, branch: bool) {
+        self.branches[discontinuity] = Some(branch);
     }
     /// Whether the teeth of a gear pair bear on the other flank than that of the model.
     pub fn bears_on_other_flank(&self, joint: usize) -> bool {

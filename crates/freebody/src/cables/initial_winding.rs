@@ -12,7 +12,7 @@ const NONE: f64 = 1e-9;
 
 impl Cable {
     /// Directions from the centre, in the body's frame, in which its ends are attached, rad; and its length, m: what
-    /// [`Piece::phase`](crate::mode::Piece::phase) is to be from the start on.
+    /// [`Feature::phase`](crate::mode::Feature::phase) is to be from the start on.
     ///
     /// - Where the length wound is given, the direction follows.
     /// - Where the direction is given and the straight line from there is free, the string is unwound; else less than one

@@ -154,7 +154,8 @@ impl Builder<'_> {
             let friction = match (friction, soft) {
                 (Some(Friction::Coulomb { fixed, kinetic }), Some(_)) => {
                     let first = self.m.unilateral.len();
-                    let friction = |constraint| JointFriction { of: FrictionSource::Limit(constraint), fixed, kinetic };
+                    let friction =
+                        |constraint| JointFriction { of: FrictionSource::Unilateral(constraint), fixed, kinetic };
                     self.m.joint_friction.extend((first..first + touches.len()).map(friction));
                     None
                 }

@@ -42,7 +42,7 @@ impl Builder<'_> {
 
     /// Of every joint along a curve that can be released, the pin that is released and a row that then holds what runs
     /// on the curve.
-    pub(crate) fn runners(&mut self) -> Result<()> {
+    pub(crate) fn curve_followers(&mut self) -> Result<()> {
         for element in self.spec.joints.iter().filter(|element| !stays(self.spec, element)) {
             let Some(&(joint, _)) = self.names.joints.get(&element.name) else { continue };
             let Some(child) = self.m.joints[joint].child else { continue };

@@ -44,7 +44,7 @@ impl Compiled {
         c.gauges()?;
         c.drives()?;
         c.locks()?;
-        c.runners()?;
+        c.curve_followers()?;
         c.forces()?;
         c.contacts()?;
         c.stops()?;

@@ -6,7 +6,7 @@ use crate::graph::{spanning_tree, Branch, Edge};
 use crate::joints::{Card, FieldKind, Joint as _, Kind, Role};
 use crate::mechanism::Body;
 use crate::shapes::{Shape, SHAPES};
-use crate::spec::{Body as BodySpec, Element, Piece as PieceSpec, Spec, Value};
+use crate::spec::{Body as BodySpec, Element, MassElement, Spec, Value};
 use std::collections::HashMap;
 
 /// A joint of the model, as one pair of bodies.
@@ -204,7 +204,7 @@ impl Builder<'_> {
         })
     }
 
-    fn piece(&mut self, path: &str, spec: &PieceSpec) -> Result<crate::mechanism::MassElement> {
+    fn piece(&mut self, path: &str, spec: &MassElement) -> Result<crate::mechanism::MassElement> {
         let Some((_, shape, words)) = SHAPES.iter().find(|(word, ..)| *word == spec.shape) else {
             let words: Vec<String> = SHAPES.iter().map(|s| s.0.to_string()).collect();
             return Err(CompileError::from(format!("{path}.shape"), unknown("shape", &spec.shape, words.iter())));

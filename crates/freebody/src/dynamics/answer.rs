@@ -35,7 +35,7 @@ impl<'m> super::Workspace<'m> {
         t: f64,
         q: &[f64],
         u: &[f64],
-    ) -> Result<Self, super::Trouble> {
+    ) -> Result<Self, super::DynamicsError> {
         m.check_state(p, t, q, u)?;
         let mut workspace = Self::new(m, p);
         workspace.move_to(t, q, u);

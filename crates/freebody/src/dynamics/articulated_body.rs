@@ -6,7 +6,7 @@
 //! vectors, so nothing is lost far from the origin.
 
 use super::momentum::Inertia;
-use super::Trouble;
+use super::DynamicsError;
 use crate::kinematics::StateView;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 
@@ -86,7 +86,7 @@ impl ArticulatedBody {
         nu_dot: &mut [f64],
         bodies: &mut [Twist],
         joint_wrenches: &mut [Wrench],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), DynamicsError> {
         self.start_bodies(at, arms, loads);
         for i in (1..at.m.bodies.len()).rev() {
             let tree_joint = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
@@ -152,14 +152,14 @@ impl ArticulatedBody {
 
     /// What is left of body `i` when it may turn about its joint origin.
     #[inline]
-    fn eliminate_hinge(&mut self, at: StateView<'_>, i: usize) -> Result<ArticulatedInertia, Trouble> {
+    fn eliminate_hinge(&mut self, at: StateView<'_>, i: usize) -> Result<ArticulatedInertia, DynamicsError> {
         let c = &self.full[i];
         let only_force = ArticulatedInertia { h: Vec2::zero(), turn: 0.0, pm: 0.0, size: 0.0, ..*c };
         if at.m.bodies[i].particle {
             return Ok(shift_bias(only_force, at, i));
         }
         if c.turn <= NOTHING * c.size || c.turn <= 0.0 {
-            return Err(Trouble::singular_inertia(at.m, i));
+            return Err(DynamicsError::singular_inertia(at.m, i));
         }
         let (h, inverse) = (c.h, 1.0 / c.turn);
         self.inverse_inertia[i] = inverse;
@@ -174,7 +174,12 @@ impl ArticulatedBody {
     }
 
     /// What is left of body `i` when its joint may move along its columns.
-    fn eliminate_joint(&mut self, at: StateView<'_>, i: usize, freedom: usize) -> Result<ArticulatedInertia, Trouble> {
+    fn eliminate_joint(
+        &mut self,
+        at: StateView<'_>,
+        i: usize,
+        freedom: usize,
+    ) -> Result<ArticulatedInertia, DynamicsError> {
         let c = self.full[i];
         let columns = &at.k.motion_subspace[i];
         let u: [[f64; 3]; 3] =
@@ -186,7 +191,7 @@ impl ArticulatedBody {
             }
         }
         let scale = (c.xx + c.yy, c.size);
-        let inverse = invert(d, freedom, columns, scale).ok_or_else(|| Trouble::singular_inertia(at.m, i))?;
+        let inverse = invert(d, freedom, columns, scale).ok_or_else(|| DynamicsError::singular_inertia(at.m, i))?;
         self.general[i] = (u, inverse);
         let start = (c.apply(at.k.bias_acceleration[i]) + c.bias()).parts();
         let applied: [f64; 3] = std::array::from_fn(|k| dot(columns[k].parts(), start));

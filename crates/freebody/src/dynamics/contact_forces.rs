@@ -21,8 +21,8 @@ impl Workspace<'_> {
     /// [`Route::Minimal`](super::Route::Minimal); `most`, N, is enough.
     pub fn safest_margin(&self, most: f64) -> Option<f64> {
         let closed = |row: &Row| if let Source::Gap(l) = row.source { Some(l) } else { None };
-        let limits: Vec<usize> = self.rows.iter().filter_map(closed).collect();
-        if limits.is_empty() || self.rows.len() <= self.m.freedom() - self.dense.saddle.dof() {
+        let constraints: Vec<usize> = self.rows.iter().filter_map(closed).collect();
+        if constraints.is_empty() || self.rows.len() <= self.m.freedom() - self.dense.saddle.dof() {
             return None;
         }
         let stress = self.dense.saddle.self_stress();
@@ -32,7 +32,7 @@ impl Workspace<'_> {
         let margins = |lambda: &[f64]| {
             let forces = self.forces_of(lambda);
             let of = |&l: &usize| self.margins(l, forces[l]);
-            limits.iter().flat_map(of).collect::<Vec<f64>>()
+            constraints.iter().flat_map(of).collect::<Vec<f64>>()
         };
         let column = |j: usize| (0..stress.rows()).map(|i| stress[(i, j)]).collect::<Vec<f64>>();
         let by: Vec<Vec<f64>> = (0..stress.cols()).map(|j| margins(&column(j))).collect();
@@ -112,8 +112,8 @@ impl Workspace<'_> {
     }
 
     /// Accelerations of gaps in the last solution, m/s².
-    pub fn gap_accelerations(&self, limits: &[usize]) -> Vec<f64> {
-        limits.iter().map(|&l| gap_row(self.at(), l, Some(&self.solved.bodies)).bias).collect()
+    pub fn gap_accelerations(&self, constraints: &[usize]) -> Vec<f64> {
+        constraints.iter().map(|&l| gap_row(self.at(), l, Some(&self.solved.bodies)).bias).collect()
     }
 
     /// The restitution of a unilateral constraint.
@@ -123,13 +123,13 @@ impl Workspace<'_> {
 
     /// Something of a contact, stop or string.
     pub(super) fn read_contact(&self, group: usize, bound: ContactQuantity) -> f64 {
-        let limits = || self.m.groups[group].constraints.clone();
+        let constraints = || self.m.groups[group].constraints.clone();
         let closed = |l: &usize| self.mode().contacts[*l].mode.touches();
         match bound {
-            ContactQuantity::Gap => limits().map(|l| self.open_gap(l)).fold(f64::INFINITY, f64::min),
-            ContactQuantity::Slip => limits().filter(closed).map(|l| self.slide_rate(l)).next().unwrap_or(0.0),
-            ContactQuantity::Force => limits().map(|l| self.contact_forces()[l][0]).sum(),
-            ContactQuantity::Friction => limits().map(|l| self.contact_forces()[l][1]).sum(),
+            ContactQuantity::Gap => constraints().map(|l| self.open_gap(l)).fold(f64::INFINITY, f64::min),
+            ContactQuantity::Slip => constraints().filter(closed).map(|l| self.slide_rate(l)).next().unwrap_or(0.0),
+            ContactQuantity::Force => constraints().map(|l| self.contact_forces()[l][0]).sum(),
+            ContactQuantity::Friction => constraints().map(|l| self.contact_forces()[l][1]).sum(),
             ContactQuantity::OnFirst(axis) => component(self.force_on_first(group), axis),
             ContactQuantity::Place(axis) => component(self.resultant_at(group), axis),
         }

@@ -6,7 +6,7 @@
 
 use super::minimal::Force;
 use super::rows::{closing_rows, gap_row, slide_row};
-use super::{generalized_force, Row, Trouble, Workspace};
+use super::{generalized_force, DynamicsError, Row, Workspace};
 use crate::contact::complementarity::{self, Answer, FrictionLaw, Problem, Status, Verdict};
 use crate::error::Paradox;
 use crate::mechanism::Friction;
@@ -120,27 +120,27 @@ impl ClosedContacts {
 }
 
 impl Workspace<'_> {
-    /// How `limits`, freed, act on one another at the present state.
+    /// How `constraints`, freed, act on one another at the present state.
     ///
     /// # Errors
     /// As [`Workspace::solve`]: the mechanism without them must have a motion.
-    pub fn closed_contacts(&mut self, limits: Vec<usize>) -> Result<ClosedContacts, Trouble> {
-        let opened = self.mode().with_contacts(&limits, ContactMode::Open);
+    pub fn closed_contacts(&mut self, constraints: Vec<usize>) -> Result<ClosedContacts, DynamicsError> {
+        let opened = self.mode().with_contacts(&constraints, ContactMode::Open);
         self.enter(&opened);
         let at = self.at();
-        let gaps: Vec<Row> = limits.iter().map(|&l| gap_row(at, l, None)).collect();
+        let gaps: Vec<Row> = constraints.iter().map(|&l| gap_row(at, l, None)).collect();
         let slides: Vec<Option<Row>> =
-            limits.iter().map(|&l| self.m.unilateral[l].friction.and_then(|_| slide_row(at, l, None))).collect();
+            constraints.iter().map(|&l| self.m.unilateral[l].friction.and_then(|_| slide_row(at, l, None))).collect();
         self.rows = closing_rows(at, None);
         let mut arms = std::mem::take(&mut self.arms);
         super::loads::centre_arms(self.at(), &mut arms);
         self.arms = arms;
         self.factor(Force::ActuatorDirection)?;
-        let k = limits.len();
+        let k = constraints.len();
         let rates = gaps.iter().map(|r| r.rate.unwrap_or(0.0));
         let rates = rates.chain(slides.iter().map(|s| s.as_ref().and_then(|r| r.rate).unwrap_or(0.0))).collect();
         let mut contacts = ClosedContacts {
-            constraints: limits,
+            constraints,
             opened,
             gaps,
             slides,
@@ -169,7 +169,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn free_accelerations(&mut self, contacts: &ClosedContacts) -> Result<Vec<f64>, Trouble> {
+    pub fn free_accelerations(&mut self, contacts: &ClosedContacts) -> Result<Vec<f64>, DynamicsError> {
         self.enter(&contacts.opened);
         self.solve_by(super::Route::Minimal)?;
         let at = self.at();
@@ -195,10 +195,10 @@ impl Workspace<'_> {
         contacts: &ClosedContacts,
         slips: &[f64],
         scale: ContactTolerances,
-    ) -> Result<ContactDecision, Trouble> {
+    ) -> Result<ContactDecision, DynamicsError> {
         let mut free = self.free_accelerations(contacts)?;
         if !free.iter().all(|a| a.is_finite()) {
-            return Err(Trouble::NoFiniteAcceleration);
+            return Err(DynamicsError::NoFiniteAcceleration);
         }
         // Round-off is no reason to part.
         free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.acceleration).for_each(|a| *a = 0.0);
@@ -221,7 +221,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// `penetration`; as [`Workspace::decide_contact_modes`].
-    pub fn initial_mode(&mut self) -> Result<Mode, Trouble> {
+    pub fn initial_mode(&mut self) -> Result<Mode, DynamicsError> {
         if self.m.unilateral.is_empty() && self.m.joint_friction.is_empty() {
             return Ok(self.mode().clone());
         }
@@ -250,7 +250,7 @@ impl Workspace<'_> {
         Ok(mode)
     }
 
-    fn modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<Mode, Trouble> {
+    fn modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<Mode, DynamicsError> {
         let touching = self.touching(1e-9 * self.length);
         let contacts = self.closed_contacts(touching)?;
         let staying = (0..contacts.len())
@@ -268,7 +268,11 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn share_friction(&mut self, contacts: &ClosedContacts, decision: &ContactDecision) -> Result<Mode, Trouble> {
+    pub fn share_friction(
+        &mut self,
+        contacts: &ClosedContacts,
+        decision: &ContactDecision,
+    ) -> Result<Mode, DynamicsError> {
         let mut mode = contacts.decided(decision);
         let sticking = |(&l, &friction): (&usize, &f64)| {
             Some((l, friction)).filter(|_| mode.contacts[l].mode == ContactMode::Stick)
@@ -320,7 +324,7 @@ impl Workspace<'_> {
         free: &[f64],
         friction: &[FrictionLaw],
         verdict: &Verdict,
-    ) -> Trouble {
+    ) -> DynamicsError {
         let names = self.names_of(&contacts.constraints);
         let mut text = match verdict {
             Verdict::Indeterminate(answers) => {
@@ -351,13 +355,13 @@ impl Workspace<'_> {
             _ => Paradox::Inconsistent,
         };
         let group = &self.m.groups[self.m.unilateral[contacts.constraints[sliding.map_or(0, |s| s.0)]].group];
-        Trouble::Paradox(paradox, text, group.path())
+        DynamicsError::Paradox(paradox, text, group.path())
     }
 
     /// The names of the contacts, stops and strings of unilateral constraints, each once.
-    pub fn names_of(&self, limits: &[usize]) -> String {
+    pub fn names_of(&self, constraints: &[usize]) -> String {
         let mut names: Vec<String> =
-            limits.iter().map(|&l| format!("`{}`", self.m.groups[self.m.unilateral[l].group].name)).collect();
+            constraints.iter().map(|&l| format!("`{}`", self.m.groups[self.m.unilateral[l].group].name)).collect();
         names.dedup();
         names.join(" and ")
     }
@@ -377,10 +381,10 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The holds of an answer, and whether it was a close thing.
-fn decision(answer: &Answer, problem: &Problem, pace: f64) -> ContactDecision {
+/// The modes of an answer, and whether it was a close thing.
+fn decision(answer: &Answer, problem: &Problem, acceleration: f64) -> ContactDecision {
     let k = answer.status.len();
-    let fastest = problem.free.iter().chain(&answer.acceleration).fold(pace, |most, x| most.max(x.abs()));
+    let fastest = problem.free.iter().chain(&answer.acceleration).fold(acceleration, |most, x| most.max(x.abs()));
     let weak = |i: usize| answer.normal[i] * problem.g[(i, i)] <= CLOSE * fastest;
     let slow = |x: f64| x.abs() <= CLOSE * fastest;
     let mode = |i: usize| match answer.status[i] {

@@ -1,7 +1,7 @@
 //! Gaps at one state: their features and borders, which are closed, and parts put in place.
 
 use super::rows::{closing_rows, joint_rows};
-use super::{Source, Trouble, Workspace};
+use super::{DynamicsError, Source, Workspace};
 use crate::bound_values::BoundValues;
 use crate::kinematics::MotionView;
 use crate::mechanism::{Gap, Group, Mechanism, Part};
@@ -55,7 +55,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// `penetration`, where a unilateral constraint is violated.
-    pub fn start_contacts(&mut self) -> Result<Mode, Trouble> {
+    pub fn start_contacts(&mut self) -> Result<Mode, DynamicsError> {
         let mut mode = self.mode().clone();
         for l in 0..self.m.unilateral.len() {
             mode.contacts[l].feature = self.initial_feature(l);
@@ -79,7 +79,7 @@ impl Workspace<'_> {
                     word => format!("the {word} `{}` is violated by {:.6e}", group.name, -gap),
                 };
                 let hint = "move the parts, or change its size";
-                return Err(Trouble::Penetration(what + " at the start", hint, group.path()));
+                return Err(DynamicsError::Penetration(what + " at the start", hint, group.path()));
             }
         }
         Ok(mode)
@@ -90,7 +90,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// `penetration`.
-    pub fn check_gaps(&self, t: f64) -> Result<(), Trouble> {
+    pub fn check_gaps(&self, t: f64) -> Result<(), DynamicsError> {
         let apart = self.apart();
         for (l, constraint) in self.m.unilateral.iter().enumerate() {
             let mode = self.mode().contacts[l].mode;
@@ -104,7 +104,11 @@ impl Workspace<'_> {
             if gap < -GRAZE * self.length {
                 let group = &self.m.groups[constraint.group];
                 let what = format!("the {} `{}` is violated by {:.6e} at t = {t:.12} s", group.word, group.name, -gap);
-                return Err(Trouble::Penetration(what, "choose a shorter longest step, `max_step`", group.path()));
+                return Err(DynamicsError::Penetration(
+                    what,
+                    "choose a shorter longest step, `max_step`",
+                    group.path(),
+                ));
             }
         }
         Ok(())

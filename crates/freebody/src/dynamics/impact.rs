@@ -3,7 +3,7 @@
 use super::contact_modes::force_on_first;
 use super::minimal::Force;
 use super::reactions::joint_load;
-use super::{ClosedContacts, ContactTolerances, JointLoad, Row, Trouble, Workspace};
+use super::{ClosedContacts, ContactTolerances, DynamicsError, JointLoad, Row, Workspace};
 use crate::contact::complementarity::{self, ImpactProblem, Problem};
 use crate::mechanism::Friction;
 use crate::plane::{Twist, Vec2, Wrench};
@@ -43,8 +43,8 @@ impl Workspace<'_> {
         &mut self,
         contacts: &ClosedContacts,
         restitution: &[f64],
-        solve: impl FnOnce(&ImpactProblem) -> Result<(complementarity::Impulses, Option<String>), Trouble>,
-    ) -> Result<ImpactSolution, Trouble> {
+        solve: impl FnOnce(&ImpactProblem) -> Result<(complementarity::Impulses, Option<String>), DynamicsError>,
+    ) -> Result<ImpactSolution, DynamicsError> {
         let friction: Vec<f64> = contacts.constraints.iter().map(|&l| self.friction_of(l)).collect();
         let problem = ImpactProblem { g: &contacts.g, before: &contacts.rates, restitution, friction: &friction };
         let (impulses, note) = solve(&problem)?;
@@ -60,13 +60,15 @@ impl Workspace<'_> {
         &mut self,
         contacts: &ClosedContacts,
         scale: ContactTolerances,
-    ) -> Result<Option<ImpactSolution>, Trouble> {
+    ) -> Result<Option<ImpactSolution>, DynamicsError> {
         let (free, slips) = (self.free_accelerations(contacts)?, contacts.slips());
         let friction = self.friction_laws(contacts, &slips, scale.rest_speed);
         let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
         let fastest = free.iter().fold(scale.acceleration, |most, a| most.max(a.abs()));
         let impulses = complementarity::impact_without_collision(&problem, &slips, BRIEF * scale.rest_speed / fastest)
-            .map_err(|e| Trouble::NoImpulses(self.names_of(&contacts.constraints), "end the jam", e.to_string()))?;
+            .map_err(|e| {
+                DynamicsError::NoImpulses(self.names_of(&contacts.constraints), "end the jam", e.to_string())
+            })?;
         let note = Some("the contact jammed: an impact without a collision".to_string());
         Ok(impulses.map(|impulses| self.impact_solution(contacts, impulses, note)))
     }
@@ -100,7 +102,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn engagement_impact(&mut self) -> Result<ImpactSolution, Trouble> {
+    pub fn engagement_impact(&mut self) -> Result<ImpactSolution, DynamicsError> {
         let nothing = self.closed_contacts(vec![])?;
         let asked: Vec<f64> = self.rows.iter().map(|row| -row.rate.unwrap_or(0.0)).collect();
         let solution = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked);
@@ -120,7 +122,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn drive_works_since(&mut self, u: &[f64]) -> Result<Vec<f64>, Trouble> {
+    pub fn drive_works_since(&mut self, u: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         let (t, q, after) = (self.placed.t, self.placed.q.clone(), self.placed.u.clone());
         self.move_to(t, &q, u);
         let before = self.k.twist.clone();

@@ -1,6 +1,6 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
-use super::{force_power, force_value, Determinacy, JointLoad, Route, TermScales, Trouble, Workspace};
+use super::{force_power, force_value, Determinacy, DynamicsError, JointLoad, Route, TermScales, Workspace};
 use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
 use crate::kinematics::Observed;
 use crate::mechanism::FrictionSource;
@@ -86,7 +86,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn instant(&mut self, route: Route) -> Result<Instant, Trouble> {
+    pub fn instant(&mut self, route: Route) -> Result<Instant, DynamicsError> {
         self.solve_by(route)?;
         let mut accelerations = vec![0.0; self.m.freedom()];
         self.accelerations(&mut accelerations);
@@ -106,9 +106,9 @@ impl Workspace<'_> {
         let stresses = self.self_stresses();
         let Determinacy { joints: determinate, drives: drives_determinate, groups } = self.determinacy_under(&stresses);
         let self_stress = stresses.iter().map(|s| self.describe_self_stress(s)).filter(|s| !s.is_empty()).collect();
-        let limits = self.contact_loads(&groups);
+        let contacts = self.contact_loads(&groups);
         Ok(Instant {
-            contacts: limits,
+            contacts,
             accelerations,
             bodies,
             joints,
@@ -130,7 +130,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn evaluate(&mut self, laws: &[&ModelExpr], works: &[f64]) -> Result<Vec<f64>, Trouble> {
+    pub fn evaluate(&mut self, laws: &[&ModelExpr], works: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         let (mut needs_solution, mut needs_reactions) = (false, false);
         for law in laws {
             needs_solution |= law.depends_on_accelerations();

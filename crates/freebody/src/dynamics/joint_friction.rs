@@ -5,7 +5,7 @@
 //! as long as friction does not jam the joint each turn brings them closer.
 
 use super::rows::joint_friction_row;
-use super::{ContactTolerances, Route, Source, Trouble, Workspace};
+use super::{ContactTolerances, DynamicsError, Route, Source, Workspace};
 use crate::mechanism::FrictionSource;
 use crate::mode::{ContactMode, Mode};
 
@@ -24,7 +24,7 @@ impl Workspace<'_> {
         let of = &self.m.joint_friction[friction];
         let pressing = match of.of {
             FrictionSource::Joint { joint, .. } => self.joint_load(joint).force.norm() * self.arm_of(friction),
-            FrictionSource::Limit(constraint) => self.compliant_force(constraint).max(0.0),
+            FrictionSource::Unilateral(constraint) => self.compliant_force(constraint).max(0.0),
         };
         pressing * self.n.values[if rests { of.fixed } else { of.kinetic }]
     }
@@ -50,7 +50,7 @@ impl Workspace<'_> {
     }
 
     /// Solves again until the friction of all that slides fits the forces that press.
-    pub(super) fn solve_joint_friction(&mut self, route: Route) -> Result<(), Trouble> {
+    pub(super) fn solve_joint_friction(&mut self, route: Route) -> Result<(), DynamicsError> {
         for _ in 0..ITERATIONS {
             let wanted: Vec<f64> =
                 (0..self.m.joint_friction.len()).map(|friction| self.sliding_friction(friction)).collect();
@@ -67,7 +67,7 @@ impl Workspace<'_> {
             self.solve_once(route)?;
         }
         let names = (0..self.m.joint_friction.len()).map(|r| Source::JointFriction(r).name(self.m).to_string());
-        Err(Trouble::SelfLocking(names.collect()))
+        Err(DynamicsError::SelfLocking(names.collect()))
     }
 
     /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, of
@@ -119,11 +119,11 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn start_joint_friction(&mut self, rest_speed: f64) -> Result<Mode, Trouble> {
+    pub fn start_joint_friction(&mut self, rest_speed: f64) -> Result<Mode, DynamicsError> {
         let mut mode = self.mode().clone();
         for friction in 0..self.m.joint_friction.len() {
             mode.joint_friction[friction] = match self.m.joint_friction[friction].of {
-                FrictionSource::Limit(constraint) if mode.contacts[constraint].mode != ContactMode::Compliant => {
+                FrictionSource::Unilateral(constraint) if mode.contacts[constraint].mode != ContactMode::Compliant => {
                     ContactMode::Open
                 }
                 FrictionSource::Joint { joint, .. } if !mode.has(self.m.part_of(joint)) => ContactMode::Open,
@@ -140,12 +140,12 @@ impl Workspace<'_> {
     /// Whether the constraints of a mode ask for motions that exclude each other.
     fn is_overconstrained(&mut self, mode: &Mode) -> bool {
         self.enter(mode);
-        matches!(self.solve_by(Route::Minimal), Err(Trouble::Contradiction(..) | Trouble::Residual(..)))
+        matches!(self.solve_by(Route::Minimal), Err(DynamicsError::Contradiction(..) | DynamicsError::Residual(..)))
     }
 
     /// Lets slide what no friction can hold, because the other constraints alone tell its acceleration: a slider that
     /// turns back at the dead point of its crank.
-    fn release_overconstrained_friction(&mut self, mut mode: Mode) -> Result<Mode, Trouble> {
+    fn release_overconstrained_friction(&mut self, mut mode: Mode) -> Result<Mode, DynamicsError> {
         let stuck: Vec<usize> = (0..self.m.joint_friction.len())
             .filter(|&friction| mode.joint_friction[friction] == ContactMode::Stick)
             .collect();
@@ -177,7 +177,7 @@ impl Workspace<'_> {
         &mut self,
         scale: ContactTolerances,
         released: Option<usize>,
-    ) -> Result<Option<Mode>, Trouble> {
+    ) -> Result<Option<Mode>, DynamicsError> {
         self.solve()?;
         let with = |friction: usize, held: ContactMode| {
             let mut mode = self.mode().clone();
@@ -215,7 +215,7 @@ impl Workspace<'_> {
     fn rests(&self, friction: usize, rest_speed: f64) -> bool {
         let arm = match self.m.joint_friction[friction].of {
             FrictionSource::Joint { radius, .. } => radius.map_or(1.0, |_| self.length),
-            FrictionSource::Limit(_) => 1.0,
+            FrictionSource::Unilateral(_) => 1.0,
         };
         self.joint_sliding_rate(friction).abs() * arm <= rest_speed
     }

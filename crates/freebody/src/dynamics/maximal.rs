@@ -3,7 +3,7 @@
 
 use super::momentum::Inertia;
 use super::rows::{closing_rows, joint_rows, pair};
-use super::{Row, Source, Trouble, Workspace};
+use super::{DynamicsError, Row, Source, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::Joint;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
@@ -74,7 +74,7 @@ impl Workspace<'_> {
         rows
     }
 
-    pub(super) fn solve_constraints(&mut self) -> Result<(), Trouble> {
+    pub(super) fn solve_constraints(&mut self) -> Result<(), DynamicsError> {
         let rows = self.all_rows();
         let starts = self.body_starts();
         let unknowns = starts[self.m.bodies.len() - 1] + rows.len();
@@ -123,7 +123,7 @@ impl Workspace<'_> {
     }
 
     /// The least motion ν (in the metric of the masses) that changes the closing rows by `asked`, in their order.
-    pub(super) fn sparse_correction(&mut self, asked: &[f64]) -> Result<Vec<f64>, Trouble> {
+    pub(super) fn sparse_correction(&mut self, asked: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         let rows = self.all_rows();
         let starts = self.body_starts();
         let n = starts[starts.len() - 1];
@@ -143,7 +143,7 @@ impl Workspace<'_> {
         Ok(self.joint_motion(&moved, false))
     }
 
-    fn solve_sparse(&mut self, rows: &[Row], rhs: &[f64], x: &mut [f64]) -> Result<(), Trouble> {
+    fn solve_sparse(&mut self, rows: &[Row], rhs: &[f64], x: &mut [f64]) -> Result<(), DynamicsError> {
         if self.sparse.is_none() {
             let (pattern, groups) = self.pattern();
             self.sparse = Some(Sparse { factor: Factor::new(&pattern), groups });
@@ -178,19 +178,19 @@ impl Workspace<'_> {
         Ok(())
     }
 
-    fn stalled(&self, node: usize, residual: f64, bodies: usize, groups: &[Source]) -> Trouble {
+    fn stalled(&self, node: usize, residual: f64, bodies: usize, groups: &[Source]) -> DynamicsError {
         let (name, path) = match node < bodies {
             true => (&*self.m.bodies[node + 1].name, format!("bodies.{}", self.m.bodies[node + 1].name)),
             false => (groups[node - bodies].name(self.m), groups[node - bodies].path(self.m)),
         };
-        Trouble::Residual(residual, name.to_string(), path)
+        DynamicsError::Residual(residual, name.to_string(), path)
     }
 
     /// The same equations as a full matrix, for actuators that act along another gauge than the one they drive.
-    fn solve_dense(&mut self, rows: &[Row], starts: &[usize], rhs: &[f64], x: &mut [f64]) -> Result<(), Trouble> {
+    fn solve_dense(&mut self, rows: &[Row], starts: &[usize], rhs: &[f64], x: &mut [f64]) -> Result<(), DynamicsError> {
         let (n, all) = (rhs.len() - rows.len(), rhs.len());
         if all > DENSE_LIMIT {
-            return Err(Trouble::TooManyForDense);
+            return Err(DynamicsError::TooManyForDense);
         }
         let mut a = Matrix::zeros(all, all);
         for i in 1..self.m.bodies.len() {
@@ -215,7 +215,7 @@ impl Workspace<'_> {
             enter(&mut a, &row.motion, true);
             enter(&mut a, row.loads(), false);
         }
-        super::newton_euler::solve_any(&a, rhs, x).map_err(|_| Trouble::NoUniqueMotion)
+        super::newton_euler::solve_any(&a, rhs, x).map_err(|_| DynamicsError::NoUniqueMotion)
     }
 
     /// Reads the unknowns back: accelerations, joint accelerations, loads passed, multipliers.

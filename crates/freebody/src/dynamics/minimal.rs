@@ -2,7 +2,9 @@
 
 use super::momentum::Inertia;
 use super::rows::closing_rows;
-use super::{generalized_force, residual, size_of_power, visit_ancestors, Row, Source, Trouble, Workspace, CANCELLED};
+use super::{
+    generalized_force, residual, size_of_power, visit_ancestors, DynamicsError, Row, Source, Workspace, CANCELLED,
+};
 use crate::kinematics::StateView;
 use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
@@ -32,7 +34,7 @@ const PART: f64 = 1e-6;
 const CONTRADICTION: f64 = 1e-7;
 
 impl Workspace<'_> {
-    pub(super) fn solve_minimal(&mut self) -> Result<(), Trouble> {
+    pub(super) fn solve_minimal(&mut self) -> Result<(), DynamicsError> {
         let force = self.set_up()?;
         let asked: Vec<f64> = self.rows.iter().map(|row| -row.bias).collect();
         let solution = self.dense.saddle.solve(&force, &asked);
@@ -70,7 +72,7 @@ impl Workspace<'_> {
     }
 
     /// Sets up and factors the equations of the present state; returns the generalized forces.
-    fn set_up(&mut self) -> Result<Vec<f64>, Trouble> {
+    fn set_up(&mut self) -> Result<Vec<f64>, DynamicsError> {
         let zero = vec![0.0; self.m.freedom()];
         self.k.propagate_motion(self.m, &zero, true, &mut self.solved.bodies);
         self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
@@ -83,7 +85,7 @@ impl Workspace<'_> {
     }
 
     /// Factors mass matrix and rows of the present state.
-    pub(super) fn factor(&mut self, force: Force) -> Result<(), Trouble> {
+    pub(super) fn factor(&mut self, force: Force) -> Result<(), DynamicsError> {
         let at = self.placed.view(self.m, &self.n, &self.k);
         mass_matrix(at, &self.arms, &mut self.dense.mass);
         rows_in_coordinates(at, &self.rows, self.length, &mut self.dense.g, &mut self.dense.b);
@@ -96,24 +98,24 @@ impl Workspace<'_> {
     }
 
     /// Says in the model's words why there is no unique motion.
-    fn explain(&self, error: SaddleError) -> Trouble {
+    fn explain(&self, error: SaddleError) -> DynamicsError {
         match error {
             SaddleError::ZeroInertia { direction } => {
                 let (what, first) = self.describe_motion(&direction);
-                Trouble::ZeroInertia(what, first)
+                DynamicsError::ZeroInertia(what, first)
             }
             SaddleError::InsufficientActuation { direction } => {
                 let (what, first) = self.describe_motion(&direction);
-                Trouble::OutOfReach(what, first)
+                DynamicsError::OutOfReach(what, first)
             }
             SaddleError::RankMismatch { motion, force } => match &self.dependent()[..] {
-                [] => Trouble::TooFewActuators { asked: motion, ways: force },
-                spare => self.indeterminate_contact(spare),
+                [] => DynamicsError::TooFewActuators { asked: motion, ways: force },
+                dependent => self.indeterminate_contact(dependent),
             },
         }
     }
 
-    /// Unilateral constraints that slide and of which one is to spare: their gaps depend on each other.
+    /// Unilateral constraints that slide and of which one is redundant: their gaps depend on each other.
     fn dependent(&self) -> Vec<usize> {
         let dependence = Orthogonal::factor(&self.dense.g);
         let (y, rank) = (dependence.y(), dependence.rank().rank);
@@ -125,9 +127,9 @@ impl Workspace<'_> {
     }
 
     /// Unilateral constraints that slide press against each other: the balance equations leave open how hard.
-    fn indeterminate_contact(&self, spare: &[usize]) -> Trouble {
-        let group = &self.m.groups[self.m.unilateral[spare[0]].group];
-        Trouble::UndecidedPress(self.names_of(spare), group.path())
+    fn indeterminate_contact(&self, dependent: &[usize]) -> DynamicsError {
+        let group = &self.m.groups[self.m.unilateral[dependent[0]].group];
+        DynamicsError::UndecidedPress(self.names_of(dependent), group.path())
     }
 
     /// Which bodies take part in a motion of the tree, in words, and where the first of them stands in the model.
@@ -141,9 +143,9 @@ impl Workspace<'_> {
             .iter()
             .map(|&i| {
                 let turning = bodies[i].w.abs() * self.length > 1e3 * bodies[i].v.norm();
-                let pin = self.m.bodies[i].tree_joint.map_or("", |b| self.m.joints[b.joint].name.as_str());
+                let joint = self.m.bodies[i].tree_joint.map_or("", |b| self.m.joints[b.joint].name.as_str());
                 if turning {
-                    format!("`{}` can spin about `{pin}`", self.m.bodies[i].name)
+                    format!("`{}` can spin about `{joint}`", self.m.bodies[i].name)
                 } else {
                     format!("`{}` can move", self.m.bodies[i].name)
                 }
@@ -152,7 +154,7 @@ impl Workspace<'_> {
         (words.join(" and "), moving.first().map(|&i| format!("bodies.{}", self.m.bodies[i].name)))
     }
 
-    fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), Trouble> {
+    fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), DynamicsError> {
         let columns = column_scales(self.at(), self.length);
         let scales = row_scales(&self.dense.g, &columns);
         let most = asked.iter().zip(&scales).map(|(r, s)| (r * s).abs()).fold(1.0, f64::max);
@@ -161,7 +163,7 @@ impl Workspace<'_> {
         }
         let mut names: Vec<String> = self.rows.iter().map(|row| row.source.name(self.m).to_string()).collect();
         names.dedup();
-        Err(Trouble::Contradiction(names, self.rows.last().map(|row| row.source.path(self.m))))
+        Err(DynamicsError::Contradiction(names, self.rows.last().map(|row| row.source.path(self.m))))
     }
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.

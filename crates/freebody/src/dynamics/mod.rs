@@ -44,7 +44,7 @@ pub use rows::{
 pub use term_scales::TermScales;
 
 use crate::bound_values::BoundValues;
-pub use crate::error::Trouble;
+pub use crate::error::DynamicsError;
 use crate::kinematics::{Kinematics, StateView};
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
@@ -75,12 +75,12 @@ impl Route {
 /// Part of its terms below which a sum is round-off.
 const CANCELLED: f64 = 1e-13;
 
-impl Trouble {
+impl DynamicsError {
     /// A motion of a body that nothing resists.
-    pub(crate) fn singular_inertia(m: &Mechanism, body: usize) -> Trouble {
+    pub(crate) fn singular_inertia(m: &Mechanism, body: usize) -> DynamicsError {
         let tree_joint = m.bodies[body].tree_joint.expect("a body of the tree");
         let (name, joint) = (&m.bodies[body].name, &m.joints[tree_joint.joint].name);
-        Trouble::ZeroInertia(format!("`{name}` can move at `{joint}`"), Some(format!("bodies.{name}")))
+        DynamicsError::ZeroInertia(format!("`{name}` can move at `{joint}`"), Some(format!("bodies.{name}")))
     }
 }
 
@@ -129,7 +129,7 @@ pub struct Workspace<'m> {
     loads: Vec<Wrench>,
     rows: Vec<Row>,
     solved: Solution,
-    sweep: articulated_body::ArticulatedBody,
+    articulated_body: articulated_body::ArticulatedBody,
     dense: minimal::Dense,
     sparse: Option<maximal::Sparse>,
     many_loops: bool,
@@ -162,7 +162,7 @@ impl<'m> Workspace<'m> {
                 lambda: vec![],
                 joint_wrenches: vec![Wrench::zero(); bodies],
             },
-            sweep: Default::default(),
+            articulated_body: Default::default(),
             dense: Default::default(),
             sparse: None,
             many_loops: false,
@@ -229,7 +229,7 @@ impl<'m> Workspace<'m> {
     ///
     /// # Errors
     /// `singular_mass`, `inconsistent_constraints`, named after the bodies and joints concerned.
-    pub fn solve(&mut self) -> Result<(), Trouble> {
+    pub fn solve(&mut self) -> Result<(), DynamicsError> {
         let cheapest = if self.many_loops { Route::Constraints } else { Route::Minimal };
         self.solve_by(self.preferred.unwrap_or(cheapest))
     }
@@ -238,7 +238,7 @@ impl<'m> Workspace<'m> {
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn solve_by(&mut self, route: Route) -> Result<(), Trouble> {
+    pub fn solve_by(&mut self, route: Route) -> Result<(), DynamicsError> {
         self.placed.bearing = None;
         self.joint_friction_forces.fill(0.0);
         self.solve_once(route)?;
@@ -254,7 +254,7 @@ impl<'m> Workspace<'m> {
         }
     }
 
-    fn solve_once(&mut self, route: Route) -> Result<(), Trouble> {
+    fn solve_once(&mut self, route: Route) -> Result<(), DynamicsError> {
         let at = self.placed.view(self.m, &self.n, &self.k);
         loads::centre_arms(at, &mut self.arms);
         loads::loads(at, &self.arms, &mut self.loads);
@@ -265,7 +265,14 @@ impl<'m> Workspace<'m> {
             Route::Minimal if !self.is_closed() => {
                 self.solved.lambda.clear();
                 let s = &mut self.solved;
-                self.sweep.solve(at, &self.arms, &self.loads, &mut s.nu_dot, &mut s.bodies, &mut s.joint_wrenches)
+                self.articulated_body.solve(
+                    at,
+                    &self.arms,
+                    &self.loads,
+                    &mut s.nu_dot,
+                    &mut s.bodies,
+                    &mut s.joint_wrenches,
+                )
             }
             Route::Minimal => self.solve_minimal(),
             Route::NewtonEuler => self.solve_newton_euler(),

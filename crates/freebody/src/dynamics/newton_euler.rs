@@ -2,7 +2,7 @@
 //! where there are loops): A x = b.
 
 use super::rows::closing_rows;
-use super::{momentum, residual, size_of_power, Row, Trouble, Workspace, CANCELLED};
+use super::{momentum, residual, size_of_power, DynamicsError, Row, Workspace, CANCELLED};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
@@ -49,14 +49,14 @@ fn push_orthogonal(v: [f64; 3], spanned: &mut Vec<[f64; 3]>, nothing: f64) {
 }
 
 impl Workspace<'_> {
-    pub(super) fn solve_newton_euler(&mut self) -> Result<(), Trouble> {
+    pub(super) fn solve_newton_euler(&mut self) -> Result<(), DynamicsError> {
         let zero = vec![0.0; self.m.freedom()];
         self.k.propagate_motion(self.m, &zero, true, &mut self.solved.bodies);
         self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
         let reactions = self.reactions();
         let (a, b) = self.brute_force(&reactions);
         let mut x = vec![0.0; a.cols()];
-        solve_any(&a, &b, &mut x).map_err(|_| Trouble::NoUniqueMotion)?;
+        solve_any(&a, &b, &mut x).map_err(|_| DynamicsError::NoUniqueMotion)?;
         self.take_brute_force(&reactions, &x);
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
-use super::{Row, Source, Trouble, Workspace};
+use super::{DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
 use crate::mode::Mode;
@@ -64,7 +64,7 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// `branch_lost` when the loops cannot be closed from here.
-    pub fn project_positions(&mut self, mode: &Mode, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, Trouble> {
+    pub fn project_positions(&mut self, mode: &Mode, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, DynamicsError> {
         self.enter(mode);
         let (mut moved, mut last) = (0.0_f64, f64::INFINITY);
         for _ in 0..TRIES {
@@ -95,14 +95,14 @@ impl Workspace<'_> {
             return Ok(moved);
         }
         let open = self.largest_gap_source();
-        Err(Trouble::LoopOpened(open.name(self.m).to_string(), gap * self.length, open.path(self.m)))
+        Err(DynamicsError::LoopOpened(open.name(self.m).to_string(), gap * self.length, open.path(self.m)))
     }
 
     /// Makes the velocities at (t, q) keep the loops closed in a mode: returns the size of the correction.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn project_velocities(&mut self, mode: &Mode, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, Trouble> {
+    pub fn project_velocities(&mut self, mode: &Mode, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, DynamicsError> {
         self.place(mode, t, q, u);
         self.update_rows();
         let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
@@ -118,7 +118,7 @@ impl Workspace<'_> {
 
     /// The motion that changes the present rows by `asked`, least in the metric of the masses; least in plain scaled
     /// coordinates where a free motion has no mass.
-    fn correction(&mut self, asked: &[f64], present: &[bool]) -> Result<Vec<f64>, Trouble> {
+    fn correction(&mut self, asked: &[f64], present: &[bool]) -> Result<Vec<f64>, DynamicsError> {
         if self.many_loops && present.iter().all(|&p| p) {
             return self.sparse_correction(asked);
         }
@@ -150,7 +150,7 @@ impl Workspace<'_> {
         q: &[f64],
         u: &mut [f64],
         contact: &[(String, ModelExpr, f64)],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), DynamicsError> {
         self.move_to(t, q, u);
         self.update_rows();
         let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();

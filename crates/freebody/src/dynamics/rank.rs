@@ -269,8 +269,8 @@ impl Workspace<'_> {
         let mut groups = vec![[true; 4]; self.m.groups.len()];
         for s in stresses {
             let size = |c: &[f64; 3]| c[0].abs().max(c[1].abs()).max(c[2].abs() / self.length);
-            let limits = s.groups.iter().flatten().map(|x| x.abs());
-            let forces = s.joints.iter().map(size).chain(s.drives.iter().map(|d| d.abs())).chain(limits);
+            let contacts = s.groups.iter().flatten().map(|x| x.abs());
+            let forces = s.joints.iter().map(size).chain(s.drives.iter().map(|d| d.abs())).chain(contacts);
             // The largest multiplier is 1: a stress within one contact shows in none of its sums.
             let most = forces.fold(1.0, f64::max);
             for (flags, c) in groups.iter_mut().zip(&s.groups) {

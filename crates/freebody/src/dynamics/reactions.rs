@@ -31,7 +31,7 @@ impl Source {
             Source::Drive(drive) => &m.drives[drive].name,
             Source::JointFriction(friction) => match m.joint_friction[friction].of {
                 FrictionSource::Joint { joint, .. } => &m.joints[joint].name,
-                FrictionSource::Limit(constraint) => Source::Gap(constraint).name(m),
+                FrictionSource::Unilateral(constraint) => Source::Gap(constraint).name(m),
             },
             Source::Gap(constraint) | Source::Friction(constraint) => &m.groups[m.unilateral[constraint].group].name,
         }
@@ -41,7 +41,7 @@ impl Source {
         match self {
             Source::Gap(constraint) | Source::Friction(constraint) => m.groups[m.unilateral[constraint].group].path(),
             Source::JointFriction(friction) => match m.joint_friction[friction].of {
-                FrictionSource::Limit(constraint) => Source::Gap(constraint).path(m),
+                FrictionSource::Unilateral(constraint) => Source::Gap(constraint).path(m),
                 FrictionSource::Joint { joint, .. } => Source::Joint(joint, 0).path(m),
             },
             Source::Drive(drive) => match m.drives[drive].kind {
@@ -94,7 +94,7 @@ fn about(at: StateView<'_>, body: usize, load: Wrench, place: Vec2) -> Wrench {
 
 impl JointLoad {
     /// The load on the second body at its joint origin.
-    fn at_pin(&self, at: StateView<'_>, body: usize) -> Wrench {
+    fn at_joint_origin(&self, at: StateView<'_>, body: usize) -> Wrench {
         Wrench { f: self.force, m: self.couple }.seen_from(self.point - at.k.pose[body].at)
     }
     /// The pull along the line of the two markers: positive when it draws the second towards the first, N.
@@ -125,7 +125,7 @@ impl Workspace<'_> {
         let at = self.at();
         let load = joint_load(at, joint, &self.solved.joint_wrenches, &self.rows, &self.solved.lambda);
         let second = at.m.ends(&at.m.joints[joint])[1];
-        let on_second = load.at_pin(at, second).parts();
+        let on_second = load.at_joint_origin(at, second).parts();
         let mut rows = vec![];
         constraint_rows(at, joint, &mut rows);
         let of_second = |row: &Row| row.motion.iter().find(|(b, _)| *b == second).map_or([0.0; 3], |(_, w)| w.parts());

@@ -92,7 +92,7 @@ pub fn joint_friction_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: B
     let source = Source::JointFriction(index);
     match at.m.joint_friction[index].of {
         FrictionSource::Joint { joint, radius } => Row { source, ..joint_slide_row(at, joint, radius.is_some(), base) },
-        FrictionSource::Limit(constraint) => {
+        FrictionSource::Unilateral(constraint) => {
             Row { source, ..slide_row(at, constraint, base).expect("only contacts rub") }
         }
     }

@@ -6,7 +6,7 @@ use super::tree::{Condition, Expr, Op};
 #[derive(Clone, Copy, Debug)]
 pub enum Named<'a, L> {
     /// A leaf.
-    Leaf(&'a L),
+    Variable(&'a L),
     /// A table, by its identifier.
     Table(usize),
 }
@@ -86,7 +86,7 @@ impl<L> Op<L> {
         match *self {
             Op::Constant(value) if value.is_sign_negative() => (literal(value), Bond::Sign),
             Op::Constant(value) => (literal(value), Bond::Operand),
-            Op::Variable(ref variable) => (name(Named::Leaf(variable)), Bond::Operand),
+            Op::Variable(ref variable) => (name(Named::Variable(variable)), Bond::Operand),
             Op::Add(a, b) => (infix(a, Bond::Sum, " + ", b, Bond::Product), Bond::Sum),
             Op::Subtract(a, b) => (infix(a, Bond::Sum, " - ", b, Bond::Product), Bond::Sum),
             Op::Multiply(a, b) => (infix(a, Bond::Product, "*", b, Bond::Sign), Bond::Product),

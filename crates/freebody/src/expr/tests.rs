@@ -101,7 +101,7 @@ fn condition(text: &str) -> Condition<char> {
 
 fn print(expr: &Expr<char>) -> String {
     expr.text(|named| match named {
-        Named::Leaf(variable) => variable.to_string(),
+        Named::Variable(variable) => variable.to_string(),
         Named::Table(_) => "ramp".into(),
     })
 }
@@ -327,7 +327,7 @@ fn conditions_hold_or_not() {
     assert_eq!(condition.as_expr().discontinuities().collect::<Vec<_>>(), [1, 2, 3]);
     assert_eq!(
         condition.text(|named| match named {
-            Named::Leaf(variable) => variable.to_string(),
+            Named::Variable(variable) => variable.to_string(),
             Named::Table(_) => unreachable!(),
         }),
         "0 < x and (y < 0 or z < x)"

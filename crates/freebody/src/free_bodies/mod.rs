@@ -118,7 +118,7 @@ pub fn relate_friction<S: Scalar>(at: StateView<'_, S>, loads: &mut [Load<S>], v
             (Origin::Row(Source::Joint(joint, _)), FrictionSource::Joint { joint: friction, .. }) => {
                 joint == *friction && !load.card.couple
             }
-            (Origin::Compliant(constraint), FrictionSource::Limit(friction)) => constraint == *friction,
+            (Origin::Compliant(constraint), FrictionSource::Unilateral(friction)) => constraint == *friction,
             _ => false,
         };
         if let Some(press) = loads.iter().position(presses) {
@@ -130,8 +130,8 @@ pub fn relate_friction<S: Scalar>(at: StateView<'_, S>, loads: &mut [Load<S>], v
 }
 
 /// A load at the joint origin of a body, expressed as a force at a point and a couple beside it.
-fn part<S: Scalar>(at: StateView<'_, S>, body: usize, at_pin: Wrench<S>, point: Vec2<S>) -> Part<S> {
-    let there = at_pin.seen_from(at.k.pose[body].at - point);
+fn part<S: Scalar>(at: StateView<'_, S>, body: usize, at_joint_origin: Wrench<S>, point: Vec2<S>) -> Part<S> {
+    let there = at_joint_origin.seen_from(at.k.pose[body].at - point);
     Part { body, point, force: there.f, couple: there.m }
 }
 

@@ -1,7 +1,7 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
 use super::{loads, relate_friction, Load, Origin, Part, Size};
-use crate::dynamics::{closing_rows, Determinacy, Source, Trouble, Workspace};
+use crate::dynamics::{closing_rows, Determinacy, DynamicsError, Source, Workspace};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
 use crate::plane::{Twist, Vec2};
@@ -14,10 +14,10 @@ const NO_COUPLE: f64 = 1e-12;
 ///
 /// # Errors
 /// `not_finite`; as [`Workspace::solve`].
-pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, Trouble> {
+pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, DynamicsError> {
     workspace.solve()?;
     if !workspace.solved().nu_dot.iter().all(|a| a.is_finite()) {
-        return Err(Trouble::NoFiniteAcceleration);
+        return Err(DynamicsError::NoFiniteAcceleration);
     }
     let determinacy = workspace.determinacy();
     let sizes = LoadValues::of(workspace, &determinacy);
@@ -59,9 +59,9 @@ fn xy(v: Vec2) -> Value {
 }
 
 /// Acceleration of the mass centre and angular acceleration, by those of the joint origin; `w` the angular velocity.
-fn at_centre(arm: Vec2, pin: Twist, w: f64) -> [f64; 3] {
-    let a = pin.at(arm) - arm * (w * w);
-    [a.x, a.y, pin.w]
+fn at_centre(arm: Vec2, origin: Twist, w: f64) -> [f64; 3] {
+    let a = origin.at(arm) - arm * (w * w);
+    [a.x, a.y, origin.w]
 }
 
 fn body(workspace: &Workspace<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) -> Value {
@@ -135,17 +135,17 @@ fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, 
 
 /// The sizes of all unknown loads in the last solution, and whether they are determinate.
 struct LoadValues<'l> {
-    labels: &'l Determinacy,
+    determinacy: &'l Determinacy,
     joints: Vec<(Vec2, Vec<f64>)>,
     drives: Vec<f64>,
-    limits: Vec<[f64; 2]>,
+    contacts: Vec<[f64; 2]>,
 }
 
 impl<'l> LoadValues<'l> {
     fn of(b: &Workspace<'_>, determinacy: &'l Determinacy) -> Self {
         let loads = b.joint_loads();
         let joints = loads.iter().enumerate().map(|(j, l)| (l.force, rows_of(b, j))).collect();
-        LoadValues { labels: determinacy, joints, drives: b.drive_forces(), limits: b.contact_forces() }
+        LoadValues { determinacy, joints, drives: b.drive_forces(), contacts: b.contact_forces() }
     }
 
     fn of_load(&self, b: &Workspace<'_>, load: &Load<f64>, all: &[Load<f64>]) -> (Option<f64>, bool) {
@@ -159,7 +159,7 @@ impl<'l> LoadValues<'l> {
             Origin::Weight(_) | Origin::Force(..) => (None, true),
             Origin::Pin(joint, axis) => {
                 let force = self.joints[joint].0;
-                (Some([force.x, force.y][axis]), self.labels.joints[joint][axis])
+                (Some([force.x, force.y][axis]), self.determinacy.joints[joint][axis])
             }
             Origin::Row(Source::Joint(joint, row)) => {
                 let of = &m.joints[joint];
@@ -167,9 +167,9 @@ impl<'l> LoadValues<'l> {
                 let sign = of.kind.card().rows[row].sign();
                 (Some(sign * self.joints[joint].1[at]), self.is_sure(joint, load, all))
             }
-            Origin::Row(Source::Drive(drive)) => (Some(self.drives[drive]), self.labels.drives[drive]),
-            Origin::Row(Source::Gap(l)) => (Some(self.limits[l][0]), self.labels.groups[group(l)][2]),
-            Origin::Row(Source::Friction(l)) => (Some(self.limits[l][1]), self.labels.groups[group(l)][3]),
+            Origin::Row(Source::Drive(drive)) => (Some(self.drives[drive]), self.determinacy.drives[drive]),
+            Origin::Row(Source::Gap(l)) => (Some(self.contacts[l][0]), self.determinacy.groups[group(l)][2]),
+            Origin::Row(Source::Friction(l)) => (Some(self.contacts[l][1]), self.determinacy.groups[group(l)][3]),
             Origin::Row(Source::JointFriction(friction)) | Origin::JointFriction(friction) => {
                 (Some(b.joint_friction_force(friction)), true)
             }
@@ -180,7 +180,7 @@ impl<'l> LoadValues<'l> {
     /// Whether the load of a row is determinate: where all components of its joint are, or those of its force that no
     /// other row of the joint shares.
     fn is_sure(&self, joint: usize, load: &Load<f64>, all: &[Load<f64>]) -> bool {
-        let determinacy = self.labels.joints[joint];
+        let determinacy = self.determinacy.joints[joint];
         let own = along(load);
         let of_joint = |other: &&Load<f64>| matches!(other.origin, Origin::Row(Source::Joint(j, _)) if j == joint);
         let others = all.iter().filter(of_joint).filter(|other| other.symbol != load.symbol);

@@ -1,7 +1,7 @@
 //! Gauges: scalars measured from the configuration, their rates and accelerations, and everything else
 //! that an expression of a model may read.
 //!
-//! A gauge is an [`Expr`] over [`Leaf`]s. One definition serves springs, drives, couplings, unilateral constraints,
+//! A gauge is an [`Expr`] over [`ModelVariable`]s. One definition serves springs, drives, couplings, unilateral constraints,
 //! events and reports: over plain numbers it gives a value, over jets its rate and acceleration, over
 //! duals seeded on one body the load that a unit force along the gauge puts on that body.
 

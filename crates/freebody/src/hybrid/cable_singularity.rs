@@ -1,7 +1,7 @@
 //! Taut strings that are drawn in until two of their points meet: there they have no direction.
 
 use super::HybridSystem;
-use crate::dynamics::Trouble;
+use crate::dynamics::DynamicsError;
 use crate::mechanism::Gap;
 use crate::plane::Vec2;
 
@@ -30,7 +30,7 @@ impl HybridSystem<'_> {
     ///
     /// # Errors
     /// `string_drawn_in`.
-    pub(super) fn check_taut_segments(&self) -> Result<(), Trouble> {
+    pub(super) fn check_taut_segments(&self) -> Result<(), DynamicsError> {
         for (l, before) in self.taut_segments.iter().enumerate().filter(|(_, spans)| !spans.is_empty()) {
             let short = VANISHED * self.workspace.length;
             let lost = |(a, b): (&Vec2, Vec2)| b.norm() < short || a.dot(b) < 0.0;
@@ -41,8 +41,8 @@ impl HybridSystem<'_> {
         Ok(())
     }
 
-    fn zero_length_error(&self, l: usize) -> Trouble {
+    fn zero_length_error(&self, l: usize) -> DynamicsError {
         let group = &self.workspace.m.groups[self.workspace.m.unilateral[l].group];
-        Trouble::StringZeroLength(group.name.clone(), group.path())
+        DynamicsError::StringZeroLength(group.name.clone(), group.path())
     }
 }

@@ -7,7 +7,7 @@ use super::HybridSystem;
 use crate::bound_values::BoundValues;
 use crate::kinematics::Kinematics;
 use crate::mechanism::Mechanism;
-use crate::motion::{Canonical, Trouble};
+use crate::motion::{Canonical, DynamicsError};
 use crate::scalar::{Dual, Scalar};
 use crate::solve::{Lu, Matrix};
 
@@ -56,17 +56,17 @@ impl HybridSystem<'_> {
     }
 
     /// u from p: solves M u = p.
-    fn rates(&self, q: &[f64], p: &[f64]) -> Result<Vec<f64>, Trouble> {
+    fn rates(&self, q: &[f64], p: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         let n = q.len();
         let flat = mass_columns(self.workspace.m, self.workspace.at().n, q);
         let mass = Matrix::from_fn(n, n, |i, j| flat[j * n + i]);
-        let lu = Lu::factor(&mass).map_err(|_| Trouble::NoUniqueMotion)?;
+        let lu = Lu::factor(&mass).map_err(|_| DynamicsError::NoUniqueMotion)?;
         Ok(lu.solve(p))
     }
 }
 
 impl Canonical for HybridSystem<'_> {
-    fn enter(&mut self, _: f64, y: &[f64], z: &mut [f64]) -> Result<(), Trouble> {
+    fn enter(&mut self, _: f64, y: &[f64], z: &mut [f64]) -> Result<(), DynamicsError> {
         let n = self.workspace.m.freedom();
         let p = self.mass_times(&y[..n], &y[n..2 * n]);
         z[..n].copy_from_slice(&y[..n]);
@@ -74,7 +74,7 @@ impl Canonical for HybridSystem<'_> {
         Ok(())
     }
 
-    fn leave(&mut self, _: f64, z: &[f64], y: &mut [f64]) -> Result<(), Trouble> {
+    fn leave(&mut self, _: f64, z: &[f64], y: &mut [f64]) -> Result<(), DynamicsError> {
         let n = self.workspace.m.freedom();
         let u = self.rates(&z[..n], &z[n..2 * n])?;
         y[..n].copy_from_slice(&z[..n]);
@@ -82,7 +82,7 @@ impl Canonical for HybridSystem<'_> {
         Ok(())
     }
 
-    fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), Trouble> {
+    fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), DynamicsError> {
         let n = self.workspace.m.freedom();
         let q = &z[..n];
         let u = self.rates(q, &z[n..2 * n])?;

@@ -1,7 +1,7 @@
 //! What events do.
 
 use super::HybridSystem;
-use crate::dynamics::Trouble;
+use crate::dynamics::DynamicsError;
 use crate::mechanism::{Discontinuity, Event, EventAction};
 
 impl HybridSystem<'_> {
@@ -15,17 +15,17 @@ impl HybridSystem<'_> {
         !event.then.is_empty() && actions.all(is_gone)
     }
 
-    /// Takes the other arm of a switch.
+    /// Takes the other branch of a switch.
     pub(super) fn switch_branch(&mut self, discontinuity: &Discontinuity, t: f64) {
         if let Discontinuity::Switch(switch, _) = discontinuity {
-            let arm = self.mode.branch(*switch).unwrap_or(true);
-            self.mode.freeze(*switch, !arm);
+            let branch = self.mode.branch(*switch).unwrap_or(true);
+            self.mode.freeze(*switch, !branch);
         }
         self.begin_phase(t, 0.0, 0.0);
     }
 
     /// Does what an event asks for; answers whether the motion changes by it.
-    pub(super) fn perform_actions(&mut self, event: &Event, t: f64, y: &mut [f64]) -> Result<bool, Trouble> {
+    pub(super) fn perform_actions(&mut self, event: &Event, t: f64, y: &mut [f64]) -> Result<bool, DynamicsError> {
         let mut values = vec![];
         for action in &event.then {
             if let EventAction::Set(p, law) = action {

@@ -2,7 +2,7 @@
 
 use super::mode_resolution::{CLOSED_GAP, REST_SPEED};
 use super::HybridSystem;
-use crate::dynamics::{Route, Source, Trouble};
+use crate::dynamics::{DynamicsError, Route, Source};
 use crate::mechanism::{Gap, Mechanism};
 use crate::mode::ContactMode;
 
@@ -67,7 +67,7 @@ const SLIPPING: f64 = 10.0 * REST_SPEED;
 
 impl HybridSystem<'_> {
     /// The values of the guards of all unilateral constraints: positive as long as the mode holds.
-    pub(super) fn guard_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
+    pub(super) fn guard_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
         self.place(t, y);
         let m = self.workspace.m;
         let carries = !m.joint_friction.is_empty() || self.mode.contacts.iter().any(|contact| contact.mode.carries());
@@ -107,9 +107,9 @@ impl HybridSystem<'_> {
             ContactMode::Compliant => values[0] = self.compliant_contact(l),
             // What another keeps off is at zero with it.
             ContactMode::Open => {
-                let kept_off = || self.workspace.open_gap(l) / self.workspace.length + OCCLUDED;
+                let occluded = || self.workspace.open_gap(l) / self.workspace.length + OCCLUDED;
                 let closing = self.workspace.closing_gap(l).map(|gap| gap / self.workspace.length);
-                values[0] = closing.unwrap_or_else(kept_off);
+                values[0] = closing.unwrap_or_else(occluded);
             }
             ContactMode::ClosedUnloaded => values[0] = self.workspace.open_gap(l) / self.workspace.length + CLOSED_GAP,
             ContactMode::Frictionless | ContactMode::Stick | ContactMode::PartialFriction(_) | ContactMode::Slip(_) => {

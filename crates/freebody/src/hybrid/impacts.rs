@@ -3,7 +3,7 @@
 use super::mode_changes::{ContactImpulse, Impulses, ModeChange};
 use super::HybridSystem;
 use crate::contact::complementarity::{self, ImpactLaw, ImpactProblem, NoImpact};
-use crate::dynamics::{ClosedContacts, ContactTolerances, ImpactSolution, Trouble};
+use crate::dynamics::{ClosedContacts, ContactTolerances, DynamicsError, ImpactSolution};
 use crate::mode::{ContactMode, Mode};
 use crate::plane::Vec2;
 
@@ -60,7 +60,7 @@ impl HybridSystem<'_> {
         y: &mut [f64],
         contacts: &ClosedContacts,
         rest_speed: f64,
-    ) -> Result<(Vec<usize>, f64), Trouble> {
+    ) -> Result<(Vec<usize>, f64), DynamicsError> {
         let restitution: Vec<f64> = contacts.constraints.iter().map(|&l| self.workspace.restitution(l)).collect();
         let names = self.workspace.names_of(&contacts.constraints);
         let rule = self.rule;
@@ -70,7 +70,7 @@ impl HybridSystem<'_> {
         for share in REGULARIZATION.into_iter().filter(|_| rule != Rule::Stop) {
             if impacting.is_err() {
                 let impact =
-                    self.workspace.solve_impact(contacts, &restitution, |problem| yielding(problem, share, &names));
+                    self.workspace.solve_impact(contacts, &restitution, |problem| regularized(problem, share, &names));
                 impacting = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
                 if let Ok((impact, _)) = &impacting {
                     raised = raised.max(self.speed_left(contacts, impact, share));
@@ -103,7 +103,7 @@ impl HybridSystem<'_> {
         y: &mut [f64],
         contacts: &ClosedContacts,
         impact: ImpactSolution,
-    ) -> Result<(ImpactSolution, f64), Trouble> {
+    ) -> Result<(ImpactSolution, f64), DynamicsError> {
         let n = self.workspace.m.freedom();
         let (before, energy) = (y.to_vec(), self.workspace.kinetic_energy());
         y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
@@ -115,16 +115,16 @@ impl HybridSystem<'_> {
         }
         y.copy_from_slice(&before);
         self.place_in(&contacts.opened, t, y);
-        Err(Trouble::ImpulsesCreateEnergy(t, -lost))
+        Err(DynamicsError::ImpulsesCreateEnergy(t, -lost))
     }
 
     /// What approaches though hardly any impulse could stop it.
-    fn driven_together(&self, contacts: &ClosedContacts) -> Option<Trouble> {
+    fn driven_together(&self, contacts: &ClosedContacts) -> Option<DynamicsError> {
         let energy = self.workspace.kinetic_energy();
         let rates = contacts.constraints.iter().enumerate().map(|(i, &l)| (i, l, contacts.rates[i]));
         let rigid = rates.filter(|&(i, _, v)| v < 0.0 && contacts.response(i) * RIGID * energy < v * v);
         let rigid: Vec<usize> = rigid.map(|(_, l, _)| l).collect();
-        (!rigid.is_empty()).then(|| Trouble::DrivenTogether(self.workspace.names_of(&rigid)))
+        (!rigid.is_empty()).then(|| DynamicsError::DrivenTogether(self.workspace.names_of(&rigid)))
     }
 
     /// The speed that yielding left over, m/s; 0 where it is too large to count as none.
@@ -139,16 +139,16 @@ impl HybridSystem<'_> {
 
     fn impulses(&self, contacts: &ClosedContacts, impact: &ImpactSolution, rest_speed: f64) -> Impulses {
         let m = self.workspace.m;
-        let mut limits: Vec<(String, Vec2)> = vec![];
+        let mut groups: Vec<(String, Vec2)> = vec![];
         for (&l, &p) in contacts.constraints.iter().zip(&impact.on_first) {
             let name = &m.groups[m.unilateral[l].group].name;
-            match limits.iter_mut().find(|(known, _)| known == name) {
+            match groups.iter_mut().find(|(known, _)| known == name) {
                 Some((_, sum)) => *sum += p,
-                None => limits.push((name.clone(), p)),
+                None => groups.push((name.clone(), p)),
             }
         }
-        let most = limits.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
-        limits.retain(|(_, p)| p.norm() > NOTHING * most);
+        let most = groups.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
+        groups.retain(|(_, p)| p.norm() > NOTHING * most);
         let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
         let (part, hit) = (contacts.takes_part(rest_speed), hit(impact));
         let (impacting, unloaded): (Vec<usize>, Vec<usize>) =
@@ -167,7 +167,7 @@ impl HybridSystem<'_> {
         });
         let (impacting, unloaded) = (impacting.collect(), self.names(&unloaded));
         let (drives, drive_works) = (impact.drives.clone(), impact.drive_works.clone());
-        Impulses { groups: limits, joints, drives, drive_works, contacts: impacting, unloaded, mode }
+        Impulses { groups, joints, drives, drive_works, contacts: impacting, unloaded, mode }
     }
 
     /// The mode after bounces without end, if they are over within a moment: what takes part in them comes to rest.
@@ -183,24 +183,24 @@ impl HybridSystem<'_> {
         contacts: &ClosedContacts,
         parting: &[usize],
         impacting: &[usize],
-    ) -> Result<Option<Mode>, Trouble> {
+    ) -> Result<Option<Mode>, DynamicsError> {
         self.place_in(mode, t, y);
         self.workspace.solve()?;
-        let limits: Vec<usize> = parting.iter().map(|&i| contacts.constraints[i]).collect();
-        let back = self.workspace.gap_accelerations(&limits);
+        let constraints: Vec<usize> = parting.iter().map(|&i| contacts.constraints[i]).collect();
+        let back = self.workspace.gap_accelerations(&constraints);
         let speeds = parting.iter().map(|&i| contacts.rates[i]);
         let flights: Vec<f64> =
             speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
         let (brief, before) = (BRIEF * self.workspace.length / self.speed, self.bounce_interval.take());
-        let over: Vec<usize> = (0..limits.len()).filter(|&i| flights[i] <= brief).collect();
-        let next = (0..limits.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
+        let over: Vec<usize> = (0..constraints.len()).filter(|&i| flights[i] <= brief).collect();
+        let next = (0..constraints.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
         if over.is_empty() {
-            let of = impacting.iter().copied().chain([limits[next]]).collect();
+            let of = impacting.iter().copied().chain([constraints[next]]).collect();
             self.bounce_interval = flights[next].is_finite().then_some((of, flights[next]));
             return Ok(None);
         }
         let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
-        let over: Vec<usize> = over.iter().map(|&i| limits[i]).collect();
+        let over: Vec<usize> = over.iter().map(|&i| constraints[i]).collect();
         // What rocks alternates between its feet.
         let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
         let part = same.map_or(0.0, |(_, before)| (flight / before).min(0.999));
@@ -235,11 +235,11 @@ impl HybridSystem<'_> {
         mode: &Mode,
         t: f64,
         y: &mut [f64],
-        limits: &[usize],
+        constraints: &[usize],
         tolerances: ContactTolerances,
-    ) -> Result<bool, Trouble> {
+    ) -> Result<bool, DynamicsError> {
         self.place_in(mode, t, y);
-        let contacts = self.workspace.closed_contacts(limits.to_vec())?;
+        let contacts = self.workspace.closed_contacts(constraints.to_vec())?;
         let before = y.to_vec();
         let Some(impact) = self.workspace.impact_without_collision(&contacts, tolerances)? else { return Ok(false) };
         let (impact, lost) = self.apply_impact(t, y, &contacts, impact)?;
@@ -279,7 +279,7 @@ fn decide(
     problem: &ImpactProblem,
     rule: Rule,
     names: &str,
-) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+) -> Result<(complementarity::Impulses, Option<String>), DynamicsError> {
     let law = match rule {
         Rule::Law(law) => law,
         Rule::Stop => match complementarity::undecided(problem) {
@@ -294,25 +294,27 @@ fn decide(
             let note = format!("Taken as plastic, and of {n} outcomes as the one that leaves least energy.");
             return Ok((complementarity::least(all), Some(note)));
         }
-        (Err(e), _) => return Err(Trouble::NoImpulses(names.to_string(), "satisfy the law of impact", e.to_string())),
+        (Err(e), _) => {
+            return Err(DynamicsError::NoImpulses(names.to_string(), "satisfy the law of impact", e.to_string()))
+        }
     };
     let note = (!resolved.notes.is_empty()).then(|| resolved.notes.join("; "));
     Ok((resolved.impulses, note))
 }
 
 /// The impulses of an impact without restitution, on unilateral constraints that yield by a share of themselves.
-fn yielding(
+fn regularized(
     problem: &ImpactProblem,
     share: f64,
     names: &str,
-) -> Result<(complementarity::Impulses, Option<String>), Trouble> {
+) -> Result<(complementarity::Impulses, Option<String>), DynamicsError> {
     let impulses = complementarity::compliant_regularization(problem, share)
-        .map_err(|e| Trouble::NoImpulses(names.to_string(), "satisfy the law of impact", e.to_string()))?;
+        .map_err(|e| DynamicsError::NoImpulses(names.to_string(), "satisfy the law of impact", e.to_string()))?;
     let note = format!("Taken as plastic, e = 0, at touches that yield by {share:.0e} of themselves: of rigid ones no impulses were found that create no energy.");
     Ok((impulses, Some(note)))
 }
 
-fn undecided(names: &str, alternatives: &[(ImpactLaw, complementarity::Impulses)]) -> Trouble {
+fn undecided(names: &str, alternatives: &[(ImpactLaw, complementarity::Impulses)]) -> DynamicsError {
     let outcomes: Vec<String> = alternatives
         .iter()
         .map(|(law, impulses)| {
@@ -321,5 +323,5 @@ fn undecided(names: &str, alternatives: &[(ImpactLaw, complementarity::Impulses)
             format!("by {} they part at {} m/s", Rule::Law(*law).word(), speeds.join(", "))
         })
         .collect();
-    Trouble::SimultaneousImpact(names.to_string(), outcomes)
+    DynamicsError::SimultaneousImpact(names.to_string(), outcomes)
 }

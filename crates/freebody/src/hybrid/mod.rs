@@ -22,7 +22,7 @@ pub use system::HybridSystem;
 pub use trajectory::{Ledger, Trajectory};
 
 use crate::builder::chosen;
-use crate::dynamics::{Route, Trouble, Workspace};
+use crate::dynamics::{DynamicsError, Route, Workspace};
 use crate::error::CompileError;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
@@ -66,9 +66,9 @@ impl Settings {
     ///
     /// # Errors
     /// `unknown_method`.
-    pub fn integrator(&self) -> Result<&'static Method, Trouble> {
+    pub fn integrator(&self) -> Result<&'static Method, DynamicsError> {
         let known = crate::motion::METHODS.iter().map(|m| m.name);
-        method(&self.method).ok_or_else(|| Trouble::UnknownMethod(self.method.clone(), known.collect()))
+        method(&self.method).ok_or_else(|| DynamicsError::UnknownMethod(self.method.clone(), known.collect()))
     }
 }
 
@@ -99,25 +99,25 @@ pub fn simulate(
     until: f64,
     settings: &Settings,
     progress: &mut dyn FnMut(f64) -> bool,
-) -> Result<Trajectory, Trouble> {
+) -> Result<Trajectory, DynamicsError> {
     m.check_state(start.p, start.t, start.q, start.u)?;
     if !until.is_finite() {
-        return Err(Trouble::NoFiniteNumber("until".into(), until));
+        return Err(DynamicsError::NoFiniteNumber("until".into(), until));
     }
     let integrator = settings.integrator()?;
     let mut workspace = Workspace::new(m, start.p);
     workspace.prefer(settings.route);
     workspace.move_to(start.t, start.q, start.u);
     let mode = start.mode.cloned().unwrap_or_else(|| workspace.with_row_offsets());
-    let mut machine = HybridSystem::new(workspace, mode, start.p);
-    machine.rule = settings.impacts;
-    machine.jam_by_impact = settings.jam_by_impact;
-    let mut y = machine.pack(start.q, start.u);
-    machine.freeze_branches(start.t, &y);
-    machine.set_scales(start.t, &y);
-    crate::motion::System::project(&mut machine, start.t, &mut y)?;
-    machine.begin(start, until, &mut y)?;
-    let opening = machine.energy(start.t, &y);
-    let run = run(&mut machine, integrator, (start.t, &y), until, &settings.options, progress);
-    Ok(Trajectory::new(machine, run, opening, settings.clone()))
+    let mut system = HybridSystem::new(workspace, mode, start.p);
+    system.rule = settings.impacts;
+    system.jam_by_impact = settings.jam_by_impact;
+    let mut y = system.pack(start.q, start.u);
+    system.freeze_branches(start.t, &y);
+    system.set_scales(start.t, &y);
+    crate::motion::System::project(&mut system, start.t, &mut y)?;
+    system.begin(start, until, &mut y)?;
+    let opening = system.energy(start.t, &y);
+    let run = run(&mut system, integrator, (start.t, &y), until, &settings.options, progress);
+    Ok(Trajectory::new(system, run, opening, settings.clone()))
 }

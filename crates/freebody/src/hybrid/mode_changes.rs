@@ -108,9 +108,9 @@ impl HybridSystem<'_> {
     }
 
     /// The names of the contacts, stops and strings of unilateral constraints, each once.
-    pub(super) fn names(&self, limits: &[usize]) -> Vec<String> {
+    pub(super) fn names(&self, constraints: &[usize]) -> Vec<String> {
         let m = self.workspace.m;
-        let mut of: Vec<String> = limits.iter().map(|&l| m.groups[m.unilateral[l].group].name.clone()).collect();
+        let mut of: Vec<String> = constraints.iter().map(|&l| m.groups[m.unilateral[l].group].name.clone()).collect();
         of.dedup();
         of
     }

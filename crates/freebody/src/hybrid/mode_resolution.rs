@@ -3,7 +3,7 @@
 use super::guards::ContactGuard;
 use super::impacts::{Rule, LEFT_OVER};
 use super::{HybridSystem, Start};
-use crate::dynamics::{ContactTolerances, Trouble};
+use crate::dynamics::{ContactTolerances, DynamicsError};
 use crate::mode::{ContactMode, Mode};
 use crate::motion::{EventRecord, Kind, System};
 
@@ -30,10 +30,10 @@ impl HybridSystem<'_> {
     ///
     /// # Errors
     /// `penetration`; `backward`, for what switches cannot be undone; what [`HybridSystem::resolve_mode`] finds.
-    pub fn begin(&mut self, start: &Start, until: f64, y: &mut [f64]) -> Result<(), Trouble> {
+    pub fn begin(&mut self, start: &Start, until: f64, y: &mut [f64]) -> Result<(), DynamicsError> {
         let (m, t) = (self.workspace.m, start.t);
         if m.is_hybrid() && until < t {
-            return Err(Trouble::Backward);
+            return Err(DynamicsError::Backward);
         }
         if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
             self.place(t, y);
@@ -61,7 +61,7 @@ impl HybridSystem<'_> {
         guard: ContactGuard,
         t: f64,
         y: &mut [f64],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), DynamicsError> {
         self.place(t, y);
         let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
         let contact = &mut mode.contacts[l];
@@ -91,7 +91,7 @@ impl HybridSystem<'_> {
         sense: f64,
         t: f64,
         y: &mut [f64],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), DynamicsError> {
         let slides = self.mode.joint_friction[friction] == ContactMode::Stick;
         self.resolve_mode(t, y, slides.then_some(Released { friction, sense }))
     }
@@ -101,7 +101,12 @@ impl HybridSystem<'_> {
     ///
     /// # Errors
     /// `simultaneous_impact` and the paradoxes of Painlevé, by name.
-    pub(super) fn resolve_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<(), Trouble> {
+    pub(super) fn resolve_mode(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        released: Option<Released>,
+    ) -> Result<(), DynamicsError> {
         let (known, earlier) = ([self.mode_changes.len(), self.phases.len()], y.to_vec());
         match self.next_mode(t, y, released) {
             Ok(mode) => {
@@ -118,7 +123,7 @@ impl HybridSystem<'_> {
         }
     }
 
-    fn next_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<Mode, Trouble> {
+    fn next_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<Mode, DynamicsError> {
         let mut mode = self.mode.clone();
         mode.resting = false;
         let (mut tolerances, mut impacting) = (self.tolerances(), vec![]);
@@ -166,11 +171,11 @@ impl HybridSystem<'_> {
             }
             return Ok(mode);
         }
-        Err(Trouble::EndlessImpacts(ROUNDS))
+        Err(DynamicsError::EndlessImpacts(ROUNDS))
     }
 
     /// A mode with friction in joints as it starts from the state placed, the one `released` sliding.
-    fn start_joint_friction(&mut self, mode: &Mode, released: Option<Released>) -> Result<Mode, Trouble> {
+    fn start_joint_friction(&mut self, mode: &Mode, released: Option<Released>) -> Result<Mode, DynamicsError> {
         self.workspace.enter(mode);
         let mut mode = self.workspace.start_joint_friction(REST_SPEED * self.speed)?;
         if let Some(Released { friction, sense }) = released {
@@ -186,14 +191,14 @@ impl HybridSystem<'_> {
         mut mode: Mode,
         t: f64,
         y: &[f64],
-        limits: &[usize],
+        constraints: &[usize],
         released: Option<Released>,
         tolerances: ContactTolerances,
-    ) -> Result<Mode, Trouble> {
+    ) -> Result<Mode, DynamicsError> {
         let scale = ContactTolerances { rest_speed: REST_SPEED * self.speed, ..tolerances };
         for _ in 0..=self.workspace.friction_switch_limit() {
-            if !limits.is_empty() {
-                mode = self.decide_contact_modes(&mode, t, y, limits, tolerances)?;
+            if !constraints.is_empty() {
+                mode = self.decide_contact_modes(&mode, t, y, constraints, tolerances)?;
             }
             if self.workspace.m.joint_friction.is_empty() {
                 break;
@@ -216,13 +221,13 @@ impl HybridSystem<'_> {
         y: &mut [f64],
         at_rest: &[usize],
         contacts: &[usize],
-    ) -> Result<Mode, Trouble> {
+    ) -> Result<Mode, DynamicsError> {
         let before = self.energy(t, y);
         let (mode, work) = self.project_onto_contacts(mode, t, y, at_rest, contacts)?;
         let after = self.energy(t, y);
         let [speed, height] = [after[0] - before[0] - work, after[1] - before[1]];
         if speed > GAIN * self.strength * self.workspace.length {
-            return Err(Trouble::CreatesEnergy(self.workspace.names_of(contacts), speed));
+            return Err(DynamicsError::CreatesEnergy(self.workspace.names_of(contacts), speed));
         }
         if speed + height != 0.0 {
             self.begin_phase(t, 0.0, speed + height);
@@ -239,7 +244,7 @@ impl HybridSystem<'_> {
         y: &mut [f64],
         at_rest: &[usize],
         contacts: &[usize],
-    ) -> Result<(Mode, f64), Trouble> {
+    ) -> Result<(Mode, f64), DynamicsError> {
         let n = self.workspace.m.freedom();
         self.place_in(&mode, t, y);
         let is_open = |l: usize| mode.contacts[l].mode == ContactMode::Open;
@@ -276,7 +281,7 @@ impl HybridSystem<'_> {
     }
 
     /// Brings the velocities onto what holds, by impulses; returns the work of the drives in that.
-    pub(super) fn project_velocities(&mut self, mode: &Mode, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
+    pub(super) fn project_velocities(&mut self, mode: &Mode, t: f64, y: &mut [f64]) -> Result<f64, DynamicsError> {
         let n = self.workspace.m.freedom();
         let before = y[n..2 * n].to_vec();
         let (q, rest) = y.split_at_mut(n);
@@ -295,11 +300,11 @@ impl HybridSystem<'_> {
         mode: &Mode,
         t: f64,
         y: &[f64],
-        limits: &[usize],
+        constraints: &[usize],
         tolerances: ContactTolerances,
-    ) -> Result<Mode, Trouble> {
+    ) -> Result<Mode, DynamicsError> {
         self.place_in(mode, t, y);
-        let contacts = self.workspace.closed_contacts(limits.to_vec())?;
+        let contacts = self.workspace.closed_contacts(constraints.to_vec())?;
         let slips = contacts.slips();
         let mut decision = self.workspace.decide_contact_modes(&contacts, &slips, tolerances)?;
         if decision.is_doubtful {
@@ -331,7 +336,7 @@ impl HybridSystem<'_> {
     }
 
     /// The state a glimpse later, in a mode.
-    fn extrapolate(&mut self, mode: &Mode, t: f64, y: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Trouble> {
+    fn extrapolate(&mut self, mode: &Mode, t: f64, y: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DynamicsError> {
         let (n, h) = (self.workspace.m.freedom(), self.lookahead());
         let mut u_dot = vec![0.0; n];
         self.place_in(mode, t, y);

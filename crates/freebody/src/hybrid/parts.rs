@@ -2,7 +2,7 @@
 
 use super::mode_changes::{Impulses, ModeChange};
 use super::HybridSystem;
-use crate::dynamics::Trouble;
+use crate::dynamics::DynamicsError;
 use crate::mechanism::{EventAction, Part};
 use crate::mode::ContactMode;
 
@@ -11,7 +11,12 @@ impl HybridSystem<'_> {
     ///
     /// # Errors
     /// As [`HybridSystem::resolve_mode`].
-    pub(super) fn switch_parts(&mut self, t: f64, y: &mut [f64], actions: &[EventAction]) -> Result<bool, Trouble> {
+    pub(super) fn switch_parts(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        actions: &[EventAction],
+    ) -> Result<bool, DynamicsError> {
         let (mut switched, mut engaged) = (false, vec![]);
         let before: f64 = self.energy(t, y).iter().sum();
         for action in actions {
@@ -51,7 +56,7 @@ impl HybridSystem<'_> {
     }
 
     /// Gives gauges their new rates, with the least change of momentum; answers whether any was asked for.
-    fn reset(&mut self, t: f64, y: &mut [f64], actions: &[EventAction]) -> Result<bool, Trouble> {
+    fn reset(&mut self, t: f64, y: &mut [f64], actions: &[EventAction]) -> Result<bool, DynamicsError> {
         let n = self.workspace.m.freedom();
         let mut contact = vec![];
         for action in actions {
@@ -76,7 +81,7 @@ impl HybridSystem<'_> {
     }
 
     /// Lets what was engaged take hold: a plastic impact of the joints.
-    fn close_engaged(&mut self, t: f64, y: &mut [f64], engaged: Vec<String>) -> Result<(), Trouble> {
+    fn close_engaged(&mut self, t: f64, y: &mut [f64], engaged: Vec<String>) -> Result<(), DynamicsError> {
         let n = self.workspace.m.freedom();
         self.place(t, y);
         let energy = self.workspace.kinetic_energy();

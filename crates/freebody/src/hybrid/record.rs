@@ -56,14 +56,14 @@ fn state(m: &Mechanism, y: &[f64], mut told: Value) -> Value {
 fn change(m: &Mechanism, c: &ModeChange) -> Value {
     let impacting = |s: &ContactImpulse| json!({"name": s.name, "normal": s.normal, "tangent": s.tangent, "restitution": s.restitution});
     let impulses = c.impulses.as_ref().map(|i| {
-        let limits: Vec<_> = i.groups.iter().map(|(name, p)| json!([name, [p.x, p.y]])).collect();
+        let groups: Vec<_> = i.groups.iter().map(|(name, p)| json!([name, [p.x, p.y]])).collect();
         let impacting: Vec<_> = i.contacts.iter().map(impacting).collect();
         let named = |of: &[f64]| {
             let named = m.drives.iter().zip(of).filter(|(_, x)| **x != 0.0);
             named.map(|(drive, x)| json!([drive.name, x])).collect::<Vec<_>>()
         };
         let (drives, works) = (named(&i.drives), named(&i.drive_works));
-        json!({"limits": limits, "joints": i.joints, "drives": drives, "works": works, "struck": impacting, "spared": i.unloaded})
+        json!({"limits": groups, "joints": i.joints, "drives": drives, "works": works, "struck": impacting, "spared": i.unloaded})
     });
     let side = |i: usize| c.states.as_ref().map(|states| state(m, &states[i], json!({})));
     json!({

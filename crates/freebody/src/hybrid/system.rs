@@ -3,7 +3,7 @@
 use super::guards::SwitchingFunction;
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
-use crate::dynamics::{Trouble, Workspace};
+use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::{curve_switch, Poses, State};
 use crate::mechanism::{Discontinuity, EventAction};
@@ -131,7 +131,7 @@ impl<'m> HybridSystem<'m> {
         self.workspace.place(mode, t, &y[..n], &y[n..2 * n]);
     }
 
-    /// Freezes every switch at the arm it has now.
+    /// Freezes every switch at the branch it has now.
     pub fn freeze_branches(&mut self, t: f64, y: &[f64]) {
         self.place(t, y);
         let m = self.workspace.m;
@@ -205,7 +205,7 @@ impl<'m> HybridSystem<'m> {
 
     /// Solves a stage of a step, the state placed. Close to a singular configuration it is first brought onto the
     /// loops: there a motion off them, however little, is accelerated without bound; a motion on them is not.
-    pub(super) fn solve_stage(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+    pub(super) fn solve_stage(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
         if self.near_singular {
             let (q, u) = self.split(y);
             let (mode, mut q, mut u) = (self.workspace.mode().clone(), q.to_vec(), u.to_vec());
@@ -218,7 +218,7 @@ impl<'m> HybridSystem<'m> {
     }
 
     /// Values of laws at a state.
-    pub(super) fn read(&mut self, laws: &[&ModelExpr], t: f64, y: &[f64]) -> Result<Vec<f64>, Trouble> {
+    pub(super) fn read(&mut self, laws: &[&ModelExpr], t: f64, y: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         self.place(t, y);
         let works = self.works(y);
         self.workspace.evaluate(laws, &works)
@@ -247,7 +247,7 @@ impl System for HybridSystem<'_> {
         self.scales.len()
     }
 
-    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         let n = self.workspace.m.freedom();
         if self.mode.resting {
             dy.fill(0.0);
@@ -275,7 +275,7 @@ impl System for HybridSystem<'_> {
         Ok(())
     }
 
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, Trouble> {
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, DynamicsError> {
         if !self.workspace.is_closed() || self.mode.resting {
             return Ok(0.0);
         }
@@ -334,7 +334,7 @@ impl System for HybridSystem<'_> {
         self.switching_functions.len()
     }
 
-    fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
+    fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
         let m = self.workspace.m;
         let laws: Vec<&ModelExpr> = m.events.iter().map(|e| &e.when).collect();
         let values = if laws.is_empty() { vec![] } else { self.read(&laws, t, y)? };
@@ -351,14 +351,14 @@ impl System for HybridSystem<'_> {
         Ok(())
     }
 
-    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, Trouble> {
+    fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, DynamicsError> {
         Ok(match self.switching_functions[i] {
             SwitchingFunction::Contact(l, guard) => self.guard_value(l, guard, t, y),
             _ => None,
         })
     }
 
-    fn check(&mut self, t: f64, y: &[f64]) -> Result<(), Trouble> {
+    fn check(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
         if self.workspace.m.unilateral.is_empty() {
             return Ok(());
         }
@@ -377,7 +377,7 @@ impl System for HybridSystem<'_> {
         }
     }
 
-    fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, Trouble> {
+    fn armed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<bool, DynamicsError> {
         let SwitchingFunction::Event(event) = self.switching_functions[i] else { return Ok(true) };
         let event = &self.workspace.m.events[event];
         if event.guard && self.is_spent(event) {
@@ -387,7 +387,7 @@ impl System for HybridSystem<'_> {
         Ok(self.read(&[condition.as_expr()], t, y)?[0] > 0.5)
     }
 
-    fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
+    fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, DynamicsError> {
         let m = self.workspace.m;
         let event = match self.switching_functions[i] {
             SwitchingFunction::Event(event) => &m.events[event],

@@ -3,7 +3,7 @@
 use super::mode_changes::ModeChange;
 use super::system::Phase;
 use super::{HybridSystem, Settings};
-use crate::dynamics::{Freedom, Instant, Route, Trouble, Workspace};
+use crate::dynamics::{DynamicsError, Freedom, Instant, Route, Workspace};
 use crate::gauges::ModelExpr;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
@@ -47,29 +47,29 @@ pub struct Ledger {
 }
 
 impl Trajectory {
-    pub(super) fn new(machine: HybridSystem, run: Run, opening: [f64; 2], settings: Settings) -> Self {
+    pub(super) fn new(system: HybridSystem, run: Run, opening: [f64; 2], settings: Settings) -> Self {
         let segments = &run.trajectory.segments;
-        let mut changes = machine.mode_changes;
+        let mut changes = system.mode_changes;
         // The end of a series of bounces is told after what it brought about.
         changes.sort_by(|a, b| a.t.total_cmp(&b.t));
         let mut steps: Vec<f64> = segments.iter().map(|s| s.t0).collect();
         steps.push(run.t);
         Trajectory {
             steps,
-            events: machine.initial_events.into_iter().chain(run.events.iter().cloned()).collect(),
+            events: system.initial_events.into_iter().chain(run.events.iter().cloned()).collect(),
             outcome: run.outcome.clone(),
             counts: [run.accepted, run.rejected, run.evaluations],
             discontinuities: run.discontinuities,
             stiff_since: run.stiff_since,
-            worst_gap: machine.worst_gap,
+            worst_gap: system.worst_gap,
             settings,
-            phases: machine.phases,
+            phases: system.phases,
             opening,
-            has_friction: machine.has_friction,
-            has_compliant_contacts: machine.has_compliant_contacts,
+            has_friction: system.has_friction,
+            has_compliant_contacts: system.has_compliant_contacts,
             mode_changes: changes,
-            worked: machine.worked,
-            driven: machine.driven,
+            worked: system.worked,
+            driven: system.driven,
             run,
         }
     }
@@ -96,8 +96,8 @@ impl Trajectory {
         &self,
         m: &'m Mechanism,
         times: &[f64],
-        mut visit: impl FnMut(&mut Workspace<'m>, f64, &[f64]) -> Result<(), Trouble>,
-    ) -> Result<(), Trouble> {
+        mut visit: impl FnMut(&mut Workspace<'m>, f64, &[f64]) -> Result<(), DynamicsError>,
+    ) -> Result<(), DynamicsError> {
         let n = m.freedom();
         let mut y = vec![0.0; self.run.y.len()];
         let mut last: Option<(f64, Workspace<'m>)> = None;
@@ -107,7 +107,7 @@ impl Trajectory {
                 y.copy_from_slice(&self.run.y);
             } else if !self.run.trajectory.at(t, &mut y) {
                 let (first, end) = (self.steps[0], self.run.t);
-                return Err(Trouble::OutOfRange(t, first, end));
+                return Err(DynamicsError::OutOfRange(t, first, end));
             }
             let phase = self.phase(t);
             // Made anew only where parameters may have changed.
@@ -128,7 +128,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// `out_of_range`; `branch_lost`.
-    pub fn sample(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<f64>>, Trouble> {
+    pub fn sample(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |_, _, y| {
             rows.push(y[..2 * m.freedom()].to_vec());
@@ -141,7 +141,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// As [`Trajectory::sample`].
-    pub fn poses(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<[f64; 3]>>, Trouble> {
+    pub fn poses(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<[f64; 3]>>, DynamicsError> {
         let bodies = m.listed_bodies();
         let mut rows = vec![];
         self.each(m, times, |workspace, _, _| {
@@ -156,7 +156,7 @@ impl Trajectory {
     /// # Errors
     /// As [`Trajectory::sample`], and what keeps an instant from being solved.
     #[allow(clippy::type_complexity)]
-    pub fn reactions(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<([f64; 3], [bool; 3])>>, Trouble> {
+    pub fn reactions(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<([f64; 3], [bool; 3])>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |workspace, _, _| {
             workspace.solve()?;
@@ -172,7 +172,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// As [`Trajectory::reactions`].
-    pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, Trouble> {
+    pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |workspace, _, y| {
             rows.push(workspace.evaluate(laws, &self.works(m, y))?);
@@ -201,7 +201,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// As [`Trajectory::sample`].
-    pub fn ledger(&self, m: &Mechanism, times: &[f64]) -> Result<Ledger, Trouble> {
+    pub fn ledger(&self, m: &Mechanism, times: &[f64]) -> Result<Ledger, DynamicsError> {
         let mut names: Vec<String> = vec!["kinetic".into(), "potential".into()];
         names.extend(self.worked.iter().map(|&f| m.forces[f].name.clone()));
         names.extend(self.driven.iter().map(|&d| m.drives[d].name.clone()));
@@ -233,8 +233,8 @@ impl Trajectory {
         &self,
         m: &Mechanism,
         t: f64,
-        read: impl Fn(&mut Workspace<'_>) -> Result<T, Trouble>,
-    ) -> Result<T, Trouble> {
+        read: impl Fn(&mut Workspace<'_>) -> Result<T, DynamicsError>,
+    ) -> Result<T, DynamicsError> {
         let mut found = None;
         self.each(m, &[t], |workspace, _, _| {
             found = Some(read(workspace)?);
@@ -252,11 +252,11 @@ impl Trajectory {
         &self,
         m: &Mechanism,
         change: usize,
-        read: impl Fn(&mut Workspace<'_>) -> Result<T, Trouble>,
-    ) -> Result<T, Trouble> {
+        read: impl Fn(&mut Workspace<'_>) -> Result<T, DynamicsError>,
+    ) -> Result<T, DynamicsError> {
         let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
         let Some((t, [before, _], impulses)) = found else {
-            return Err(Trouble::NoBlow(change));
+            return Err(DynamicsError::NoBlow(change));
         };
         let mut workspace = Workspace::new(m, &self.phase(t).p);
         workspace.place(&impulses.mode, t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
@@ -267,7 +267,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// As [`Trajectory::reactions`].
-    pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), Trouble> {
+    pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), DynamicsError> {
         self.at(m, t, |workspace| Ok((workspace.instant(route)?, workspace.freedom())))
     }
 }

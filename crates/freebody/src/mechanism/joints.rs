@@ -83,7 +83,7 @@ pub enum FrictionSource {
         radius: Option<ValueId>,
     },
     /// A unilateral constraint for which a spring stands, by the force of the spring and its damper.
-    Limit(usize),
+    Unilateral(usize),
 }
 
 /// A massless particle that runs on a curve and carries a pin, in place of a joint along the curve that can be

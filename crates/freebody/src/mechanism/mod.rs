@@ -314,7 +314,7 @@ impl Mechanism {
     pub fn joint_friction_of(&self, constraint: usize) -> Option<usize> {
         self.joint_friction
             .iter()
-            .position(|friction| matches!(friction.of, FrictionSource::Limit(l) if l == constraint))
+            .position(|friction| matches!(friction.of, FrictionSource::Unilateral(l) if l == constraint))
     }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {

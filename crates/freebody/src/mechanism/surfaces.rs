@@ -47,7 +47,7 @@ pub enum Profile {
 
 /// Part of a circle of a body, counter-clockwise from one direction to another.
 ///
-/// Piece 0 is the arc, 1 and 2 its start and its end. A disk touches the ends as circles of radius 0. A point cannot:
+/// Feature 0 is the arc, 1 and 2 its start and its end. A disk touches the ends as circles of radius 0. A point cannot:
 /// there the lines from the centre through the ends bound the solid, and the gap is the larger of the heights over the
 /// arc and over the line through the nearer end.
 #[derive(Clone, Debug)]
@@ -65,7 +65,7 @@ pub struct Arc {
 /// Straight sides one after the other, on one body, the free side on the left of each: the edge of a solid on their
 /// right. Each corner turns to the right, so a closed one has its corners clockwise.
 ///
-/// Piece 2i is side i, from corner i to the next; piece 2i + 1 the corner that ends it. The corner at which an open
+/// Feature 2i is side i, from corner i to the next; feature 2i + 1 the corner that ends it. The corner at which an open
 /// chain starts is the last number, twice the number of sides.
 ///
 /// A disk touches corners as circles of radius 0, and its gap is the distance. A point cannot: its distance from a

@@ -14,7 +14,7 @@ impl Runner<'_> {
             return Ok(Vec::new());
         }
         let system = &mut *self.system.system;
-        let marks = self.detector.search(system, segment).map_err(Outcome::Trouble)?;
+        let marks = self.detector.search(system, segment).map_err(Outcome::DynamicsError)?;
         let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
         for mark in marks {
             segment.at(mark.t, &mut y);
@@ -94,8 +94,8 @@ impl Runner<'_> {
             self.step_to(t)?;
             let mut values = vec![0.0; self.system.system.switches()];
             let system = &mut *self.system.system;
-            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::Trouble)?;
-            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::Trouble)?;
+            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
+            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::DynamicsError)?;
             let better = (t - values[hit.index] / slope).clamp(t0, t1);
             if better.is_nan() || (better - t).abs() <= 4.0 * f64::EPSILON * t.abs() {
                 break;
@@ -123,7 +123,7 @@ impl Runner<'_> {
             let role = system.switch(hit.index).role;
             self.chatter.note(hit.index, role, self.now.t)?;
             let after = system.act(hit.index, self.now.t, &mut self.now.y);
-            let after = after.map_err(Outcome::Trouble)?;
+            let after = after.map_err(Outcome::DynamicsError)?;
             match role {
                 Role::Discontinuity => self.run.discontinuities += 1,
                 Role::Event => self.run.events.push(event_record(hit, self.now.t, &before)),
@@ -158,7 +158,7 @@ impl Runner<'_> {
         let system = &mut *self.system.system;
         let mut values = vec![0.0; system.switches()];
         let y: Vec<f64> = self.now.y.iter().zip(&self.now.dy).map(|(y, dy)| y + h * dy).collect();
-        system.switch_values(self.now.t + h, &y, &mut values).map_err(Outcome::Trouble)?;
+        system.switch_values(self.now.t + h, &y, &mut values).map_err(Outcome::DynamicsError)?;
         Ok(values)
     }
 }
@@ -168,7 +168,7 @@ fn counts(system: &mut dyn System, mark: &Mark, y: &[f64]) -> Result<bool, Outco
     let spec = system.switch(mark.index);
     let is_passing = mark.kind == Kind::Touch && spec.role != Role::Event;
     let other_way = spec.direction * mark.direction < 0;
-    Ok(!is_passing && !other_way && system.armed(mark.index, mark.t, y).map_err(Outcome::Trouble)?)
+    Ok(!is_passing && !other_way && system.armed(mark.index, mark.t, y).map_err(Outcome::DynamicsError)?)
 }
 
 fn event_record(mark: &Mark, t: f64, y: &[f64]) -> EventRecord {

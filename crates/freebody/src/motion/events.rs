@@ -2,7 +2,7 @@
 
 use super::dense::Segment;
 use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, SAMPLES};
-use super::system::{Role, System, Trouble};
+use super::system::{DynamicsError, Role, System};
 use std::collections::hash_map::{Entry, HashMap};
 
 /// A value is zero when it is below this many times the size of its function.
@@ -102,7 +102,7 @@ impl EventDetector {
     }
 
     /// All zeros on a segment, in the order of the run.
-    pub fn search(&mut self, system: &mut dyn System, on: &Segment) -> Result<Vec<Mark>, Trouble> {
+    pub fn search(&mut self, system: &mut dyn System, on: &Segment) -> Result<Vec<Mark>, DynamicsError> {
         let mut probe = Probe::new(system, on);
         let mut samples = vec![[0.0; SAMPLES]; self.memory.len()];
         for (j, &x) in self.points.iter().enumerate() {
@@ -122,7 +122,7 @@ impl EventDetector {
 
     /// The samples and, when zero is near, the extrema of the function, in order: between two
     /// neighbours the function is monotone.
-    fn nodes(&self, i: usize, values: &[f64; SAMPLES], probe: &mut Probe) -> Result<Vec<Node>, Trouble> {
+    fn nodes(&self, i: usize, values: &[f64; SAMPLES], probe: &mut Probe) -> Result<Vec<Node>, DynamicsError> {
         let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
         let mut nodes: Vec<Node> = self.points.iter().zip(values).map(sample).collect();
         if values.iter().all(|value| *value == values[0]) {
@@ -156,7 +156,7 @@ impl EventDetector {
         nodes: &[Node],
         values: &[f64; SAMPLES],
         probe: &mut Probe,
-    ) -> Result<Vec<Node>, Trouble> {
+    ) -> Result<Vec<Node>, DynamicsError> {
         let times = self.points.map(|x| probe.time(x));
         let secant = |j: usize| ((values[j + 1] - values[j]) / (times[j + 1] - times[j])).abs();
         let steepest = STEEPER * (0..SAMPLES - 1).map(secant).fold(0.0, f64::max);
@@ -184,7 +184,13 @@ impl EventDetector {
         Ok(found)
     }
 
-    fn walk(&mut self, i: usize, nodes: &[Node], probe: &mut Probe, marks: &mut Vec<Mark>) -> Result<(), Trouble> {
+    fn walk(
+        &mut self,
+        i: usize,
+        nodes: &[Node],
+        probe: &mut Probe,
+        marks: &mut Vec<Mark>,
+    ) -> Result<(), DynamicsError> {
         let memory = &mut self.memory[i];
         let (mut side, mut last, mut touch) = (memory.side, nodes[0], None);
         for node in &nodes[usize::from(memory.is_spent)..] {
@@ -286,7 +292,7 @@ impl<'a> Probe<'a> {
         (self.segment.t1 - self.segment.t0).signum()
     }
 
-    fn all(&mut self, t: f64) -> Result<&[f64], Trouble> {
+    fn all(&mut self, t: f64) -> Result<&[f64], DynamicsError> {
         match self.known.entry(t.to_bits()) {
             Entry::Occupied(values) => Ok(values.into_mut()),
             Entry::Vacant(place) => {
@@ -298,7 +304,7 @@ impl<'a> Probe<'a> {
         }
     }
 
-    fn one(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
+    fn one(&mut self, i: usize, t: f64) -> Result<f64, DynamicsError> {
         self.segment.at(t, &mut self.y);
         match self.system.switch_value(i, t, &self.y)? {
             Some(value) => Ok(value),
@@ -309,7 +315,7 @@ impl<'a> Probe<'a> {
     /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within
     /// the
     /// `noise` there, it leaves the noise.
-    fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, Trouble> {
+    fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, DynamicsError> {
         let is_bracket = |shift: f64| a.value + shift != 0.0 && (a.value + shift < 0.0) != (b.value + shift < 0.0);
         match [0.0, noise].into_iter().find(|&shift| is_bracket(shift)) {
             Some(shift) => bracketed(|t| Ok(self.one(i, t)? + shift), (a.t, a.value + shift), (b.t, b.value + shift)),
@@ -318,7 +324,7 @@ impl<'a> Probe<'a> {
     }
 
     /// Rate of switching function `i` at time `t`.
-    pub fn slope(&mut self, i: usize, t: f64) -> Result<f64, Trouble> {
+    pub fn slope(&mut self, i: usize, t: f64) -> Result<f64, DynamicsError> {
         let (low, high) =
             if self.ahead() > 0.0 { (self.segment.t0, self.segment.t1) } else { (self.segment.t1, self.segment.t0) };
         let reach = 1e-4 * self.length();

@@ -3,7 +3,7 @@
 use super::dense::Segment;
 use super::method::{Counted, Failure, Method, Point, Stepper};
 use super::norm::Norm;
-use super::system::Trouble;
+use super::system::DynamicsError;
 
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3 (table 1.1), with the
 /// fixed-point iteration to round-off of VIII.6 and the compensated summation of VIII.5.
@@ -84,7 +84,7 @@ impl Gauss6 {
             }
             last = change;
         }
-        Err(Trouble::FixedPointStalled(t, ITERATIONS).into())
+        Err(DynamicsError::FixedPointStalled(t, ITERATIONS).into())
     }
 
     /// One fixed-point iteration; returns the largest change relative to the largest rate.

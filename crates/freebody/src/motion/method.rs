@@ -2,7 +2,7 @@
 
 use super::dense::Segment;
 use super::norm::Norm;
-use super::system::{System, Trouble};
+use super::system::{DynamicsError, System};
 use super::{dop853, gauss6, radau, rk4, tsit5};
 
 /// An integration method.
@@ -52,16 +52,16 @@ impl Point {
 #[derive(Clone, Debug)]
 pub(super) enum Failure {
     /// The system refused.
-    Trouble(Trouble),
+    DynamicsError(DynamicsError),
     /// A rate or a state is infinite or not a number.
     NotFinite,
     /// Newton's iteration of an implicit step did not converge.
     NoConvergence,
 }
 
-impl From<Trouble> for Failure {
-    fn from(error: Trouble) -> Self {
-        Failure::Trouble(error)
+impl From<DynamicsError> for Failure {
+    fn from(error: DynamicsError) -> Self {
+        Failure::DynamicsError(error)
     }
 }
 

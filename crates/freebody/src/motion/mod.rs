@@ -28,4 +28,4 @@ pub use events::Kind;
 pub use method::{method, Method, METHODS};
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options};
-pub use system::{After, Canonical, EventSpec, Role, System, Trouble};
+pub use system::{After, Canonical, DynamicsError, EventSpec, Role, System};

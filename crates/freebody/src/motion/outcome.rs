@@ -2,7 +2,7 @@
 
 use super::dense::Trajectory;
 use super::events::Kind;
-use super::system::Trouble;
+use super::system::DynamicsError;
 use std::fmt;
 
 /// How a run ended. Each names the last good time `t` through [`Run::t`].
@@ -34,7 +34,7 @@ pub enum Outcome {
     /// The caller asked for the end.
     Interrupted,
     /// The system failed.
-    Trouble(Trouble),
+    DynamicsError(DynamicsError),
     /// The method cannot do this.
     Unsupported {
         /// Name of the method.
@@ -50,7 +50,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Fixed name of the outcome; that of the failure for [`Outcome::Trouble`].
+    /// Fixed name of the outcome; that of the failure for [`Outcome::DynamicsError`].
     pub fn name(&self) -> &'static str {
         match self {
             Self::Completed => "Completed",
@@ -61,7 +61,7 @@ impl Outcome {
             Self::ToleranceTooTight { .. } => "ToleranceTooTight",
             Self::StiffSuspected => "StiffSuspected",
             Self::Interrupted => "Interrupted",
-            Self::Trouble(error) => error.name(),
+            Self::DynamicsError(error) => error.name(),
             Self::Unsupported { .. } => "Unsupported",
             Self::Chatter { .. } => "Chatter",
         }
@@ -70,7 +70,7 @@ impl Outcome {
     /// The item of the model that it is about, e.g. `joints.pivot`, or nothing.
     pub fn path(&self) -> &str {
         match self {
-            Self::Trouble(error) => error.path().unwrap_or(""),
+            Self::DynamicsError(error) => error.path().unwrap_or(""),
             _ => "",
         }
     }
@@ -101,7 +101,7 @@ impl fmt::Display for Outcome {
                 write!(out, "the system looks stiff and the steps allowed do not suffice; use the method radau")
             }
             Self::Interrupted => write!(out, "the run was interrupted"),
-            Self::Trouble(error) => write!(out, "{}", error.sentence()),
+            Self::DynamicsError(error) => write!(out, "{}", error.sentence()),
             Self::Unsupported { method, reason } => {
                 write!(out, "{method} cannot do this because {reason}")
             }

@@ -165,7 +165,7 @@ impl<'a> Runner<'a> {
         if marks.iter().any(|mark| mark.kind == Kind::Crossing) {
             self.go_to_event(segment, &marks)?;
         } else {
-            self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::Trouble)?;
+            self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::DynamicsError)?;
             self.note_touches(&segment, &marks, segment.t1);
             self.push(segment);
             self.detector.pass();
@@ -251,7 +251,7 @@ impl<'a> Runner<'a> {
     pub fn project(&mut self) -> Result<(), Outcome> {
         let before = self.next.y.clone();
         let system = &mut *self.system.system;
-        let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::Trouble)?;
+        let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::DynamicsError)?;
         self.run.largest_correction = self.run.largest_correction.max(correction);
         if self.next.y != before {
             self.system.rate_of(&mut self.next).map_err(ending)?;
@@ -298,7 +298,7 @@ impl Run {
 /// The outcome of a failure that a shorter step does not cure.
 pub(super) fn ending(failure: Failure) -> Outcome {
     match failure {
-        Failure::Trouble(error) => Outcome::Trouble(error),
+        Failure::DynamicsError(error) => Outcome::DynamicsError(error),
         Failure::NotFinite => Outcome::Overflow,
         Failure::NoConvergence => Outcome::StepUnderflow,
     }

@@ -1,6 +1,6 @@
 //! What an integrator may ask of the thing that moves.
 
-pub use crate::error::Trouble;
+pub use crate::error::DynamicsError;
 
 /// How a switching function is watched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,14 +64,14 @@ pub trait System {
     /// # Errors
     /// A named failure where the rate does not exist. An adaptive method then tries a shorter
     /// step; when that does not help, the run ends with this failure.
-    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble>;
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError>;
 
     /// Brings `y` back onto its invariants; called after each accepted step and at events.
     /// Returns the size of the correction, relative to [`System::scale`].
     ///
     /// # Errors
     /// A named failure when there is no way back; the run ends with it.
-    fn project(&mut self, _t: f64, _y: &mut [f64]) -> Result<f64, Trouble> {
+    fn project(&mut self, _t: f64, _y: &mut [f64]) -> Result<f64, DynamicsError> {
         Ok(0.0)
     }
 
@@ -106,7 +106,7 @@ pub trait System {
     ///
     /// # Errors
     /// A named failure; the run ends with it.
-    fn switch_values(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> Result<(), Trouble> {
+    fn switch_values(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> Result<(), DynamicsError> {
         Ok(())
     }
 
@@ -114,7 +114,7 @@ pub trait System {
     ///
     /// # Errors
     /// As [`System::switch_values`].
-    fn switch_value(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<Option<f64>, Trouble> {
+    fn switch_value(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<Option<f64>, DynamicsError> {
         Ok(None)
     }
 
@@ -123,7 +123,7 @@ pub trait System {
     ///
     /// # Errors
     /// A named failure; the run ends with it, before that step.
-    fn check(&mut self, _t: f64, _y: &[f64]) -> Result<(), Trouble> {
+    fn check(&mut self, _t: f64, _y: &[f64]) -> Result<(), DynamicsError> {
         Ok(())
     }
 
@@ -136,7 +136,7 @@ pub trait System {
     ///
     /// # Errors
     /// A named failure; the run ends with it.
-    fn armed(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<bool, Trouble> {
+    fn armed(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<bool, DynamicsError> {
         Ok(true)
     }
 
@@ -146,7 +146,7 @@ pub trait System {
     ///
     /// # Errors
     /// A named failure; the run ends with it.
-    fn act(&mut self, _i: usize, _t: f64, _y: &mut [f64]) -> Result<After, Trouble> {
+    fn act(&mut self, _i: usize, _t: f64, _y: &mut [f64]) -> Result<After, DynamicsError> {
         Ok(After::Continue)
     }
 
@@ -162,17 +162,17 @@ pub trait Canonical {
     ///
     /// # Errors
     /// A named failure.
-    fn enter(&mut self, t: f64, y: &[f64], z: &mut [f64]) -> Result<(), Trouble>;
+    fn enter(&mut self, t: f64, y: &[f64], z: &mut [f64]) -> Result<(), DynamicsError>;
 
     /// Writes y at (t, z); inverse of [`Canonical::enter`].
     ///
     /// # Errors
     /// A named failure.
-    fn leave(&mut self, t: f64, z: &[f64], y: &mut [f64]) -> Result<(), Trouble>;
+    fn leave(&mut self, t: f64, z: &[f64], y: &mut [f64]) -> Result<(), DynamicsError>;
 
     /// Hamilton's equations: writes dz/dt = (∂H/∂p, −∂H/∂q).
     ///
     /// # Errors
     /// A named failure.
-    fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), Trouble>;
+    fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), DynamicsError>;
 }

@@ -244,7 +244,7 @@ impl Factor {
         pattern.renumbering().for_each(|(i, p)| b[p] = rhs[i] * self.scale[p]);
         let mut accuracy = self.refine(&b, &mut x, &mut r);
         if accuracy.residual > CONTRADICTION && accuracy.residual <= ACCEPTED {
-            accuracy.iterations += self.settle(&b, &mut x);
+            accuracy.iterations += self.correct_multipliers(&b, &mut x);
         }
         pattern.renumbering().for_each(|(i, p)| out[i] = x[p] * self.scale[p]);
         if accuracy.residual <= ACCEPTED {
@@ -293,7 +293,7 @@ impl Factor {
 
     /// Frees the multipliers of what contradictions among redundant rows left in them, 1/μ times as
     /// large: finds them anew from f − M a, with rows that agree. Returns the iterations.
-    fn settle(&self, b: &[f64], x: &mut [f64]) -> usize {
+    fn correct_multipliers(&self, b: &[f64], x: &mut [f64]) -> usize {
         let clear_rows = |v: &mut [f64]| {
             v.iter_mut().zip(&self.shift).filter(|(_, s)| **s < 0.0).for_each(|(v, _)| *v = 0.0);
         };

@@ -95,13 +95,13 @@ pub struct Body {
     #[serde(default)]
     pub particle: bool,
     /// Its pieces; mass, mass centre and inertia are theirs together.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<MassElement>,
 }
 
 /// A piece of a body, of known mass and shape, placed in the body's frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Piece {
+pub struct MassElement {
     /// `point`, `rod`, `disk`, `ring`, `rectangle`, `polygon`, or `given` (with `inertia`).
     pub shape: String,
     /// Mass in kg; 0 is allowed.

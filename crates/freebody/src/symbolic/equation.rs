@@ -8,7 +8,7 @@ use super::query::{About, Along, Group, Parts};
 use super::vectors::{tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Tree, Variable};
-use crate::dynamics::{momentum, Trouble};
+use crate::dynamics::{momentum, DynamicsError};
 use crate::free_bodies::{Load, Part, Size};
 use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -39,38 +39,38 @@ impl VirtualMotion {
 
 impl SymbolicState<'_> {
     /// The bodies of a group; none named means all.
-    pub(super) fn group(&self, group: &Group) -> Result<Vec<usize>, Trouble> {
+    pub(super) fn group(&self, group: &Group) -> Result<Vec<usize>, DynamicsError> {
         if group.is_empty() {
             return Ok(self.m.listed_bodies());
         }
         group.iter().map(|name| self.body(name)).collect()
     }
 
-    pub(super) fn body(&self, name: &str) -> Result<usize, Trouble> {
+    pub(super) fn body(&self, name: &str) -> Result<usize, DynamicsError> {
         let known = || self.m.listed_bodies().into_iter().map(|i| &self.m.bodies[i].name);
         self.m.bodies.iter().position(|b| b.name == name).ok_or_else(|| unknown("body", name, known()))
     }
 
-    pub(super) fn point(&self, name: &str) -> Result<usize, Trouble> {
+    pub(super) fn point(&self, name: &str) -> Result<usize, DynamicsError> {
         let known = self.m.points.iter().map(|p| &p.0);
         let found = self.m.points.iter().find(|p| p.0 == name);
         found.map(|p| p.1).ok_or_else(|| unknown("point", name, known))
     }
 
-    fn load(&self, index: usize) -> Result<&Load<Symbol>, Trouble> {
-        let sentence = || Trouble::UnknownName(format!("there is no load {index}; count them from 0"));
+    fn load(&self, index: usize) -> Result<&Load<Symbol>, DynamicsError> {
+        let sentence = || DynamicsError::UnknownName(format!("there is no load {index}; count them from 0"));
         self.loads.get(index).ok_or_else(sentence)
     }
 
     /// The line on which a load acts on a group.
-    fn acts_on(&self, index: usize, bodies: &[usize]) -> Result<Part<Symbol>, Trouble> {
+    fn acts_on(&self, index: usize, bodies: &[usize]) -> Result<Part<Symbol>, DynamicsError> {
         let load = self.load(index)?;
         let part = load.parts.iter().find(|part| bodies.contains(&part.body)).or(load.parts.first());
-        part.copied().ok_or_else(|| Trouble::UnknownName(format!("`{}` acts on nothing", load.symbol)))
+        part.copied().ok_or_else(|| DynamicsError::UnknownName(format!("`{}` acts on nothing", load.symbol)))
     }
 
     /// What a load does to a group, with the friction that follows from it: its force, and its moment about the origin.
-    fn wrench(&self, index: usize, bodies: &[usize]) -> Result<Wrench<Symbol>, Trouble> {
+    fn wrench(&self, index: usize, bodies: &[usize]) -> Result<Wrench<Symbol>, DynamicsError> {
         let own = self.acts_on(index, bodies)?.body;
         let with = |load: &Load<Symbol>| match load.size {
             Size::Follows(of, ratio) if of == index => Some(ratio),
@@ -87,7 +87,7 @@ impl SymbolicState<'_> {
         Ok(sum)
     }
 
-    fn turned_about(&self, about: &About, bodies: &[usize]) -> Result<VirtualMotion, Trouble> {
+    fn turned_about(&self, about: &About, bodies: &[usize]) -> Result<VirtualMotion, DynamicsError> {
         let at = self.at();
         let point = match about {
             About::Point(name) => {
@@ -113,7 +113,7 @@ impl SymbolicState<'_> {
         }
     }
 
-    fn along(&self, along: &Along, bodies: &[usize]) -> Result<Vec2<Symbol>, Trouble> {
+    fn along(&self, along: &Along, bodies: &[usize]) -> Result<Vec2<Symbol>, DynamicsError> {
         let (zero, one) = (Symbol::zero(), Symbol::one());
         Ok(match along {
             Along::X => vec2(one, zero),
@@ -133,11 +133,11 @@ impl SymbolicState<'_> {
         about: Option<&About>,
         along: Option<&Along>,
         bodies: &[usize],
-    ) -> Result<VirtualMotion, Trouble> {
+    ) -> Result<VirtualMotion, DynamicsError> {
         match (about, along) {
             (Some(about), None) => self.turned_about(about, bodies),
             (None, Some(along)) => Ok(VirtualMotion::Force(self.along(along, bodies)?)),
-            _ => Err(Trouble::WrongQuestion(
+            _ => Err(DynamicsError::WrongQuestion(
                 "an equation is told `about` a point or `along` a direction, one of them".into(),
             )),
         }
@@ -243,10 +243,10 @@ impl SymbolicState<'_> {
         let (joint, k) = self.m.coordinates[i];
         let child = self.m.joints[joint].child.expect("a coordinate of the tree");
         let column = self.k.motion_subspace[child][k];
-        let pin = self.k.pose[child].at;
+        let origin = self.k.pose[child].at;
         let test = match column.w.is_zero() {
             true => VirtualMotion::Force(column.v),
-            false => VirtualMotion::about(pin + column.v.perp() * (Symbol::one() / column.w)),
+            false => VirtualMotion::about(origin + column.v.perp() * (Symbol::one() / column.w)),
         };
         (self.carried_by(child), test)
     }
@@ -273,9 +273,9 @@ fn meeting(a: Wrench<Symbol>, b: Wrench<Symbol>) -> VirtualMotion {
     VirtualMotion::Moment { about: a.f * b.m - b.f * a.m, scale: a.f.cross(b.f) }
 }
 
-fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> Trouble {
+fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> DynamicsError {
     let entries = crate::builder::unknown(what, name, known);
-    Trouble::UnknownName(format!("{}; {}", entries.what, entries.hint))
+    DynamicsError::UnknownName(format!("{}; {}", entries.what, entries.hint))
 }
 
 /// An expression as coefficients of unknowns in which it is linear, and the rest.

@@ -33,21 +33,21 @@ impl SymbolicState<'_> {
                 free.coordinates.push(name);
                 entries
             };
-            let (arm, twist, pin) = (self.arm(i), self.k.twist[i], self.bodies[i]);
-            let (r, v, a) = (self.centre(i), twist.at(arm), acceleration(pin, arm, twist.w));
+            let (arm, twist, origin) = (self.arm(i), self.k.twist[i], self.bodies[i]);
+            let (r, v, a) = (self.centre(i), twist.at(arm), acceleration(origin, arm, twist.w));
             let x = named("x", "place_x", [r.x, v.x, a.x]);
             let y = named("y", "place_y", [r.y, v.y, a.y]);
             let angle = match body.particle {
                 true => [self.k.pose[i].turn.angle, Symbol::zero(), Symbol::zero()],
-                false => named("phi", "angle", [self.k.pose[i].turn.angle, twist.w, pin.w]),
+                false => named("phi", "angle", [self.k.pose[i].turn.angle, twist.w, origin.w]),
             };
             let turn = Turn::by(angle[0]);
-            let to_pin = -turn.apply(self.n.centre[i]);
-            free.k.pose[i] = Pose { at: vec2(x[0], y[0]) + to_pin, turn };
-            free.k.twist[i] = Twist { v: vec2(x[1], y[1]) + to_pin.perp() * angle[1], w: angle[1] };
-            let centripetal = to_pin * (angle[1] * angle[1]);
-            let at_pin: Vec2<Symbol> = vec2(x[2], y[2]) + to_pin.perp() * angle[2] - centripetal;
-            free.bodies[i] = Twist { v: at_pin, w: angle[2] };
+            let to_origin = -turn.apply(self.n.centre[i]);
+            free.k.pose[i] = Pose { at: vec2(x[0], y[0]) + to_origin, turn };
+            free.k.twist[i] = Twist { v: vec2(x[1], y[1]) + to_origin.perp() * angle[1], w: angle[1] };
+            let centripetal = to_origin * (angle[1] * angle[1]);
+            let at_origin: Vec2<Symbol> = vec2(x[2], y[2]) + to_origin.perp() * angle[2] - centripetal;
+            free.bodies[i] = Twist { v: at_origin, w: angle[2] };
         }
         for (i, body) in self.m.bodies.iter().enumerate() {
             if let Some(branch) = body.tree_joint {

@@ -15,7 +15,7 @@ pub use query::{answer, Query, Setting};
 
 use crate::algebra::{Symbol, Variable};
 use crate::bound_values::BoundValues;
-use crate::dynamics::{Trouble, Workspace};
+use crate::dynamics::{DynamicsError, Workspace};
 use crate::free_bodies::{loads, relate_friction, Load, Origin, Size};
 use crate::kinematics::{Kinematics, StateView};
 use crate::mechanism::{FrictionSource, Mechanism};
@@ -163,12 +163,12 @@ fn sizes(loads: &[Load<Symbol>], values: &[f64]) -> Vec<Symbol> {
 }
 
 impl SymbolicState<'_> {
-    fn coordinate(&self, name: &str) -> Result<usize, Trouble> {
+    fn coordinate(&self, name: &str) -> Result<usize, DynamicsError> {
         let known: Vec<&String> = (0..self.m.freedom()).map(|i| &self.m.coordinate(i).name).collect();
         let found = known.iter().position(|k| *k == name);
         found.ok_or_else(|| {
             let entries = crate::builder::unknown("coordinate", name, known.into_iter());
-            Trouble::UnknownName(format!("{}; {}", entries.what, entries.hint))
+            DynamicsError::UnknownName(format!("{}; {}", entries.what, entries.hint))
         })
     }
 

@@ -4,7 +4,7 @@ use super::equation::linear_in;
 use super::vectors::{presented, tree};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
-use crate::dynamics::{closing_rows, Row, Source, Trouble};
+use crate::dynamics::{closing_rows, DynamicsError, Row, Source};
 use crate::joints::Joint as _;
 use crate::kinematics::Kinematics;
 use crate::plane::{Twist, Vec2};
@@ -15,14 +15,14 @@ impl SymbolicState<'_> {
     /// Angle, position, velocity and acceleration of every body and its mass centre.
     pub(super) fn kinematics(&self) -> Value {
         let entry = |i: usize| {
-            let (body, twist, pin) = (&self.m.bodies[i], self.k.twist[i], self.bodies[i]);
+            let (body, twist, origin) = (&self.m.bodies[i], self.k.twist[i], self.bodies[i]);
             let arm = self.arm(i);
             json!({
                 "body": body.name, "particle": body.particle,
                 "mass": tree(self.n.mass[i]), "inertia": tree(self.n.inertia[i]),
-                "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(pin.w),
+                "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(origin.w),
                 "r": self.vector(self.centre(i)), "v": self.vector(twist.at(arm)),
-                "a": self.vector(acceleration(pin, arm, twist.w)),
+                "a": self.vector(acceleration(origin, arm, twist.w)),
             })
         };
         Value::Array(self.m.listed_bodies().into_iter().map(entry).collect())
@@ -30,7 +30,7 @@ impl SymbolicState<'_> {
 
     /// Velocity and acceleration of a point through a body: what the body carries, what the point does against it, and
     /// Coriolis's part. They add up to the whole.
-    pub(super) fn frame(&self, point: &str, body: &str) -> Result<Value, Trouble> {
+    pub(super) fn frame(&self, point: &str, body: &str) -> Result<Value, DynamicsError> {
         let (site, frame) = (self.point(point)?, self.body(body)?);
         let own = self.m.body_of(site);
         let turn = self.k.pose[own].turn;
@@ -38,16 +38,16 @@ impl SymbolicState<'_> {
         let place = self.k.pose[own].at + arm;
         let v = self.k.twist[own].at(arm);
         let a = acceleration(self.bodies[own], arm, self.k.twist[own].w);
-        let (twist, pin, w) = (self.k.twist[frame], self.bodies[frame], self.k.twist[frame].w);
+        let (twist, origin, w) = (self.k.twist[frame], self.bodies[frame], self.k.twist[frame].w);
         let reach = place - self.k.pose[frame].at;
         let v_transport = twist.at(reach);
         let v_relative = v - v_transport;
-        let a_transport = acceleration(pin, reach, w);
+        let a_transport = acceleration(origin, reach, w);
         let coriolis = v_relative.perp() * w.scale(2.0);
         Ok(json!({
             "v": self.vector(v), "v_transport": self.vector(v_transport), "v_relative": self.vector(v_relative),
             "a": self.vector(a), "a_transport": self.vector(a_transport), "a_coriolis": self.vector(coriolis),
-            "a_relative": self.vector(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(pin.w),
+            "a_relative": self.vector(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(origin.w),
         }))
     }
 
@@ -116,6 +116,6 @@ impl SymbolicState<'_> {
 }
 
 /// The acceleration of a point at an arm from a joint origin.
-pub(super) fn acceleration(pin: Twist<Symbol>, arm: Vec2<Symbol>, w: Symbol) -> Vec2<Symbol> {
-    pin.at(arm) - arm * (w * w)
+pub(super) fn acceleration(origin: Twist<Symbol>, arm: Vec2<Symbol>, w: Symbol) -> Vec2<Symbol> {
+    origin.at(arm) - arm * (w * w)
 }

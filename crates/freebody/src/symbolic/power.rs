@@ -4,7 +4,7 @@ use super::motion::acceleration;
 use super::vectors::{tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
-use crate::dynamics::{momentum, Trouble};
+use crate::dynamics::{momentum, DynamicsError};
 use crate::plane::{vec2, Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
@@ -13,11 +13,11 @@ impl SymbolicState<'_> {
     /// One equation for each coordinate that is not `bound`: its virtual rates, those of the bound ones following from
     /// the
     /// `rows` (by their places) of what is closed, and the power of all loads and of all inertia in them.
-    pub(super) fn virtual_power(&self, bound: &[String], rows: &[usize]) -> Result<Value, Trouble> {
+    pub(super) fn virtual_power(&self, bound: &[String], rows: &[usize]) -> Result<Value, DynamicsError> {
         let bound: Vec<usize> = bound.iter().map(|name| self.coordinate(name)).collect::<Result<_, _>>()?;
         let jacobian = self.jacobian(rows);
         if jacobian.len() != bound.len() {
-            return Err(Trouble::WrongQuestion("as many rows as bound coordinates are needed".into()));
+            return Err(DynamicsError::WrongQuestion("as many rows as bound coordinates are needed".into()));
         }
         let all = self.m.freedom();
         let free = (0..all).filter(|i| !bound.contains(i));
@@ -41,9 +41,9 @@ impl SymbolicState<'_> {
             }
         }
         for body in self.m.listed_bodies() {
-            let (arm, pin, turning) = (self.arm(body), self.bodies[body], self.k.twist[body].w);
+            let (arm, origin, turning) = (self.arm(body), self.bodies[body], self.k.twist[body].w);
             let (v, w) = self.virtual_motion(body, arm, rates);
-            let rate = momentum(self.at(), body, acceleration(pin, arm, turning), pin.w);
+            let rate = momentum(self.at(), body, acceleration(origin, arm, turning), origin.w);
             moves += rate.power(Twist { v, w });
         }
         let unknowns = self.unknowns();
@@ -59,13 +59,13 @@ impl SymbolicState<'_> {
     fn virtual_motion(&self, body: usize, arm: Vec2<Symbol>, rates: &[Symbol]) -> (Vec2<Symbol>, Symbol) {
         // A velocity depends on rates as an acceleration does on accelerations, and those are variables at rest as
         // well.
-        let pin = self.bodies[body];
+        let origin = self.bodies[body];
         let mut sum = Twist { v: Vec2::zero(), w: Symbol::zero() };
         for (i, &rate) in rates.iter().enumerate().filter(|(_, rate)| !rate.is_zero()) {
             let own = Variable::new(&self.m.coordinate(i).name, 2);
             let along = |of: Symbol| of.derivative(&own) * rate;
-            sum.v += vec2(along(pin.v.x), along(pin.v.y));
-            sum.w += along(pin.w);
+            sum.v += vec2(along(origin.v.x), along(origin.v.y));
+            sum.w += along(origin.w);
         }
         (sum.at(arm), sum.w)
     }

@@ -2,7 +2,7 @@
 
 use super::SymbolicState;
 use crate::algebra;
-use crate::dynamics::{Trouble, Workspace};
+use crate::dynamics::{DynamicsError, Workspace};
 use crate::free_bodies;
 use serde::Deserialize;
 use serde_json::{json, Value};
@@ -136,7 +136,7 @@ impl Setting {
 ///
 /// # Errors
 /// Unknown names; as [`Workspace::solve`].
-pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Query]) -> Result<Value, Trouble> {
+pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Query]) -> Result<Value, DynamicsError> {
     let diagram = free_bodies::free_bodies(workspace)?;
     let values: Vec<f64> = diagram["loads"]
         .as_array()
@@ -144,9 +144,9 @@ pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Que
     let workspace = &*workspace;
     algebra::session(|| {
         let variables = SymbolicState::new(workspace, setting, &values);
-        let answers: Result<Vec<Value>, Trouble> = questions.iter().map(|q| variables.answer(q)).collect();
+        let answers: Result<Vec<Value>, DynamicsError> = questions.iter().map(|q| variables.answer(q)).collect();
         if algebra::is_exhausted() {
-            return Err(Trouble::TooLarge);
+            return Err(DynamicsError::TooLarge);
         }
         Ok(
             json!({"answers": answers?, "loads": diagram["loads"], "laws": variables.laws(), "letters": variables.table()}),
@@ -155,7 +155,7 @@ pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Que
 }
 
 impl SymbolicState<'_> {
-    fn answer(&self, question: &Query) -> Result<Value, Trouble> {
+    fn answer(&self, question: &Query) -> Result<Value, DynamicsError> {
         match question {
             Query::Kinematics => Ok(self.kinematics()),
             Query::Equation { bodies, about, along, parts } => {

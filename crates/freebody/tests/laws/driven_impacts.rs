@@ -7,7 +7,7 @@ use crate::random_mechanisms::HOME;
 use crate::random_motions::Thrown;
 use crate::rng::{seeds, Rng};
 use freebody::contact::complementarity::ImpactLaw;
-use freebody::dynamics::{joint_place, Route, Trouble, Workspace};
+use freebody::dynamics::{joint_place, DynamicsError, Route, Workspace};
 use freebody::hybrid::{simulate, Impulses, ModeChange, Rule, Settings, Start, Trajectory};
 use freebody::kinematics::gradient;
 use freebody::mechanism::{DriveKind, Gap, Mechanism, Part};
@@ -301,7 +301,7 @@ fn a_drive_that_strikes_has_an_impulse_and_does_work() {
 
 /// Whether a motion or a lock met what cannot yield to it.
 fn is_driven_through(outcome: &Outcome) -> bool {
-    matches!(outcome, Outcome::Trouble(Trouble::DrivenTogether(_)))
+    matches!(outcome, Outcome::DynamicsError(DynamicsError::DrivenTogether(_)))
 }
 
 /// The energy left over at every step, beside the largest entry of the ledger. No figure is asked of a motion that is

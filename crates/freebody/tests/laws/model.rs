@@ -74,7 +74,7 @@ impl Model {
         self.heavy(name, true, literal(mass), literal(0.0), [0.0, 0.0])
     }
     pub fn heavy(mut self, name: &str, particle: bool, mass: Number, inertia: Number, centre: [f64; 2]) -> Self {
-        let piece = Piece {
+        let piece = MassElement {
             shape: "given".into(),
             mass,
             at: at(centre),

@@ -48,7 +48,7 @@ pub fn compliant_regularization(s: &ImpactProblem, share: f64) -> Result<Impulse
     let none = vec![0.0; s.friction.len()];
     match impact(&ImpactProblem { g: &g, restitution: &none, ..*s }, ImpactLaw::Newton) {
         Err(NoImpact::Ambiguous(all)) => Ok(least(all)),
-        struck => struck,
+        impulses => impulses,
     }
 }
 

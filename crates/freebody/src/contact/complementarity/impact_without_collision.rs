@@ -35,7 +35,7 @@ pub fn impact_without_collision(problem: &Problem, slips: &[f64], moment: f64) -
     let s = ImpactProblem { g: problem.g, before: &before, restitution: &vec![0.0; k], friction: &friction };
     let impulses = match impact(&s, ImpactLaw::Newton) {
         Err(NoImpact::Ambiguous(all)) => least(all),
-        struck => struck?,
+        impulses => impulses?,
     };
     // Where all go on sliding, the impulses over the moment are forces that were there to be found.
     let ends = |i: usize| impulses.after[k + i] * before[k + i] <= STOPPED * before[k + i] * before[k + i];

@@ -117,11 +117,11 @@ fn the_rate_is_taken_anew_after_a_projection() {
         fn dim(&self) -> usize {
             2
         }
-        fn rate(&mut self, _: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+        fn rate(&mut self, _: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
             dy.copy_from_slice(&[-y[1], y[0]]);
             Ok(())
         }
-        fn project(&mut self, _: f64, y: &mut [f64]) -> Result<f64, Trouble> {
+        fn project(&mut self, _: f64, y: &mut [f64]) -> Result<f64, DynamicsError> {
             let r = y[0].hypot(y[1]);
             y.iter_mut().for_each(|y| *y /= r);
             Ok((r - 1.0).abs())

@@ -51,10 +51,10 @@ fn troubles_are_passed_on() {
         fn dim(&self) -> usize {
             1
         }
-        fn rate(&mut self, t: f64, _: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+        fn rate(&mut self, t: f64, _: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
             dy[0] = 1.0;
             match t > self.0 {
-                true => Err(Trouble::NoUniqueMotion),
+                true => Err(DynamicsError::NoUniqueMotion),
                 false => Ok(()),
             }
         }

@@ -54,7 +54,7 @@ impl System for Plain<'_> {
     fn dim(&self) -> usize {
         self.scale.len()
     }
-    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         (self.rate)(t, y, dy);
         Ok(())
     }
@@ -64,14 +64,14 @@ impl System for Plain<'_> {
     fn switches(&self) -> usize {
         self.watches.len()
     }
-    fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Trouble> {
+    fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
         (self.switches)(t, y, out);
         Ok(())
     }
     fn switch(&self, i: usize) -> EventSpec {
         self.watches[i]
     }
-    fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, Trouble> {
+    fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, DynamicsError> {
         Ok((self.act)(i, t, y))
     }
 }
@@ -85,7 +85,7 @@ impl System for Hamiltonian {
     fn dim(&self) -> usize {
         2
     }
-    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble> {
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         self.flow(t, y, dy)
     }
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {
@@ -94,15 +94,15 @@ impl System for Hamiltonian {
 }
 
 impl Canonical for Hamiltonian {
-    fn enter(&mut self, _: f64, y: &[f64], z: &mut [f64]) -> Result<(), Trouble> {
+    fn enter(&mut self, _: f64, y: &[f64], z: &mut [f64]) -> Result<(), DynamicsError> {
         z.copy_from_slice(y);
         Ok(())
     }
-    fn leave(&mut self, _: f64, z: &[f64], y: &mut [f64]) -> Result<(), Trouble> {
+    fn leave(&mut self, _: f64, z: &[f64], y: &mut [f64]) -> Result<(), DynamicsError> {
         y.copy_from_slice(z);
         Ok(())
     }
-    fn flow(&mut self, _: f64, z: &[f64], dz: &mut [f64]) -> Result<(), Trouble> {
+    fn flow(&mut self, _: f64, z: &[f64], dz: &mut [f64]) -> Result<(), DynamicsError> {
         (dz[0], dz[1]) = (z[1], (self.force)(z[0]));
         Ok(())
     }

@@ -5,7 +5,7 @@ use crate::rng::Rng;
 use freebody::compile::Compiled;
 use freebody::mechanism::Mechanism;
 use freebody::plane::{vec2, Vec2};
-use freebody::spec::{Contact, Number, Piece, Surface};
+use freebody::spec::{Contact, MassElement, Number, Surface};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Half the width of the box, and the spacing of the bodies at the start, m.
@@ -148,7 +148,7 @@ fn solid(mut model: Model, name: &str, outline: &Outline) -> Model {
             model = model.point(&format!("{name}.P{k}"), [corner.x, corner.y]);
         }
     }
-    let piece = Piece {
+    let piece = MassElement {
         shape: shape.into(),
         mass: literal(DENSITY * area),
         at: at([0.0; 2]),
