@@ -16,7 +16,7 @@ from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
 from freebody.views.diagram.describe import described
 from freebody.views.diagram.laws import Laws
-from freebody.views.diagram.names import Labels, spoken
+from freebody.views.diagram.names import Labels
 from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import COLUMN, MARGIN, Row, fits
@@ -121,7 +121,7 @@ class DiagramBuilder:
         longest = max((action.size for action in forces + terms if not action.turns), default=0.0)
         per_newton = LONGEST / longest if self.scaled and longest > 0 else None
         if per_newton is not None:
-            short = [spoken(a.label) for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
+            short = [a.sign.plain for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
         loaded, bare = drawn.loaded() if crowd else drawn, drawn.bare()
         panels = [Panel(loaded, arranged(forces, loaded, per_newton), group if len(group) > 1 else (), oriented=True)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.core import Body, FreeBodies, Load, Part
 from freebody.run.records import Array
-from freebody.views.diagram.names import Labels
+from freebody.views.diagram.names import Labels, Sign
 from freebody.views.dimension_lines import digits, place_of
 from freebody.views.sketch import Sketch
 
@@ -33,7 +33,7 @@ class Action:
 
     name: str
     kind: str
-    label: str
+    sign: Sign
     body: str
     at: Array
     force: Array
@@ -41,6 +41,11 @@ class Action:
     loads: tuple[Load, ...] = ()
     pulls: bool = False
     bound: bool = False
+
+    @property
+    def label(self) -> str:
+        """What is written at it, in LaTeX."""
+        return self.sign.latex
 
     @property
     def turns(self) -> bool:
@@ -71,19 +76,19 @@ def _going(load: Load, beyond: Load) -> Load:
     return replace(load, on=tuple(replace(part, point=at.get(part.body, part.point)) for part in beyond.on))
 
 
-def _positive(load: Load, part: Part, label: str, sketch: Sketch) -> Iterator[Action]:
+def _positive(load: Load, part: Part, sign: Sign, sketch: Sketch) -> Iterator[Action]:
     force, couple = _sense(load, part, sketch)
-    size, plain = np.hypot(*force), _acts(load, part, label, force, couple, sketch)
+    size, plain = np.hypot(*force), _acts(load, part, sign, force, couple, sketch)
     if size > 0:
         yield replace(plain, force=force / size, couple=0.0)
     if couple:
         yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
 
 
-def _acts(load: Load, part: Part, label: str, force: Array, couple: float, sketch: Sketch) -> Action:
+def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketch: Sketch) -> Action:
     at = attached(load, part, sketch)
     bound = load.kind in ("joint", "friction", "motion", "lock") or not np.array_equal(at, part.point)
-    return Action(load.name, load.kind, label, part.body, at, force, couple, (load,), _pulls(load, part, force), bound)
+    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), _pulls(load, part, force), bound)
 
 
 def _pulls(load: Load, part: Part, force: Array) -> bool:
@@ -141,8 +146,8 @@ def to_scale(
         return [action for action in actions if action.size > least[action.turns]]
 
     shown = {load.symbol for action in seen(forces) for load in action.loads}
-    unknown = [labels.plain(load) for load in loads if not load.determinate]
-    none = [labels.plain(load) for load in loads if load.determinate and load.symbol not in shown]
+    unknown = [labels.of(load).plain for load in loads if not load.determinate]
+    none = [labels.of(load).plain for load in loads if load.determinate and load.symbol not in shown]
     notes = [f"not determined: {', '.join(unknown)}"] * bool(unknown) + [f"{', '.join(none)} = 0"] * bool(none)
     return [_with_value(a, labels) for a in seen(forces)], [_with_value(a, labels) for a in seen(terms)], notes
 
@@ -167,8 +172,11 @@ def _together(first: Action, second: Action) -> Action:
 
 
 def _with_value(action: Action, labels: Labels) -> Action:
-    unit = (labels.turning_unit if action.turns else labels.unit).replace("·", r"\,")
-    return replace(action, label=rf"{action.label} = {_figure(action.size)}\ \mathrm{{{unit}}}")
+    unit, sign, value = labels.turning_unit if action.turns else labels.unit, action.sign, digits(float(f"{action.size:.3g}"))
+    mantissa, _, power = value.partition("e")
+    figure = rf"{mantissa}\times 10^{{{int(power.replace('−', '-'))}}}" if power else value
+    shown = rf"{sign.latex} = {figure}\ \mathrm{{{unit}}}".replace("·", r"\,")
+    return replace(action, sign=Sign(shown, f"{sign.plain} = {value} {unit}"))
 
 
 def effective(free: FreeBodies, near: FreeBodies, group: Collection[str], labels: Labels) -> Iterator[Action]:
@@ -183,22 +191,14 @@ def effective(free: FreeBodies, near: FreeBodies, group: Collection[str], labels
                 yield replace(term, force=term.force / np.hypot(*term.force))
             else:
                 for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-                    yield replace(term, label=rf"{labels.mass(name)}\,{labels.component(part)}", force=np.array(way))
+                    yield replace(term, sign=labels.mass(name) * labels.component(part), force=np.array(way))
 
 
 def _terms(body: Body, labels: Labels, alone: bool) -> Iterator[Action]:
     """m a and I α of a body, as far as they are not 0."""
     name = body.name
-    plain = Action(name, "effective", "", name, np.array(body.G), np.zeros(2))
+    plain = Action(name, "effective", Sign("", ""), name, np.array(body.G), np.zeros(2))
     if body.mass and any(body.a):
-        yield replace(
-            plain, label=rf"{labels.mass(name)}\,{labels.acceleration(name, alone)}", force=body.mass * np.array(body.a)
-        )
+        yield replace(plain, sign=labels.mass(name) * labels.acceleration(name, alone), force=body.mass * np.array(body.a))
     if body.inertia and not body.particle and body.alpha:
-        yield replace(plain, label=rf"{labels.inertia(name)}\,{labels.angular(name, alone)}", couple=body.inertia * body.alpha)
-
-
-def _figure(value: float) -> str:
-    text = digits(float(f"{value:.3g}"))
-    mantissa, _, exponent = text.partition("e")
-    return rf"{mantissa}\times 10^{{{int(exponent.replace('−', '-'))}}}" if exponent else text
+        yield replace(plain, sign=labels.inertia(name) * labels.angular(name, alone), couple=body.inertia * body.alpha)

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.names import spoken
 
 _WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to the left", "down and to the left", "down",
          "down and to the right")  # fmt: skip
@@ -15,7 +14,7 @@ _WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to 
 
 def described(group: Sequence[str], actions: Iterable[Action]) -> str:
     """What acts on a group, each with its letter and its direction."""
-    stated = [f"{spoken(action.label)} {_way(action)} on {action.body}" for action in actions]
+    stated = [f"{action.sign.plain} {_way(action)} on {action.body}" for action in actions]
     return f"On {' and '.join(group)} {'act' if stated else 'nothing acts'}{': ' if stated else ''}{'; '.join(stated)}."
 
 

@@ -11,7 +11,7 @@ from freebody.core import Body, FreeBodies
 from freebody.impact.impacts import Impulsive
 from freebody.impact.symbols import ImpulseNaming
 from freebody.views.diagram import Cut, Diagram, DiagramBuilder
-from freebody.views.diagram.names import Labels
+from freebody.views.diagram.names import Labels, Sign
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import COLUMN, Row
 
@@ -23,17 +23,21 @@ class _Jumps(Labels):
     unit: ClassVar[str] = "N·s"
     turning_unit: ClassVar[str] = "N·m·s"
 
-    def acceleration(self, body: str, alone: bool) -> str:
+    def acceleration(self, body: str, alone: bool) -> Sign:
         """Of the jump of the velocity of a body's mass centre."""
-        return rf"\Delta{self._of_body('v', body, alone).latex(bold=True)}"
+        return _jump(Sign.of(self._of_body("v", body, alone), bold=True))
 
-    def component(self, part: str) -> str:
+    def component(self, part: str) -> Sign:
         """Of a component of that jump."""
-        return rf"\Delta v_{part}"
+        return Sign(rf"\Delta v_{part}", f"Δv_{part}")
 
-    def angular(self, body: str, alone: bool) -> str:
+    def angular(self, body: str, alone: bool) -> Sign:
         """Of the jump of the angular velocity."""
-        return rf"\Delta{self._of_body('omega', body, alone).latex()}"
+        return _jump(Sign.of(self._of_body("omega", body, alone)))
+
+
+def _jump(of: Sign) -> Sign:
+    return Sign(rf"\Delta{of.latex}", f"Δ{of.plain}")
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from freebody.symbolic.printers.text import columns
 from freebody.symbolic.printers.typeset import formula
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.names import letter, spoken
+from freebody.views.diagram.names import letter
 from freebody.views.draw import UNNAMED
 from freebody.views.labels import mathtext
 
@@ -63,7 +63,7 @@ class Laws:
         if size is None:
             law = self._of_length(load)
         else:
-            lead = _EN * columns(f"where {spoken(action.label)} = ")
+            lead = _EN * columns(f"where {action.sign.plain} = ")
             law = [latex(line) for line in line_breaking.lines(formula(size), max(_LEAST, room - lead))]
         if law and law[0] != action.label:
             law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""

@@ -1,8 +1,7 @@
-"""What is written at the arrows of a diagram, in LaTeX without dollars."""
+"""What is written at the arrows of a diagram."""
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -10,10 +9,26 @@ from freebody.core import Load
 from freebody.solve.symbols import Naming
 from freebody.symbolic.printers.text import columns, text
 from freebody.symbolic.printers.typeset import latex
-from freebody.symbolic.symbols import Name, unicode_name
-from freebody.symbolic.tree import Add, Sym, is_zero, symbols
+from freebody.symbolic.symbols import Name
+from freebody.symbolic.tree import Add, Sym, Tree, is_zero, symbols
 
 _LONGEST = 8  # columns of an expression that is written out for a mass
+
+
+@dataclass(frozen=True)
+class Sign:
+    """What is written at an arrow: in LaTeX without dollars, and as plain text."""
+
+    latex: str
+    plain: str
+
+    @classmethod
+    def of(cls, name: Name, dots: int = 0, bold: bool = False) -> Sign:
+        """That of a name."""
+        return cls(name.latex(dots, bold=bold), name.unicode(dots))
+
+    def __mul__(self, other: Sign) -> Sign:
+        return Sign(rf"{self.latex}\,{other.latex}", f"{self.plain} {other.plain}")
 
 
 @dataclass(frozen=True)
@@ -24,72 +39,56 @@ class Labels:
     unit: ClassVar[str] = "N"
     turning_unit: ClassVar[str] = "N·m"
 
-    def of(self, load: Load) -> str:
+    def of(self, load: Load) -> Sign:
         """Of a load; on both sides of a cut it is the same. Friction that slides is μ times its normal force."""
         if load.kind == "weight":
             g = self.naming.gravity
-            return rf"{self.mass(load.on[0].body)}\,{g.latex()}" if g else rf"{self.mass(load.on[0].body)}\,\mathbf{{g}}"
-        if load.follows:
-            ratio, normal = self.naming.friction(load), self.naming.free.loads[load.follows[0]]
-            if ratio:
-                return f"{ratio.latex()}\\,{self.of(normal)}"
-        return self.naming.loads[load.symbol].latex()
+            return self.mass(load.on[0].body) * Sign.of(g or Name("g"), bold=g is None)
+        if load.follows and (ratio := self.naming.friction(load)):
+            return Sign.of(ratio) * self.of(self.naming.free.loads[load.follows[0]])
+        return Sign.of(self.naming.loads[load.symbol])
 
-    def plain(self, load: Load) -> str:
-        """Of a load, in a remark."""
-        name = self.naming.loads.get(load.symbol)
-        return name.unicode() if name else spoken(self.of(load))
-
-    def whole(self, load: Load) -> str:
+    def whole(self, load: Load) -> Sign:
         """Of a force of which a load is one component."""
         name = self.naming.loads.get(load.symbol)
-        if name is None or not load.axis:
-            return self.of(load)
-        return replace(name, below=name.below[:-1]).latex()
+        return Sign.of(replace(name, below=name.below[:-1])) if name and load.axis else self.of(load)
 
     @property
     def renamed(self) -> list[str]:
         """Sentences about what is not written as usual, as far as it has been asked for."""
         return list(map(str, self.naming.symbols.taken.renamed.values()))
 
-    def mass(self, body: str) -> str:
+    def mass(self, body: str) -> Sign:
         """Of a body's mass: its letter, or a short expression of letters."""
         tree = self.naming.bodies[body][0]
         short = symbols(tree) and not isinstance(tree, Add) and columns(text(tree)) <= _LONGEST
-        return latex(tree, self.naming.letters) if short else self.naming.symbols.of_body("m", body).latex()
+        return self._written(tree) if short else Sign.of(self.naming.symbols.of_body("m", body))
 
-    def inertia(self, body: str) -> str:
+    def inertia(self, body: str) -> Sign:
         """Of a body's inertia about its mass centre."""
         tree = self.naming.bodies[body][1]
-        if isinstance(tree, Sym):
-            return latex(tree, self.naming.letters)
-        return self.naming.symbols.of_body("I", body).latex()
+        return self._written(tree) if isinstance(tree, Sym) else Sign.of(self.naming.symbols.of_body("I", body))
 
-    def acceleration(self, body: str, alone: bool) -> str:
+    def _written(self, tree: Tree) -> Sign:
+        return Sign(latex(tree, self.naming.letters), text(tree, self.naming.letters))
+
+    def acceleration(self, body: str, alone: bool) -> Sign:
         """Of the acceleration of a body's mass centre, by itself or among several."""
-        return self._of_body("a", body, alone).latex(bold=True)
+        return Sign.of(self._of_body("a", body, alone), bold=True)
 
-    def component(self, part: str) -> str:
+    def component(self, part: str) -> Sign:
         """Of a component, x or y, of the acceleration of a body's mass centre."""
-        return f"a_{part}"
+        return Sign.of(Name("a", (part,)))
 
-    def angular(self, body: str, alone: bool) -> str:
+    def angular(self, body: str, alone: bool) -> Sign:
         """Of the angular acceleration of a body, by itself or among several."""
         taken, wanted = self.naming.symbols.taken, self._of_body("alpha", body, alone)
         what = "the angular acceleration" + f" of {body}" * bool(wanted.below)
-        return taken.give(what, wanted, Name("angular acceleration", wanted.below)).latex()
+        return Sign.of(taken.give(what, wanted, Name("angular acceleration", wanted.below)))
 
     def _of_body(self, stem: str, body: str, alone: bool) -> Name:
         heavy = [mass for mass, _ in self.naming.bodies.values() if not is_zero(mass)]
         return Name(stem) if alone or len(heavy) == 1 else Name.parse(f"{stem}_{body}")
-
-
-def spoken(label: str) -> str:
-    """A letter without LaTeX: ``\\mathrm{pivot}_{x}`` → ``pivot_x``, ``\\mu`` → μ."""
-    plain = re.sub(r"\\(?:mathrm|mathbf|text)\{([^{}]*)\}", r"\1", label)
-    plain = re.sub(r"\\[, ]", " ", plain)
-    plain = re.sub(r"\\([a-zA-Z]+) ?", lambda found: unicode_name(found[1]), plain)
-    return re.sub(r"[{}]|\\", "", plain)
 
 
 def letter(name: str) -> str:
