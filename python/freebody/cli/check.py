@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
@@ -30,40 +30,38 @@ def check(
     as_json: AsJson = False,
 ) -> None:
     """Say whether equations and claims are true of every motion of a model, and correct the wrong ones."""
-    stated, fine = _statements(model, statements, where, changes, as_json) if statements else _file(model, as_json)
+    found, fine = [], True
+    for heading, verdict, expected, data in _stated(model, statements, where, changes) if statements else _in_file(model):
+        found.append(data)
+        fine &= verdict.ok if expected is None else expected
+        if not as_json:
+            show(heading, verdict, expected is False)
     if as_json:
-        typer.echo(json.dumps(stated, ensure_ascii=False, indent=1))
+        typer.echo(json.dumps(found, ensure_ascii=False, indent=1))
     if not fine:
         raise typer.Exit(NOT_TRUE)
 
 
-def _statements(
-    path: Path, texts: Iterable[str], where: list[str] | None, changes: list[str] | None, quiet: bool
-) -> tuple[list[Any], bool]:
+_Judged: TypeAlias = "tuple[str, Verdict, bool | None, Any]"
+"""What is stated, its verdict, whether that is what the file expects (None where it expects nothing), and all as plain data."""
+
+
+def _stated(path: Path, texts: list[str], where: list[str] | None, changes: list[str] | None) -> Iterator[_Judged]:
     from freebody.check import Checker
     from freebody.check.file import as_json, judged_alone
     from freebody.check.symbols import declarations
 
-    checker, texts = Checker(opened(path, changes), declarations(where or [])), list(texts)
-    verdicts = []
+    checker = Checker(opened(path, changes), declarations(where or []))
     for text in texts:
-        verdicts.append(checker.check(text) if len(texts) == 1 else judged_alone(checker, text))
-        if not quiet:
-            show(text, verdicts[-1])
-    return [as_json(v) for v in verdicts], all(v.ok for v in verdicts)
+        verdict = checker.check(text) if len(texts) == 1 else judged_alone(checker, text)
+        yield text, verdict, None, as_json(verdict)
 
 
-def _file(path: Path, quiet: bool) -> tuple[list[Any], bool]:
-    """All statements of a file; fine where each is what the file expects, or true where it expects nothing."""
+def _in_file(path: Path) -> Iterator[_Judged]:
     from freebody.check.file import judge
 
-    stated, fine = [], True
     for judged in judge(path):
-        stated.append(judged.to_json())
-        fine &= judged.verdict.ok if judged.as_expected is None else judged.as_expected
-        if not quiet:
-            show(f"{judged.statement.id}: {judged.statement.says}", judged.verdict, judged.as_expected is False)
-    return stated, fine
+        yield f"{judged.statement.id}: {judged.statement.says}", judged.verdict, judged.as_expected, judged.to_json()
 
 
 def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:

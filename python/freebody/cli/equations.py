@@ -78,7 +78,9 @@ def equations(
         found = derived(opened(model), form, wanted[0] if wanted else None, at_rest, pairs(fixed))
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
     if len(kinds) > 1:
-        raise UserError("several ways to print are asked for", f"take one of {', '.join(f'--{f.word}' for f in FORMATS.values())}")
+        raise UserError(
+            "several ways to print are asked for", f"take one of {', '.join(f'--{f.word}' for f in FORMATS.values())}"
+        )
     kind = kinds[0] if kinds else output.suffix.removeprefix(".") if output else next(iter(FORMATS))
     if kind in (language.ending for language in LANGUAGES.values()):
         raise UserError("equations are printed, not written as functions", f"freebody code MODEL -o FILE.{kind} does that")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -53,32 +53,23 @@ def simulate(
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
+@dataclass(eq=False, repr=False)
 class Run:
     """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it.
 
     ``next`` is the run of the model to which this one handed over, if it did.
     """
 
+    source: CompiledModel
+    start: State
+    settings: Settings
+    motion: Motion
+    t: Array
     next: Run | None = None
 
-    def __init__(
-        self,
-        source: CompiledModel,
-        start: State,
-        settings: Settings,
-        motion: Motion,
-        t: Array,
-        report: Mapping[str, Reported] | None = None,
-    ) -> None:
-        self.source = source
-        self.start = start
-        self.settings = settings
-        self.motion = motion
-        self.t = t
-        self.about = source.about
-        self.name = source.name
-        if report is not None:
-            self.report = dict(report)
+    def __post_init__(self) -> None:
+        self.about = self.source.about
+        self.name = self.source.name
 
     # What happened
 
@@ -206,6 +197,8 @@ class Run:
     @cached_property
     def report(self) -> dict[str, Reported]:
         """The quantities that the model asks for, by label."""
+        if isinstance(self.motion, storage.Recorded):
+            return dict(self.motion.header.report)
         return {item.label: self.reported(item) for item in self.source.report}
 
     def unit_of(self, text: str) -> str:
@@ -273,15 +266,14 @@ class Run:
     def load(path: str | Path) -> Run:
         """A run from a file. It knows its saved times; ``again()`` knows all."""
         source, motion = storage.load(Path(path))
-        stated = motion.header
-        return Run(source, stated.start, stated.settings, motion, motion.saved_times, stated.report)
+        return Run(source, motion.header.start, motion.header.settings, motion, motion.saved_times)
 
     # On from here
 
     @property
     def recorded(self) -> bool:
         """Whether the run comes from a file and is known at its saved times only."""
-        return hasattr(self.motion, "saved_times")
+        return isinstance(self.motion, storage.Recorded)
 
     @property
     def end(self) -> State:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -18,8 +18,6 @@ _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
 _LEVELS = 5  # places further and further out where an arrow may keep off others
 _APART = 1.6  # sizes of symbols between two arrows
-_Marks: TypeAlias = tuple[Array, list[Array]]
-"""Arrow and guides."""
 _TWO_POINTS = "direction"
 _OWN_ANGLE = "phi"  # of a body by itself
 _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
@@ -69,18 +67,31 @@ def places(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
 
 def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[DimensionLine]:
     taken: list[Array] = []
+    gap = _APART * sketch.size
     for asked in wanted:
         place = place_of(sketch, asked.joint)
         if place is None:
             continue
-        drawn = [_drawn(sketch, asked, place, radius, level) for level in range(_LEVELS)]
-        clear = (each for each in drawn if _clear(each[0], taken, _APART * sketch.size))
-        arrow, guides = next(clear, drawn[0])
+        angle, offered = asked.dimension == "rad", []
+        for level in range(_LEVELS):  # those of a higher one lie further out
+            aside = (2.6 + 2.4 * level) * sketch.size
+            if angle:
+                offered.append(_angle(sketch, asked, place, (1 + 0.35 * level) * radius * sketch.size))
+            else:
+                offered.append(_length(sketch, asked, place, aside) if asked.dimension else _along_curve(sketch, asked, aside))
+        clear = (each for each in offered if all(_distance(each[0], other, gap) > gap for other in taken))
+        arrow, guides = next(clear, offered[0])
         taken.append(arrow)
-        angle = asked.dimension == "rad"
         stated = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
         of_axis = angle and asked.word not in (_TWO_POINTS, _OWN_ANGLE)
         yield DimensionLine(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, stated)
+
+
+def _distance(one: Array, other: Array, gap: float) -> float:
+    """Between two arrows, from places close enough to see what comes within a gap; of a long one not too many."""
+    steps = (max(gap / 2, float(np.hypot(*np.diff(arrow, axis=0).T).sum()) / 200) for arrow in (one, other))
+    mine, its = (shapes.dense([arrow], step) for arrow, step in zip((one, other), steps, strict=True))
+    return float(np.hypot(*(mine[:, None] - its).transpose(2, 0, 1)).min())
 
 
 def _asked(sketch: Sketch) -> Iterator[_Asked]:
@@ -107,26 +118,7 @@ def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
             yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", 1, angle)
 
 
-def _clear(arrow: Array, taken: list[Array], gap: float) -> bool:
-    """Whether an arrow keeps off others."""
-    mine = _places(arrow, gap)
-    return all(np.hypot(*(mine[:, None] - _places(other, gap)).transpose(2, 0, 1)).min() > gap for other in taken)
-
-
-def _places(arrow: Array, gap: float) -> Array:
-    """Places along an arrow, close enough to see what comes within a gap; of a long one not too many."""
-    return shapes.dense([arrow], max(gap / 2, float(np.hypot(*np.diff(arrow, axis=0).T).sum()) / 200))
-
-
-def _drawn(sketch: Sketch, asked: _Asked, place: Array, radius: float, level: int) -> _Marks:
-    """Those of a higher level lie further out."""
-    if asked.dimension == "rad":
-        return _angle(sketch, asked, place, (1 + 0.35 * level) * radius * sketch.size)
-    aside = (2.6 + 2.4 * level) * sketch.size
-    return _length(sketch, asked, place, aside) if asked.dimension else _along_curve(sketch, asked, aside)
-
-
-def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Marks:
+def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> tuple[Array, list[Array]]:
     """About the joint to the second body's x axis, or about the first of two points to the second."""
     if asked.word == _TWO_POINTS:
         at, second = (sketch.place(name) for name in _two_points(asked.joint))
@@ -139,7 +131,7 @@ def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Marks
     return shapes.arc(at, radius, start, start + (turn if abs(asked.value) > _SEEN else 0.35 * asked.sense)), guides
 
 
-def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Marks:
+def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> tuple[Array, list[Array]]:
     """Beside the way from where the joint would be at 0."""
     along = _way(sketch, asked)
     zero = place - asked.value * asked.sense * along
@@ -150,7 +142,7 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Marks
     return arrow, [np.array([foot, arrow[0] + 0.2 * left])]
 
 
-def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Marks:
+def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> tuple[Array, list[Array]]:
     """Beside the curve from where its parameter is 0."""
     curve = next(each for each in sketch.spec["curves"] if each["name"] == asked.joint["with"]["along"])
     start = points_of_curve(sketch, curve, np.array([0.0, 1e-4]))

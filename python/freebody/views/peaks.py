@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from freebody.core import quote
 from freebody.run.records import Array, Signal, Window, refined
 
 if TYPE_CHECKING:
+    from freebody.core import Motion
     from freebody.run.simulation import Run
 
 
@@ -38,9 +38,14 @@ def peak_reactions(run: Run) -> list[Peak]:
     """Peaks of all that can carry a load, refined between the steps where the motion is known there."""
     sampled = run if run.recorded else run.at(Window(run.edges).samples())
     noise = couple_noise(sampled)
-    joints = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
-    limits = [_peak_of_limit(run, sampled, limit) for limit in run.about["limits"]]
-    return joints + limits + [_peak_of_lock(run, sampled, lock) for lock in run.about["locks"]]
+    peaks = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
+    for limit in run.about["limits"]:
+        texts = {"contact": ["N", "T"], "string": ["tension"], "stop": ["N"]}[limit["type"]]
+        turns, parts = limit["dimension"] == "rad", [] if limit["type"] == "stop" else ["Fx", "Fy"]
+        peaks.append(_peak_of_part(run, sampled, limit["name"], limit["first"], texts, turns, parts))
+    for lock in run.about["locks"]:
+        peaks.append(_peak_of_part(run, sampled, lock["name"], lock["second"], ["force"], lock["turns"], []))
+    return peaks
 
 
 def couple_noise(run: Run) -> float:
@@ -56,50 +61,35 @@ def _peak(run: Run, sampled: Run, i: int, name: str, noise: float) -> Peak:
     reaction = sampled.reactions[name]
     if not reaction.determinate:
         return Peak(name, reaction.second, False)
-    t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*_solved(run, i, t)[:, :2].T))
+
+    def solved(t: Array) -> Array:
+        return run.motion.instants(t)[0][:, i]
+
+    t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*solved(t)[:, :2].T))
     couple = t_couple = None
     if reaction.has_couple:
         heard = np.where(np.abs(reaction.M) > noise, np.abs(reaction.M), 0.0)
-        t_couple, couple = _largest(run, sampled.t, heard, lambda t: np.abs(_solved(run, i, t)[:, 2]))
-    force_x, force_y, _ = _solved(run, i, np.array([t]))[0].tolist()
+        t_couple, couple = _largest(run, sampled.t, heard, lambda t: np.abs(solved(t)[:, 2]))
+    force_x, force_y, _ = solved(np.array([t]))[0].tolist()
     return Peak(name, reaction.second, True, t, size, force_x, force_y, couple, t_couple)
 
 
-def _peak_of_limit(run: Run, sampled: Run, limit: Mapping[str, Any]) -> Peak:
-    """The largest force of a contact, string or stop on its first body; of a stop of an angle the largest couple."""
-    name, own = limit["name"], quote(limit["name"])
-    texts = {"contact": [f"{own}.N", f"{own}.T"], "string": [f"{own}.tension"], "stop": [f"{own}.N"]}[limit["type"]]
-    size = np.hypot.reduce(sampled.motion.evaluate(texts, sampled.t), axis=1)
-    if np.isnan(size).any():
-        return Peak(name, limit["first"], False)
-    t, largest = _largest(run, sampled.t, size, lambda t: np.hypot.reduce(run.motion.evaluate(texts, t), axis=1))
-    if limit["dimension"] == "rad":
-        return Peak(name, limit["first"], True, couple=largest, t_couple=t)
-    if run.recorded or limit["type"] == "stop":
-        return Peak(name, limit["first"], True, t, largest)
-    force = run.motion.evaluate([f"{own}.Fx", f"{own}.Fy"], np.array([t]))[0]
-    return Peak(name, limit["first"], True, t, largest, *force.tolist())
+def _peak_of_part(run: Run, sampled: Run, name: str, body: str, texts: list[str], turns: bool, parts: list[str]) -> Peak:
+    """The largest force, or couple where it ``turns``, of which expressions give the components; ``parts``: those in the fixed axes."""
 
-
-def _peak_of_lock(run: Run, sampled: Run, lock: Mapping[str, Any]) -> Peak:
-    """The largest force, or couple, along what a lock holds."""
-    name, text = lock["name"], f"{quote(lock['name'])}.force"
-
-    def size(motion: Any, t: Array) -> Array:
-        return np.abs(motion.evaluate([text], t)[:, 0])
+    def size(motion: Motion, t: Array) -> Array:
+        return np.hypot.reduce(motion.evaluate([f"{quote(name)}.{text}" for text in texts], t), axis=1)
 
     sizes = size(sampled.motion, sampled.t)
     if np.isnan(sizes).any():
-        return Peak(name, lock["second"], False)
+        return Peak(name, body, False)
     t, largest = _largest(run, sampled.t, sizes, lambda t: size(run.motion, t))
-    if lock["turns"]:
-        return Peak(name, lock["second"], True, couple=largest, t_couple=t)
-    return Peak(name, lock["second"], True, t, largest)
-
-
-def _solved(run: Run, i: int, t: Array) -> Array:
-    """The reaction (nt, 3) of the i-th joint at times within the run."""
-    return run.motion.instants(t)[0][:, i]
+    if turns:
+        return Peak(name, body, True, couple=largest, t_couple=t)
+    if run.recorded or not parts:
+        return Peak(name, body, True, t, largest)
+    force = run.motion.evaluate([f"{quote(name)}.{part}" for part in parts], np.array([t]))[0]
+    return Peak(name, body, True, t, largest, *force.tolist())
 
 
 def _largest(run: Run, t: Array, sampled: Array, signal: Signal) -> tuple[float, float]:

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
 _JUMPS = 500  # at most so many gaps in a curve
+_MEASURED = {"rad": "angle", "m": "length", "rad/s": "angular velocity", "m/s": "velocity", "N": "force", "N*m": "couple", "J": "energy",
+             "W": "power"}  # fmt: skip
+"""What is measured in a unit, for the axis of several curves."""
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -39,41 +42,41 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
 
     Two units share the axes, left and right; more are refused.
     """
-    ax = axes(ax)
-    run, breaks = broken(run)
+    ax, run = axes(ax), refined_at_jumps(run)
+    breaks = gaps(run)
     shown = list(names) or run.coordinates
     units = list(dict.fromkeys(run.unit_of(name) for name in shown))
     if len(units) > 2:
         raise ValueError(f"{len(units)} units do not fit on one plot: {', '.join(unit or 'none' for unit in units)}")
-    sides = [ax, *([_right_axis(ax)] if len(units) == 2 else [])]
+    sides = [ax]
+    if len(units) == 2:
+        sides.append(ax.twinx())
+        sides[1].grid(visible=False)
+        sides[1].spines["right"].set_visible(True)
     for i, name in enumerate(shown):
         k = units.index(run.unit_of(name))
         sides[k].plot(breaks(run.t), breaks(run[name], np.nan), color=colour(i), ls=DASHES[k], label=label(run, name))
     for side, unit in zip(sides, units, strict=True):
         own = [name for name in shown if run.unit_of(name) == unit]
-        side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else quantity(unit), unit))
+        side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else _MEASURED.get(unit, ""), unit))
     _mark_events(run, ax)
     ax.set(xlabel="t  [s]", xlim=(run.t[0], run.t[-1]))
     _legend(ax, *sides[1:], needed=len(shown) > 1)
     return ax
 
 
-@_styled
 def phase(run: Run, name: str, rate: str | None = None, ax: Axes | None = None) -> Axes:
     """A quantity's rate (default: that of the coordinate) against the quantity."""
-    return _against(run, name, rate or f"rate({name})", ax)
+    return against(run, name, rate or f"rate({name})", ax)
 
 
 @_styled
 def against(run: Run, x: str, y: str, ax: Axes | None = None) -> Axes:
     """One quantity against another."""
-    return _against(run, x, y, ax)
-
-
-def _against(run: Run, x: str, y: str, ax: Axes | None) -> Axes:
     ax = axes(ax, (5.2, 4.4))
     ax.plot(run[x], run[y], color=colour(0))
-    _ends(ax, run[x], run[y])
+    ax.plot(run[x][:1], run[y][:1], "o", color=colour(0), ms=6, label="start")
+    ax.plot(run[x][-1:], run[y][-1:], "s", color=colour(0), ms=6, mfc="white", label="end")
     ax.set(xlabel=with_unit(label(run, x), run.unit_of(x)), ylabel=with_unit(label(run, y), run.unit_of(y)))
     _legend(ax)
     return ax
@@ -109,34 +112,35 @@ def paths(run: Run, *points: str, ax: Axes | None = None) -> Axes:
 
 @_styled
 def energy(run: Run, ax: Axes | None = None) -> Axes:
-    """The energy ledger: what is stored, what was put in, and (in the legend) how well the books close."""
-    ax = axes(ax)
-    run, breaks = broken(run)
+    """The energy ledger: what is stored, what was put in, and (in the title) how well the books close."""
+    run = refined_at_jumps(run)
     ledger = run.energy
     curves = {**ledger.entries, "kinetic + potential": ledger.kinetic + ledger.potential}
-    for i, (name, values) in enumerate(curves.items()):
-        dashes = "--" if name.startswith("work of ") else "-"
-        ax.plot(breaks(run.t), breaks(values, np.nan), color=colour(i), ls=dashes, label=name)
-    _mark_events(run, ax)
-    ax.set(xlabel="t  [s]", ylabel="energy  [J]", xlim=(run.t[0], run.t[-1]))
-    ax.set_title(f"balance within {np.abs(ledger.balance).max():.1e} J", fontsize=10, color=GROUND, pad=16)
-    _legend(ax)
-    return ax
+    drawn = [(name, values, "--" if name.startswith("work of ") else "-") for name, values in curves.items()]
+    return _over_time(run, drawn, "energy  [J]", f"balance within {np.abs(ledger.balance).max():.1e} J", ax)
 
 
 @_styled
 def reactions(run: Run, *names: str, part: str = "size", ax: Axes | None = None) -> Axes:
     """A part of the reactions of joints over time (``Fx``, ``Fy``, ``M``, ``size``), and the forces of contacts, strings and
     stops; indeterminate ones are named, not drawn. Without names, all that can carry a load."""
-    ax = axes(ax)
-    run, breaks = broken(run)
+    run = refined_at_jumps(run)
     shown = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *limit_forces(run)]
-    for i, (name, values) in enumerate(_forces(run, shown, part)):
-        ax.plot(breaks(run.t), breaks(values, np.nan), color=colour(i), label=name)
+    silent = [name for name in shown if name in run.reactions and not run.reactions[name].determinate]
+    drawn = [(name, values, "-") for name, values in _forces(run, shown, part)]
+    title = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
+    return _over_time(run, drawn, "couple  [N·m]" if part == "M" else "force  [N]", title, ax)
+
+
+def _over_time(run: Run, curves: Sequence[tuple[str, Array, str]], what: str, title: str, ax: Axes | None) -> Axes:
+    """Curves with their names and dashes over the times of a run, with gaps where something switched."""
+    ax, breaks = axes(ax), gaps(run)
+    for i, (name, values, dashes) in enumerate(curves):
+        ax.plot(breaks(run.t), breaks(values, np.nan), color=colour(i), ls=dashes, label=name)
     _mark_events(run, ax)
-    ax.set(xlabel="t  [s]", ylabel="couple  [N·m]" if part == "M" else "force  [N]", xlim=(run.t[0], run.t[-1]))
-    if silent := [name for name in shown if name in run.reactions and not run.reactions[name].determinate]:
-        ax.set_title(f"indeterminate, not drawn: {', '.join(silent)}", fontsize=10, color=GROUND, pad=16)
+    ax.set(xlabel="t  [s]", ylabel=what, xlim=(run.t[0], run.t[-1]))
+    if title:
+        ax.set_title(title, fontsize=10, color=GROUND, pad=16)
     _legend(ax)
     return ax
 
@@ -157,24 +161,14 @@ def _forces(run: Run, names: Sequence[str], part: str) -> Iterator[tuple[str, Ar
 def limit_forces(run: Run) -> dict[str, dict[str, Array]]:
     """For each contact, string and stop (but those of angles), what it carries: values (nt,) in N by expression; no friction
     that is 0 throughout."""
-    columns = [column for column in run.columns if column.kind == "limit"]
-    found: dict[str, dict[str, Array]] = {limit["name"]: {} for limit in run.about["limits"] if limit["dimension"] != "rad"}
-    for name, forces in found.items():
-        for column, values in zip(columns, run.blocks["limit"].T, strict=True):
-            friction = column.name.endswith(".T")
-            if (
-                column.name.rpartition(".")[0] == quote(name)
-                and not column.name.endswith(".gap")
-                and (values.any() or not friction)
-            ):
-                forces[column.name] = values
+    own = {quote(limit["name"]): limit["name"] for limit in run.about["limits"] if limit["dimension"] != "rad"}
+    found: dict[str, dict[str, Array]] = {name: {} for name in own.values()}
+    columns = (column.name for column in run.columns if column.kind == "limit")
+    for text, values in zip(columns, run.blocks["limit"].T, strict=True):
+        owner, _, part = text.rpartition(".")
+        if owner in own and part != "gap" and (part != "T" or values.any()):
+            found[own[owner]][text] = values
     return found
-
-
-def broken(run: Run) -> tuple[Run, Callable[..., Array]]:
-    """The run with times about everything that switched, and what opens a gap there in values over its times."""
-    run = refined_at_jumps(run)
-    return run, gaps(run)
 
 
 def refined_at_jumps(run: Run) -> Run:
@@ -202,10 +196,11 @@ def gaps(run: Run) -> Callable[..., Array]:
 def overlay(a: Run, b: Run, names: Sequence[str], ax: Axes | None = None) -> Axes:
     """Columns of two runs over time, the second dashed."""
     ax = axes(ax)
-    (a, breaks), (b, others) = broken(a), broken(b)
+    a, b = refined_at_jumps(a), refined_at_jumps(b)
     for i, name in enumerate(names):
-        ax.plot(breaks(a.t), breaks(a[name], np.nan), color=colour(i), label=f"{label(a, name)}, first")
-        ax.plot(others(b.t), others(b[name], np.nan), color=colour(i), ls="--", label="second")
+        for run, dashes, text in ((a, "-", f"{label(a, name)}, first"), (b, "--", "second")):
+            breaks = gaps(run)
+            ax.plot(breaks(run.t), breaks(run[name], np.nan), color=colour(i), ls=dashes, label=text)
     units = list(dict.fromkeys(a.unit_of(name) for name in names))
     ax.set(xlabel="t  [s]", ylabel=with_unit(label(a, names[0]) if len(names) == 1 else "", ", ".join(units)))
     _legend(ax)
@@ -228,21 +223,6 @@ def pretty_unit(unit: str) -> str:
     return re.sub(r"\^?(?<=\^)(\d)", lambda power: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(power[1])], unit).replace("^", "").replace("*", "·")
 
 
-def quantity(unit: str) -> str:
-    """What is measured in a unit, for the axis of several curves."""
-    words = {
-        "rad": "angle",
-        "m": "length",
-        "rad/s": "angular velocity",
-        "m/s": "velocity",
-        "N": "force",
-        "N*m": "couple",
-        "J": "energy",
-        "W": "power",
-    }
-    return words.get(unit, "")
-
-
 def _mark_events(run: Run, ax: Axes) -> None:
     """Thin lines at events and impacts, each name above its first one; ticks at the foot where something else switched."""
     named = set()
@@ -256,18 +236,6 @@ def _mark_events(run: Run, ax: Axes) -> None:
             named.add(name)
     others = [change.t for change in run.changes if not change.impulses and run.t[0] < change.t < run.t[-1]]
     ax.plot(others, np.zeros(len(others)), "|", color=GROUND, ms=7, transform=ax.get_xaxis_transform(), zorder=1)
-
-
-def _right_axis(ax: Axes) -> Axes:
-    right = ax.twinx()
-    right.grid(visible=False)
-    right.spines["right"].set_visible(True)
-    return right
-
-
-def _ends(ax: Axes, x: Array, y: Array) -> None:
-    ax.plot(x[:1], y[:1], "o", color=colour(0), ms=6, label="start")
-    ax.plot(x[-1:], y[-1:], "s", color=colour(0), ms=6, mfc="white", label="end")
 
 
 def _legend(ax: Axes, *others: Axes, needed: bool = True) -> None:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from freebody.core import CompiledModel, FreeBodies, MotionError, State
-from freebody.run.records import Array
 from freebody.solve.symbols import Naming
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
@@ -57,12 +56,12 @@ class Diagram(Picture):
     @property
     def data(self) -> list[dict[str, Any]]:
         """The same as data, one entry for each diagram: see ``FreeBodies.data``; ``letter`` is that of the diagram, in LaTeX."""
-        return [self._cut_data(cut) for cut in self.cuts]
-
-    def _cut_data(self, cut: Cut) -> dict[str, Any]:
-        letters = {load.symbol: mark.action.label for mark in cut.forces for load in mark.action.loads}
-        stated = self.free.data(*cut.group)
-        return stated | {"loads": [{"letter": letters.get(load["symbol"])} | load for load in stated["loads"]]}
+        made = []
+        for cut in self.cuts:
+            letters = {load.symbol: mark.action.label for mark in cut.forces for load in mark.action.loads}
+            stated = self.free.data(*cut.group)
+            made.append(stated | {"loads": [{"letter": letters.get(load["symbol"])} | load for load in stated["loads"]]})
+        return made
 
     @property
     def rows(self) -> list[Row]:
@@ -150,16 +149,11 @@ class DiagramBuilder:
 def _further(source: CompiledModel, state: State, free: FreeBodies) -> FreeBodies:
     """The free bodies a little further on in all coordinates and rates, and with something of every parameter (a mass, gravity)
     that is 0; those of now where that has no answer."""
-    p = np.where(state.p == 0, _STEP, state.p)
+    step = _STEP * (1.0 + np.arange(len(state.q)) % 7 / 3.0)  # all different, so that differences of coordinates change as well
     try:
-        return source.free_bodies(State(p, state.t, state.q + _uneven(state.q), state.u + _uneven(state.u)))
+        return source.free_bodies(State(np.where(state.p == 0, _STEP, state.p), state.t, state.q + step, state.u + step))
     except MotionError:
         return free
-
-
-def _uneven(row: Array) -> Array:
-    """Small steps, all different, so that differences of coordinates change as well."""
-    return _STEP * (1.0 + np.arange(len(row)) % 7 / 3.0)
 
 
 def points(column: float) -> float:
@@ -173,15 +167,11 @@ def groups(of: str | Sequence[str] | None, free: FreeBodies) -> list[tuple[str, 
     """The groups that a person names: ``crank``, ``crank+coupler``, ``all``, or several of these. Raises ``ValueError``."""
     if of is None:
         return None
-    asked = [of] if isinstance(of, str) else list(of)
-    return [_group(text, free) for text in asked]
-
-
-def _group(text: str, free: FreeBodies) -> tuple[str, ...]:
-    if text in free.bodies:
-        return (text,)
-    named = list(free.bodies) if text.strip() == "all" else [name.strip() for name in text.split("+")]
-    for name in named:
-        if name not in free.bodies:
-            raise ValueError(f"no body is called {name!r}; there are {', '.join(free.bodies)}")
-    return tuple(dict.fromkeys(named))
+    made = []
+    for text in [of] if isinstance(of, str) else of:
+        named = [text] if text in free.bodies else [name.strip() for name in text.split("+")]
+        named = list(free.bodies) if named == ["all"] else named
+        if unknown := [name for name in named if name not in free.bodies]:
+            raise ValueError(f"no body is called {unknown[0]!r}; there are {', '.join(free.bodies)}")
+        made.append(tuple(dict.fromkeys(named)))
+    return made

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
-from freebody.core import Body, FreeBodies
+from freebody.core import FreeBodies
 from freebody.impact.impacts import Impulsive
 from freebody.impact.symbols import ImpulseNaming
-from freebody.views.diagram import Cut, Diagram, DiagramBuilder
+from freebody.views.diagram import Diagram, DiagramBuilder
 from freebody.views.diagram.names import Labels, Sign
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import COLUMN, Row
@@ -72,19 +72,13 @@ def impulse_diagram(
 ) -> Diagram:
     """Impulse diagrams of groups of bodies (by default every body by itself) during an impact, with what is absent and why."""
     free, source = impact.impulses, impact.source
-    touched = FreeBodies({name: body if free.on(name) else _still(body) for name, body in free.bodies.items()}, free.loads)
+    # A body that no impulse acts on: nothing of its momentum jumps.
+    moved = {name: body if free.on(name) else replace(body, mass=0.0, inertia=0.0) for name, body in free.bodies.items()}
+    touched = FreeBodies(moved, free.loads)
     builder = DiagramBuilder(source, impact.state, touched, touched, _Jumps(ImpulseNaming.of(impact)), scaled, effective, column)
-    chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(
-        f"impulse diagrams of {source.name}", tuple(_with_absent(builder.cut(group), impact) for group in chosen), free
-    )
-
-
-def _still(body: Body) -> Body:
-    """A body that no impulse acts on: nothing of its momentum jumps."""
-    return replace(body, mass=0.0, inertia=0.0)
-
-
-def _with_absent(cut: Cut, impact: Impulsive) -> Cut:
-    absent = [f"Absent: {sentence}." for sentence in impact.absent(*cut.group)]
-    return replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent]))
+    cuts = []
+    for group in [(name,) for name in free.bodies] if groups is None else map(tuple, groups):
+        cut = builder.cut(group)
+        absent = [f"Absent: {sentence}." for sentence in impact.absent(*group)]
+        cuts.append(replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent])))
+    return Diagram(f"impulse diagrams of {source.name}", tuple(cuts), free)
