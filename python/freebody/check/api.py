@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from freebody.model.errors import ModelProblem
+from freebody.model.start import evaluate
 
 from .case import Case, StatementSymbols
 from .claims import claimed
@@ -35,7 +37,7 @@ class Checker:
         self.sampler = MotionSampler(mechanism, seed)
         self.hypothesis = ALL
         self.correcting = True
-        self._run: Any = None
+        self._runs: list[Any] = []  # the model's own, once it is asked for
 
     def letters(self, declared: Declared | None = None) -> Symbols:
         """The letters of the model with own ones. Raises ``ModelProblem``."""
@@ -56,33 +58,26 @@ class Checker:
         ``hypothesis``: the motions of which it is said. Without ``correcting`` it is only judged, which is quicker where it is wrong.
         Raises ``StatementError`` and ``ModelProblem``.
         """
-        before = self.hypothesis, self.correcting
-        self.hypothesis, self.correcting = hypothesis or self.hypothesis, correcting and self.correcting
-        try:
-            return claimed(self, text, letters or {}) or self._equations(text, letters)
-        finally:
-            self.hypothesis, self.correcting = before
-
-    def _equations(self, text: str, letters: Declared | None) -> Verdict:
-        case = self.case(text, letters)
-        return replace(self._judged(case, text), notes=case.meaning.letters.notes(case.program))
-
-    def _judged(self, case: Case, text: str) -> Verdict:
-        error = misfit(case.program, case.meaning.letters.dimensions)
-        return judged(case) if error is None else _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
+        checker = copy(self)
+        checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
+        if (verdict := claimed(checker, text, letters or {})) is not None:
+            return verdict
+        case = checker.case(text, letters)
+        if (error := misfit(case.program, case.meaning.letters.dimensions)) is None:
+            verdict = judged(case)
+        else:
+            verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
+        return replace(verdict, notes=case.meaning.letters.notes(case.program))
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
-        from freebody.model.start import evaluate
-
-        if self._run is None:
-            self._run = self.mechanism.simulate(None if self.mechanism.run_numbers().until is not None else 1.0)
-        times = {"start": float(self._run.t[0]), "end": float(self._run.outcome.t)}
-        times |= {event.name: event.t for event in reversed(self._run.events)}
-        if name in times:
-            return self._run, times[name]
+        if not self._runs:
+            self._runs += [self.mechanism.simulate(None if self.mechanism.run_numbers().until is not None else 1.0)]
+        run = self._runs[0]
+        times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
+        times |= {event.name: event.t for event in reversed(run.events)}
         try:
-            return self._run, evaluate(name, {})
+            return run, times[name] if name in times else evaluate(name, {})
         except ModelProblem:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"

@@ -16,10 +16,9 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import first_order
+from .assumptions import FAR, family, first_order
 from .case import Case
 from .families import Sample, Samples
-from .hypothesis import FAR, family
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, Program, letters, terms

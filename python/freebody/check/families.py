@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import CompiledModel, Load, State
+from freebody.core import CompiledModel, State
 from freebody.run.records import Array, quote
 
 from .user_symbols import LOAD
@@ -94,9 +94,9 @@ class Samples:
         if not np.isnan(row).any() or sample.motion is not None:
             return row
         values = admissible(self.core, sample.state, rng, self.stress)
-        lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and written_out(text, values) != text]
+        lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and with_numbers(text, values) != text]
         if lost:
-            row[lost] = self.core.evaluate([written_out(texts[i], values) for i in lost], sample.state)
+            row[lost] = self.core.evaluate([with_numbers(texts[i], values) for i in lost], sample.state)
             self.loose |= {texts[i] for i in lost}
         return row
 
@@ -119,8 +119,11 @@ def admissible(core: CompiledModel, state: State, rng: np.random.Generator, size
     loads = [load for load in free_bodies.loads if load.unknown]
     if all(load.determinate for load in loads):
         return {}
-    columns = np.array([_effect(load, list(free_bodies.bodies)) for load in loads]).T
-    _, sizes, rows = np.linalg.svd(columns)
+    columns = np.zeros((len(loads), len(free_bodies.bodies), 3))  # force and moment about the origin of each unit load
+    for row, load in zip(columns, loads, strict=True):
+        for body, effect in zip(free_bodies.bodies, row, strict=True):
+            effect += sum(part.wrench() for part in load.on if part.body == body)
+    _, sizes, rows = np.linalg.svd(columns.reshape(len(loads), -1).T)
     free = rows[np.sum(sizes > _SINGULAR * sizes.max()) :]
     values = np.nan_to_num([load.value for load in loads])
     values = values + size * (np.abs(values).max() + 1.0) * (free.T @ rng.uniform(-1, 1, len(free)))
@@ -128,16 +131,7 @@ def admissible(core: CompiledModel, state: State, rng: np.random.Generator, size
     return {load.symbol: float(value) for load, value in pairs if not load.determinate}
 
 
-def _effect(load: Load, bodies: Sequence[str]) -> Array:
-    """Force and moment about the origin of a unit load on every body, the ground left out."""
-    out = np.zeros((len(bodies), 3))
-    for part in load.on:
-        if part.body in bodies:
-            out[bodies.index(part.body)] += part.wrench()
-    return out.ravel()
-
-
-def written_out(text: str, values: Mapping[str, float]) -> str:
+def with_numbers(text: str, values: Mapping[str, float]) -> str:
     """An expression with numbers for the reactions of which values are given."""
     for symbol, value in values.items():
         for name in {symbol, f"{quote(symbol.rpartition('.')[0])}.{symbol.rpartition('.')[2]}"}:

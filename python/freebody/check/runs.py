@@ -50,7 +50,7 @@ class OnRuns(StaticFacts):
     @cached_property
     def _frictional(self) -> list[str]:
         """The rates at which joints with friction slide."""
-        first = {j["name"]: j["coordinates"][0] for j in self.about["joints"] if j["coordinates"]}
+        first = {j["name"]: j["coordinates"][0] for j in self.metadata["joints"] if j["coordinates"]}
         return [f"rate({quote(first[name])})" for name in self._sticky if name in first]
 
     def _run(self, state: State, until: float) -> Any:
@@ -111,7 +111,7 @@ class OnRuns(StaticFacts):
     @cached_property
     def _closed(self) -> list[int]:
         """The limits that are closed at the model's own start."""
-        limits = self._own_mode[: len(self.about["limits"])]
+        limits = self._own_mode[: len(self.metadata["limits"])]
         return [i for i, held in enumerate(limits) if held[0] not in ("open", "slack")]
 
     def _moving(self, rng: np.random.Generator, state: State) -> State:

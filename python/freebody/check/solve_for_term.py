@@ -79,7 +79,7 @@ def _factors(required: RequiredTerm, factors: tuple[Node, ...], values: Mapping[
         return
     for i, (factor, value) in enumerate(zip(factors, found, strict=True)):
         others = [v for j, v in enumerate(found) if j != i]
-        scalars = np.prod([v for v in others if v.ndim == 1], axis=0) if any(v.ndim == 1 for v in others) else np.ones(len(value))
+        scalars = np.prod([np.ones(len(value)), *(v for v in others if v.ndim == 1)], axis=0)
         vector = next((v for v in others if v.ndim == 2), None)
         if value.ndim == 2:
             wanted: Array | None = required.needed / scalars[:, None]

@@ -29,7 +29,7 @@ class StaticFacts:
         self.spec: dict[str, Any] = {**lowered.spec, "parameters": list(lowered.spec["parameters"])}
         self.gravity = self._parametrised_gravity()
         self.core = CompiledModel.of(self.spec)
-        self.about = self.core.about
+        self.metadata = self.core.about
         text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
         self.counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
 
@@ -54,12 +54,12 @@ class StaticFacts:
     @cached_property
     def parameter_names(self) -> list[str]:
         """All parameters in the order of ``p``."""
-        return [p["name"] for p in self.about["parameters"]]
+        return [p["name"] for p in self.metadata["parameters"]]
 
     @cached_property
     def coordinates(self) -> list[Mapping[str, Any]]:
         """The coordinates of the state, as the core describes them."""
-        return list(self.about["coordinates"])
+        return list(self.metadata["coordinates"])
 
     @cached_property
     def names(self) -> list[str]:
@@ -111,7 +111,7 @@ class StaticFacts:
     @cached_property
     def mass(self) -> float:
         """A mass typical of the model, kg."""
-        return max([b["mass"] for b in self.about["bodies"] if b.get("mass")], default=1.0)
+        return max([b["mass"] for b in self.metadata["bodies"] if b.get("mass")], default=1.0)
 
     @cached_property
     def rate(self) -> float:
@@ -131,7 +131,7 @@ class StaticFacts:
     @cached_property
     def loops(self) -> int:
         """How many joints close a loop."""
-        return len(self.about.get("closure_coordinates", [])) + sum(1 for j in self.about["joints"] if j.get("cut"))
+        return len(self.metadata.get("closure_coordinates", [])) + sum(1 for j in self.metadata["joints"] if j.get("cut"))
 
     def shapes_loop(self, name: str) -> bool:
         """Whether a parameter may be a length of a closed loop."""

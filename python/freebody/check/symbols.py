@@ -73,8 +73,8 @@ class Symbols:
         if gravity is not None:
             self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
         self.writer = Writer(lowered.root, self.named, {})
-        self.about = mechanism.source().about
-        self._bodies = frozenset(spell(body["name"]) for body in self.about["bodies"])
+        self.metadata = mechanism.source().about
+        self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         for name, said in (declared or {}).items():
             self._declare(name, said)
@@ -173,10 +173,10 @@ class Symbols:
     # --- building ------------------------------------------------------------------------------
 
     def _own(self, gravity: str | None) -> dict[str, Meaning]:
-        there = {c["name"] for part in ("coordinates", "closure_coordinates") for c in self.about[part]}
+        there = {c["name"] for part in ("coordinates", "closure_coordinates") for c in self.metadata[part]}
         values = ((name, *v) for name, v in self.named.values.items() if v[0] != "coordinate" or name in there)
         out = {name: Meaning(kind, (spell(name),), dimension) for name, kind, dimension in values}
-        for coordinate in self.about["coordinates"]:
+        for coordinate in self.metadata["coordinates"]:
             name = coordinate["name"]
             out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
             owner, _, stem = name.rpartition(".")
@@ -197,7 +197,7 @@ class Symbols:
         """Forces by the names of what makes them, in two spellings."""
         out: dict[str, Meaning] = {}
         rough = {joint["name"] for joint in self.spec["joints"] if joint["with"].get("friction")}
-        joints = {joint["name"]: joint for joint in self.about["joints"] if joint["reaction"]}
+        joints = {joint["name"]: joint for joint in self.metadata["joints"] if joint["reaction"]}
         for owner, kind in self.named.owners.items():
             parts = _PARTS.get(kind, ())
             if owner in joints:
@@ -211,9 +211,9 @@ class Symbols:
         return out
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
-        bodies = [b["name"] for b in self.about["bodies"]]
-        particles = frozenset(b["name"] for b in self.about["bodies"] if b.get("particle"))
-        joints = {j["name"]: (j["first"], j["second"]) for j in self.about["joints"]}
+        bodies = [b["name"] for b in self.metadata["bodies"]]
+        particles = frozenset(b["name"] for b in self.metadata["bodies"] if b.get("particle"))
+        joints = {j["name"]: (j["first"], j["second"]) for j in self.metadata["joints"]}
         try:
             self._put(name, Reader(self._measured, joints, bodies, particles).read(said))
         except ModelProblem as problem:

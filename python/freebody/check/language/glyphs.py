@@ -153,7 +153,9 @@ class _Reader:
         self.at = found.end()
         word, span = found[0][1:], (start, found.end())
         if word in _DOTS:
-            return _dotted(self.group(), _DOTS[word])
+            inside = self.group()
+            first = next((g for g in inside if g.kind is Kind.WORD), None)  # dots stand on the first letter
+            return [replace(g, dots=g.dots + _DOTS[word]) if g is first else g for g in inside]
         if word in _FONTS:
             return [g for g in self.group() if word not in _WORDS or g.kind is not Kind.SPACE]
         if word in LATEX_WORDS:
@@ -182,12 +184,6 @@ class _Reader:
         begins = found[1] == "begin"
         self.matrices += 1 if begins else -1
         return [Glyph(Kind.SIGN, "matrix[" if begins else "]", found.span())]
-
-
-def _dotted(inner: list[Glyph], count: int) -> list[Glyph]:
-    """The group with the dots on its first letter."""
-    first = next((i for i, g in enumerate(inner) if g.kind is Kind.WORD), None)
-    return [replace(g, dots=g.dots + count) if i == first else g for i, g in enumerate(inner)]
 
 
 def _plain_glyph(char: str, span: Span) -> Glyph:
