@@ -196,7 +196,8 @@ class _Search:
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
-            if mark is None or self._is_idle(each) or self._is_vacuous(each.after):
+            idle = any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in each.edits)
+            if mark is None or idle or self._is_vacuous(each.after):
                 continue
             if (mark in kept and self.fit(each.after)) or self._confirmed(each.after):
                 least = size if not kept else least
@@ -213,10 +214,6 @@ class _Search:
     def _size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here."""
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
-
-    def _is_idle(self, found: _Found) -> bool:
-        """Whether it takes a part away by what is always 0."""
-        return any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in found.edits)
 
     def _is_vacuous(self, equation: Equation) -> bool:
         """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""

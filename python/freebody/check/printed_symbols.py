@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from freebody.core import MotionError
@@ -13,7 +13,9 @@ from freebody.equations.derivation.preamble import directions
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.symbolic.symbols import Renamed, unicode_name
-from freebody.symbolic.tree import Add, Mul, Num, Sym, Tree
+from freebody.symbolic.tree import Sym, substitute, symbols
+
+from .language.spelling import spell as written
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -42,69 +44,56 @@ def _derived(mechanism: Builder) -> SymbolicState | None:
         return None
 
 
-def _loads(subject: SymbolicState) -> Iterator[tuple[str, str]]:
-    names = subject.symbols.loads
-    for load in subject.free.loads:
+def _loads(derived: SymbolicState) -> Iterator[tuple[str, str]]:
+    names = derived.symbols.loads
+    for load in derived.free.loads:
         if load.symbol in names:
             one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
             yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
 
 
-def _numbers(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+def _numbers(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Parameters and coordinates of which another is written alike; masses and inertias that are numbers in the model."""
-    names = subject.symbols.names
-    for name in subject.symbols.renamed:
-        if name in names and subject.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
+    names = derived.symbols.names
+    for name in derived.symbols.renamed:
+        if name in names and derived.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
             yield names[name].unicode(), spell(name)
-    numbers = ((name, entry) for name, entry in subject.table.items() if entry["kind"] == "number")
+    numbers = ((name, entry) for name, entry in derived.table.items() if entry["kind"] == "number")
     yield from ((names[name].unicode(), f"{entry['value']!r} {entry['unit']}") for name, entry in numbers)
 
 
-def _bodies(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+def _bodies(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Places, velocities and accelerations of mass centres, and angles."""
-    for body in subject.source.about["bodies"]:
+    for body in derived.source.about["bodies"]:
         said, name = spell(body["name"]), body["name"]
         read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
         read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
-        yield from ((subject.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
+        yield from ((derived.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
         plain = {"x": f"x({said}.G)", "y": f"y({said}.G)", "phi": f"angle({said})"}
         plain |= {"place_x": plain["x"], "place_y": plain["y"], "angle": plain["phi"]}
         yield from ((unicode_name(f"{stem}_{name}"), meant) for stem, meant in plain.items())
 
 
-def _whole(subject: SymbolicState) -> Iterator[tuple[str, str]]:
-    yield from ((name.text, meant) for name, meant in zip(energies(subject), ("kinetic()", "potential()"), strict=True))
+def _whole(derived: SymbolicState) -> Iterator[tuple[str, str]]:
+    yield from ((name.text, meant) for name, meant in zip(energies(derived), ("kinetic()", "potential()"), strict=True))
     for axis in "xy":
-        yield subject.symbols.quantity(f"L_{axis}", f"momentum along {axis}").unicode(), f"momentum_{axis}()"
-    points = [spell(point) for point in subject.points]
-    yield from ((f"H/{name}", f"angular_momentum({point})") for name, point in zip(subject.points, points, strict=True))
+        yield derived.symbols.quantity(f"L_{axis}", f"momentum along {axis}").unicode(), f"momentum_{axis}()"
+    points = [spell(point) for point in derived.points]
+    yield from ((f"H/{name}", f"angular_momentum({point})") for name, point in zip(derived.points, points, strict=True))
     for point in points[:1]:
         carried = f"(centre_x() - x({point}))*momentum_y() - (centre_y() - y({point}))*momentum_x()"
         yield "H/G", f"angular_momentum({point}) - ({carried})"
 
 
-def _directions(subject: SymbolicState) -> Iterator[tuple[str, str]]:
+def _directions(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
-    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in subject.source.about["bodies"]}
-    named = directions(subject)
+    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in derived.source.about["bodies"]}
+    named = directions(derived)
     yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))
     for pair in named.pairs:
-        if (angle := _said(pair.angle, turning)) is not None:
-            c, s = f"cos({angle})", f"sin({angle})"
-            around = (f"[{c}, {s}]", f"[-{s}, {c}]", f"[-{c}, -{s}]", f"[{s}, -{c}]")
-            yield pair.along, around[pair.quarters]
-            yield pair.across, around[(pair.quarters + 1) % 4]
-
-
-def _said(tree: Tree, turning: Mapping[str, str]) -> str | None:
-    """An angle in the model language: sums of letters with numbers; None for any other. ``turning``: how angles of bodies are said."""
-    match tree:
-        case Num(value):
-            return f"({value})"
-        case Sym(name, 0):
-            return turning.get(name) or spell(name)
-        case Add(parts) | Mul(parts):
-            said = [_said(part, turning) for part in parts]
-            sign = " + " if isinstance(tree, Add) else "*"
-            return None if None in said else f"({sign.join(filter(None, said))})"
-    return None
+        names = {n: Sym(turning.get(n.name) or spell(n.name)) for n in symbols(pair.angle)}
+        angle = written(substitute(pair.angle, names))
+        c, s = f"cos({angle})", f"sin({angle})"
+        around = (f"[{c}, {s}]", f"[-{s}, {c}]", f"[-{c}, -{s}]", f"[{s}, -{c}]")
+        yield pair.along, around[pair.quarters]
+        yield pair.across, around[(pair.quarters + 1) % 4]

@@ -82,17 +82,12 @@ def letters(node: Node) -> list[Sym]:
 
 def without_ones(node: N) -> N:
     """The same without factors 1 and denominators 1."""
-    while (found := next((n for n in walk(node) if _has_one(n)), None)) is not None:
-        left = [f for f in found.factors if f != _ONE] or [_ONE] if isinstance(found, Mul) else [found.top]
+    one = Num(1.0, "1")
+    has_one = lambda n: (isinstance(n, Mul) and one in n.factors) or (isinstance(n, Quotient) and n.bottom == one)
+    while (found := next(filter(has_one, walk(node)), None)) is not None:
+        left = [f for f in found.factors if f != one] or [one] if isinstance(found, Mul) else [found.top]
         node = exchange(node, found, left[0] if len(left) == 1 else Mul(tuple(left), span=found.span))
     return node
-
-
-_ONE = Num(1.0, "1")
-
-
-def _has_one(node: Node) -> bool:
-    return (isinstance(node, Mul) and _ONE in node.factors) or (isinstance(node, Quotient) and node.bottom == _ONE)
 
 
 def inlined(program: Program) -> tuple[Equation, ...]:
