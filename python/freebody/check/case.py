@@ -26,12 +26,13 @@ from .user_symbols import Meaning
 from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
+_FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _BEYOND = re.compile(
     r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum)\("
-    r"|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|friction|force|value|power|work|N|T)\b"
+    rf"|\.({_FORCES}|friction|force|value|power|work)\b"
 )
 """What reads more than the configuration."""
-_SOLVED = re.compile(r"\b(accel|ax|ay|alpha|tension)\(|\.(Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T)\b")
+_SOLVED = re.compile(rf"\b(accel|ax|ay|alpha|tension)\(|\.({_FORCES})\b")
 """What reads an acceleration or an unknown force."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
 _BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
@@ -52,7 +53,7 @@ class StatementSymbols:
         return self._one(letter).texts if letter.name in self.letters.meanings else ()
 
     def values(self, samples: Samples) -> Mapping[str, Array]:
-        """The value of every letter on true states, by ``Letter.key``; what is 0 on all of them but for round-off is 0."""
+        """The value of every letter on true states, by ``Sym.key``; what is 0 on all of them but for round-off is 0."""
         found = self.letters.values(self._valued, samples)
         return {n.key: self._without_round_off(n, found[n.key]) for n in self._valued}
 
@@ -79,11 +80,11 @@ class StatementSymbols:
         return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
-        """What each letter with a value stands for, by ``Letter.key``: letters that only name one quantity twice agree in it."""
+        """What each letter with a value stands for, by ``Sym.key``: letters that only name one quantity twice agree in it."""
         return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
     def given(self) -> frozenset[str]:
-        """Symbols made of parameters alone, by ``Letter.key``: random on true states, and bound by what the model defines."""
+        """Symbols made of parameters alone, by ``Sym.key``: random on true states, and bound by what the model defines."""
         return frozenset(n.key for n in self._valued if not n.dots and self._is_fixed(n))
 
     @cached_property

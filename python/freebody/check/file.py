@@ -11,6 +11,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 from ruamel.yaml import YAML, YAMLError
 
+from freebody.model import Mechanism
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
@@ -112,8 +113,6 @@ def judge(path: Path) -> Iterator[Judged]:
 def _one(
     path: Path, given: Statements, statement: Statement, values: Mapping[str, Any], checkers: dict[tuple[str, str], Checker]
 ) -> Verdict:
-    from freebody.model import Mechanism
-
     key = (statement.model or given.model, json.dumps(values, sort_keys=True))
     if key not in checkers:
         mechanism = Mechanism.load(path.parent / key[0])

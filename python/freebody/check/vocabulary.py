@@ -44,14 +44,10 @@ class Vocabulary:
 
     def alike(self, letter: Sym) -> list[Sym]:
         """Other letters of the same kind that one may write by mistake."""
-        plain = Sym(letter.name)
-        if letter in self.vectors:
-            return [n for n in self.vectors if n != letter and self.vectors[n] == self.vectors[letter]]
-        for group in (self.coordinates, self.parameters, self.others):
-            if plain in group:
-                kin = [n for n in group if n != plain and (group[n] == group[plain])]
-                return [Sym(n.name, letter.dots) for n in kin]
-        return []
+        plain, vectors = Sym(letter.name), {} if letter.dots else self.vectors
+        groups = (vectors, self.coordinates, self.parameters, self.others)
+        group = next((group for group in groups if plain in group), {})
+        return [Sym(n.name, letter.dots) for n in group if n != plain and group[n] == group[plain]]
 
     # -- factors
 
