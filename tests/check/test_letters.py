@@ -119,7 +119,7 @@ def test_letters_of_the_model_by_kind(model):
     letters = Symbols(model, DECLARED)
     assert letters.of_kind("parameter") == ["l", "m", "M", "alpha"]
     assert letters.of_kind("coordinate") == ["s", "theta"]
-    assert {"i", "j", "k", "λ", "r_G/P", "H/P", "ΣF"} <= letters.vectors
+    assert {"i", "j", "k", "λ", "r_G/P", "H/P", "ΣF"} <= {name for name, meaning in letters.meanings.items() if meaning.is_vector}
     assert letters.dimensions["R_P"].unit() == "N"
     assert letters.dimensions["ω"].unit() == "rad/s"
 

@@ -169,7 +169,7 @@ def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: st
             if change.max() > 1e-7 * np.abs(earlier).max():
                 place = f"the factor of {spell(wanted[int(np.argmax(change))])} in equation {number}"
                 return Verdict(Kind.WRONG, statement, f"{place} depends on {name}")
-    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(case.samples())} motions"
+    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(case.samples().samples)} motions"
     return Verdict(Kind.TRUE, statement, stated)
 
 

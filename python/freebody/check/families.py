@@ -67,9 +67,6 @@ class Samples:
     known: dict[str, Array] = field(default_factory=dict)
     weighed: dict[str, tuple[Array, Array]] = field(default_factory=dict)
 
-    def __len__(self) -> int:
-        return len(self.samples)
-
     def values(self, texts: Sequence[str]) -> dict[str, Array]:
         """Each expression on all samples, (K,); NaN where it reads a reaction that is not determined."""
         new = [text for text in dict.fromkeys(texts) if text not in self.known]

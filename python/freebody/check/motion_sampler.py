@@ -64,10 +64,9 @@ class MotionSampler(OnRuns):
 
     def has(self, family: Family) -> bool:
         """Whether there are motions of a family."""
-        try:
-            return len(self.samples(family, _PATIENCE)) > 0
-        except NoMotion:
-            return False
+        with suppress(NoMotion):
+            return bool(self.samples(family, _PATIENCE).samples)
+        return False
 
     def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[Sample]:
         """``count`` samples; none where the first ones already fail."""

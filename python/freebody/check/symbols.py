@@ -100,11 +100,6 @@ class Symbols:
         """Symbols that do not change with time."""
         return self.of_kind("parameter", "gravity", "direction")
 
-    @property
-    def vectors(self) -> frozenset[str]:
-        """Symbols that are vectors."""
-        return frozenset(name for name, m in self.meanings.items() if m.is_vector)
-
     def read(self, text: str) -> Program:
         """The statement that a text is. What it asks of the model in the model's own words, ``ax(rod.G)``, ``energy()``,
         ``accel(s)``, becomes a letter, too. Raises ``StatementError``."""

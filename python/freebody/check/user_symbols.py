@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,9 +79,8 @@ _DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
 _JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
 _GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\S+)")
 _FORCE = re.compile(r"force on (.+)")
-_LOAD = re.compile(r"load (.+)")
 LOAD = "load "
-"""How a text begins that names a load of the free-body diagrams, which the model language does not read."""
+"""How a text begins that names a load of the free-body diagrams, one place of a contact that holds at several, by its symbol."""
 
 
 @dataclass(frozen=True)
@@ -101,11 +100,11 @@ class Reader:
         if not isinstance(said, str):
             return self.components(list(said))
         phrase = " ".join(said.split())
-        phrases = (
-            *((_PLACE, self.place), (_DIRECTION, self.direction), (_JOINT, self.reaction)),
-            *((_GROUP, self.moment), (_FORCE, self.resultant), (_LOAD, self.load)),
-        )
-        for pattern, reading in phrases:
+        if phrase.startswith(LOAD):
+            return Meaning("reaction", (phrase,), FORCE)
+        phrases = {_PLACE: self.place, _DIRECTION: self.direction, _JOINT: self.reaction}
+        phrases |= {_GROUP: self.moment, _FORCE: self.resultant}
+        for pattern, reading in phrases.items():
             if found := pattern.fullmatch(phrase):
                 return reading(*found.groups())
         text, dimension = self.measured(said)
@@ -120,20 +119,21 @@ class Reader:
         for text, other in found:
             if other is not None and dimension is not None and not other.fits(dimension):
                 raise ModelProblem(f"`{text}` is {other.words()}, another component {dimension.words()}")
-        return self.vector([text for text, _ in found], dimension)
+        return self.vector(map(str, said), dimension)
 
-    def vector(self, texts: Sequence[str], dimension: Dimension | None) -> Meaning:
-        return Meaning("declared", (*texts, "0")[:3] if len(texts) == 2 else tuple(texts), dimension)
+    def vector(self, said: Iterable[str], dimension: Dimension | None) -> Meaning:
+        """A vector by its components along i and j, and k if that is not 0."""
+        return Meaning("declared", (*(self.measured(part)[0] for part in said), "0")[:3], dimension)
 
     def place(self, kind: str, point: str, base: str | None) -> Meaning:
         """``acceleration of upper.G relative to ground.O``; without a base point, from the fixed origin."""
         word, dimension = _KINDS[kind]
         texts = (f"{w}({point})" + (f" - {w}({base})" if base else "") for w in (word, word.replace("x", "y")))
-        return self.vector([self.measured(text)[0] for text in texts], dimension)
+        return self.vector(texts, dimension)
 
     def direction(self, kind: str, start: str, end: str) -> Meaning:
         """The unit vector from one point to another; ``normal``: turned a quarter to the left."""
-        cosine, sine = (self.measured(f"{f}(direction({start}, {end}))")[0] for f in ("cos", "sin"))
+        cosine, sine = (f"{f}(direction({start}, {end}))" for f in ("cos", "sin"))
         return self.vector([cosine, sine] if kind == "direction" else [f"-{sine}", cosine], NUMBER_ONLY)
 
     def reaction(self, what: str, joint: str, body: str) -> Meaning:
@@ -145,12 +145,8 @@ class Reader:
             raise ModelProblem(f"`{joint}` does not touch `{body}`", f"it joins `{first}` and `{second}`")
         sign = "" if body == second else "-"
         if what == "couple":
-            return self.vector(["0", "0", sign + self.measured(f"{joint}.M")[0]], ENERGY)
-        return self.vector([sign + self.measured(f"{joint}.{part}")[0] for part in ("Fx", "Fy")], FORCE)
-
-    def load(self, symbol: str) -> Meaning:
-        """The force at one place of a contact that holds at several, by its symbol in the data of a free-body diagram."""
-        return Meaning("reaction", (LOAD + symbol,), FORCE)
+            return self.vector(["0", "0", f"{sign}{joint}.M"], ENERGY)
+        return self.vector([f"{sign}{joint}.Fx", f"{sign}{joint}.Fy"], FORCE)
 
     def moment(self, what: str, bodies: str, point: str) -> Meaning:
         """Angular momentum of bodies about a point, or the moment on them."""
