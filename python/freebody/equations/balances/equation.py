@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from freebody.core import Array, Pair
+from freebody.core import Pair
 from freebody.equations.balances.candidates import Candidate, has_letters
 from freebody.equations.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.equations.balances.system import Problem
 from freebody.solve.rich_tables import figure
 
+SMALL = 1e-3
+"""Part of the largest load below which a value is held against that load, rather than against itself."""
 NO_TURN = 1e-9
 """Turn of a unit motion below which it is a shift."""
 ROUND_OFF = 1e-14
@@ -59,15 +61,14 @@ class BalanceEquation:
         place = f" ({where} {figure(self.at[0])}, {figure(self.at[1])})" if self.constructed else ""
         sign = -1 if all(value < 0 for value in self.coefficients.values()) else 1
         least = ROUND_OFF * max(map(abs, self.coefficients.values()), default=0.0)
-        terms = [_term(sign * value if abs(value) > least else 0.0, name) for name, value in self.coefficients.items()]
+        terms = []
+        for name, value in self.coefficients.items():
+            value = sign * value if abs(value) > least else 0.0
+            size = "" if math.isclose(abs(value), 1.0, rel_tol=1e-12) else f"{figure(abs(value))} "
+            terms.append(f"{'-' if value < 0 else '+'} {size}{name}")
         sides = f"{' '.join(terms).removeprefix('+ ')} = {figure(sign * self.right + 0.0)} {unit}"
         absent = [f"   {', '.join(item.unknowns)}: {item.why}" for item in self.dropped]
         return [f"{number}. {self.title}{place}", f"   {sides}", *absent]
-
-
-def _term(value: float, name: str) -> str:
-    size = "" if math.isclose(abs(value), 1.0, rel_tol=1e-12) else f"{figure(abs(value))} "
-    return f"{'-' if value < 0 else '+'} {size}{name}"
 
 
 def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
@@ -80,29 +81,18 @@ def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
     else:
         factor = np.sign(shift[np.argmax(np.abs(shift))]) / np.hypot(*shift) if candidate.twist.pair else 1 / np.hypot(*shift)
         x, y = shift * factor
-    stays = [i for i in range(len(problem.unknowns)) if candidate.support >> i & 1]
     names, constructed = place_words(problem, candidate, turns)
     place = Place("AMB" if turns else "LMB", names, (float(x), float(y)), constructed)
-    return BalanceEquation(
-        place.kind,
-        tuple(problem.bodies[i] for i in candidate.group),
-        place.words,
-        place.at,
-        constructed,
-        {problem.unknowns[i].name: float(candidate.coefficients[i] * factor) for i in stays},
-        float(candidate.right * factor),
-        dropped(problem, candidate, place),
-        _question(problem, candidate, turns),
-    )
-
-
-def _question(problem: Problem, candidate: Candidate, turns: bool) -> dict[str, Any] | None:
-    place = candidate.twist.question
-    loads = [problem.unknowns[i].load for i in candidate.twist.pair or ()]
+    bodies = tuple(problem.bodies[i] for i in candidate.group)
+    stays = (i for i in range(len(problem.unknowns)) if candidate.support >> i & 1)
+    coefficients = {problem.unknowns[i].name: float(candidate.coefficients[i] * factor) for i in stays}
+    question, loads = candidate.twist.question, [problem.unknowns[i].load for i in candidate.twist.pair or ()]
     if loads and has_letters(problem, candidate.twist):
         forces = [i for i in loads if np.hypot(*problem.free.loads[i].on[-1].force) > 0]
-        place = {"about": {"meeting": loads}} if turns else {"along": {"clear": forces[0]}}
-    return place and {"ask": "equation", "bodies": [problem.bodies[i] for i in candidate.group], **place}
+        question = {"about": {"meeting": loads}} if turns else {"along": {"clear": forces[0]}}
+    question = question and {"ask": "equation", "bodies": list(bodies), **question}
+    gone, right = dropped(problem, candidate, place), float(candidate.right * factor)
+    return BalanceEquation(place.kind, bodies, names, place.at, constructed, coefficients, right, gone, question)
 
 
 def solved(equations: Sequence[BalanceEquation]) -> dict[str, float]:
@@ -120,16 +110,5 @@ def disagreement(problem: Problem, values: Mapping[str, float]) -> float:
     full = problem.systems[0].values(problem.unknowns)
     reach = np.linalg.norm(problem.systems[0].columns, axis=2).max(axis=1)
     largest = np.nanmax(np.abs(full) * reach)
-    return max((_off(values[u.name], f, largest / r) for u, f, r in _named(problem, values, full, reach)), default=0.0)
-
-
-SMALL = 1e-3
-"""Part of the largest load below which a value is held against that load, rather than against itself."""
-
-
-def _off(value: float, full: float, largest: float) -> float:
-    return abs(value - full) / (max(abs(full), SMALL * largest) or 1.0)
-
-
-def _named(problem: Problem, values: Mapping[str, float], full: Array, reach: Array) -> Iterable[tuple]:
-    return ((u, f, r) for u, f, r in zip(problem.unknowns, full, reach, strict=True) if u.name in values)
+    told = [(values[u.name], f, largest / r) for u, f, r in zip(problem.unknowns, full, reach, strict=True) if u.name in values]
+    return max((abs(value - f) / (max(abs(f), SMALL * most) or 1.0) for value, f, most in told), default=0.0)

@@ -12,38 +12,30 @@ MOST = 255
 def groups(problem: Problem, known: bool = False) -> tuple[list[Group], bool]:
     """Connected sets of bodies, by their places, small ones first; and whether these are all. ``known``: known loads, as those
     of springs, connect as well."""
-    near = _neighbours(problem, known)
-    known = {frozenset([i]) for i in near}
-    layer, every = set(known), True
-    while layer and every:
-        layer = {group | {other} for group in layer for body in group for other in near[body] - group} - known
-        every = len(known) + len(layer) <= MOST
-        known |= layer if every else _sides(near)
-    return sorted((tuple(sorted(group)) for group in known), key=lambda group: (len(group), group)), every
-
-
-def _neighbours(problem: Problem, known: bool) -> dict[int, set[int]]:
     near: dict[int, set[int]] = {i: set() for i in range(len(problem.bodies))}
     for load in problem.free.loads:
-        touched = (
-            [problem.bodies.index(part.body) for part in load.on if part.body in problem.bodies] if load.unknown or known else []
-        )
-        for body in touched:
-            near[body] |= set(touched) - {body}
-    return near
+        touched = {problem.bodies.index(part.body) for part in load.on if part.body in problem.bodies}
+        for body in touched if load.unknown or known else ():
+            near[body] |= touched - {body}
+    found = {frozenset([i]) for i in near}
+    layer, every = set(found), True
+    while layer and every:
+        layer = {group | {other} for group in layer for body in group for other in near[body] - group} - found
+        every = len(found) + len(layer) <= MOST
+        found |= layer if every else _sides(near)
+    return sorted((tuple(sorted(group)) for group in found), key=lambda group: (len(group), group)), every
 
 
 def _sides(near: dict[int, set[int]]) -> set[frozenset[int]]:
     """What is left together when one joint between two bodies is cut, or nothing is."""
-    cuts = [(a, b) for a in near for b in near[a] if a < b]
-    return {_reach(near, start, cut) for cut in [(-1, -1), *cuts] for start in near}
-
-
-def _reach(near: dict[int, set[int]], start: int, cut: tuple[int, int]) -> frozenset[int]:
-    found, edge = {start}, [start]
-    while edge:
-        body = edge.pop()
-        new = {other for other in near[body] - found if {body, other} != set(cut)}
-        found |= new
-        edge += new
-    return frozenset(found)
+    sides = set()
+    for cut in [set(), *({a, b} for a in near for b in near[a] if a < b)]:
+        for start in near:
+            found, edge = {start}, [start]
+            while edge:
+                body = edge.pop()
+                new = {other for other in near[body] - found if {body, other} != cut}
+                found |= new
+                edge += new
+            sides.add(frozenset(found))
+    return sides

@@ -12,9 +12,9 @@ from freebody.equations.balances.candidates import WORTH, Candidate, bits, candi
 from freebody.equations.balances.equation import BalanceEquation, equation
 from freebody.equations.balances.groups import groups
 from freebody.equations.balances.lower_bound import fewest, without_reactions
-from freebody.equations.balances.search import Supports, plainest, set_cost, unions, within
+from freebody.equations.balances.search import best, unions
 from freebody.equations.balances.smallest import COUNT
-from freebody.equations.balances.system import Problem, problem
+from freebody.equations.balances.system import problem
 from freebody.equations.balances.virtual_motions import NamedPoints
 from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.rich_tables import PlainText
@@ -77,55 +77,31 @@ def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None
     """The minimal form at ``states[0]``; ``states`` and ``points`` are those of ``smallest_set``. ``forces``: equations for the
     forces of prescribed motions are wanted as well. Where the loops are singular at ``states[0]``, the numbers are those of the next."""
     given = problem(regular(states))
-    moving = [i for i, unknown in enumerate(given.unknowns) if unknown.coordinate]
-    driving = [i for i in range(len(given.unknowns)) if forces and i not in moving and _drives(given, i)]
-    leading = {load.follows[0] for load in given.free.loads if load.follows}
-    rubbing = [i for i, unknown in enumerate(given.unknowns) if unknown.load in leading]
+    unknowns, loads = given.unknowns, given.free.loads
+    leading = {load.follows[0] for load in loads if load.follows}
+    moving = [i for i, unknown in enumerate(unknowns) if unknown.coordinate]
+    driving = [i for i, unknown in enumerate(unknowns) if forces and unknown.load is not None and loads[unknown.load].kind == "motion"]
+    rubbing = [i for i, unknown in enumerate(unknowns) if unknown.load in leading]
     wanted = [*moving, *driving, *rubbing]
-    coordinates = tuple(given.unknowns[i].coordinate or "" for i in moving)
-    asked = [tuple(given.unknowns[i].name for i in some) for some in (driving, rubbing)]
-    sets, every = groups(given)
+    coordinates = tuple(unknowns[i].coordinate or "" for i in moving)
+    asked = [tuple(unknowns[i].name for i in some) for some in (driving, rubbing)]
     if not wanted:
         return MinimalForm(coordinates, (), (), *asked)
-    shown = fewest(given, sets, wanted, WORTH)
-    stated = (*asked, shown, len(sets), every, without_reactions(given, wanted))
-    chosen, stays = _best(given, points or {}, wanted, bits(moving), shown)
-    names = tuple(unknown.name for i, unknown in enumerate(given.unknowns) if stays >> i & 1)
-    return MinimalForm(coordinates, tuple(equation(given, candidate) for candidate in chosen), names, *stated)
+    sets, every = groups(given)
+    least = fewest(given, sets, wanted, WORTH)
+    reactions, accelerations = bits(range(len(unknowns))) & ~bits(wanted), bits(moving)
+    by_reactions: dict[int, list[Candidate]] = {}
+    for support, alike in candidates(given, points or {}, counted=reactions).by_support.items():
+        by_reactions.setdefault(support & reactions, []).extend(alike)
+    tried = (best(by_reactions, unions(by_reactions, n), n + len(wanted), accelerations) for n in range(least, WORTH + 1))
+    chosen, stays = next((found for found in tried if found[0]), ([], 0))
+    names = tuple(unknown.name for i, unknown in enumerate(unknowns) if stays >> i & 1)
+    equations = tuple(equation(given, candidate) for candidate in chosen)
+    return MinimalForm(coordinates, equations, names, *asked, least, len(sets), every, without_reactions(given, wanted))
 
 
 def regular(states: Sequence[FreeBodies]) -> Sequence[FreeBodies]:
     """Without the first where its loops hold less than they do near by, and so do not tell which coordinates are free."""
-    ranks = [_rank(state) for state in states]
+    tables = [np.array([list(row.coefficients.values()) for row in state.rows]) for state in states[:2]]
+    ranks = [np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max()) if table.size else 0 for table in tables]
     return states[1:] if len(states) > 1 and ranks[0] < ranks[1] else states
-
-
-def _rank(state: FreeBodies) -> int:
-    table = np.array([list(row.coefficients.values()) for row in state.rows])
-    return int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max())) if table.size else 0
-
-
-def _drives(given: Problem, place: int) -> bool:
-    load = given.load(given.unknowns[place])
-    return load is not None and load.kind == "motion"
-
-
-def _best(
-    given: Problem, points: NamedPoints, wanted: Sequence[int], accelerations: int, least: int
-) -> tuple[list[Candidate], int]:
-    """The plainest set with the fewest reactions, from ``least`` on, and these as bits."""
-    reactions = bits(range(len(given.unknowns))) & ~bits(wanted)
-    by_reactions: dict[int, list[Candidate]] = {}
-    for support, alike in candidates(given, points, counted=reactions).by_support.items():
-        by_reactions.setdefault(support & reactions, []).extend(alike)
-    for size in range(least, WORTH + 1):
-        if found := _of_size(by_reactions, accelerations, size, len(wanted)):
-            return found
-    return [], 0
-
-
-def _of_size(by_reactions: Supports, accelerations: int, size: int, wanted: int) -> tuple[list[Candidate], int] | None:
-    """The best set with ``size`` reactions, and these as bits."""
-    sets = ((unknowns, within(by_reactions, unknowns)) for unknowns in unions(by_reactions, size))
-    solved = ((plainest(equations, size + wanted, accelerations), unknowns) for unknowns, equations in sets)
-    return min(((chosen, stays) for chosen, stays in solved if chosen), key=lambda f: set_cost(f[0], accelerations), default=None)

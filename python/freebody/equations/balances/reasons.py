@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.core import Load, Pair
 from freebody.equations.balances.candidates import ABSENT, Candidate
-from freebody.equations.balances.system import Problem, Unknown
+from freebody.equations.balances.system import Problem
 
 AT = 1e-9
 """Distance over length of the mechanism below which a load acts at a point."""
@@ -69,30 +69,28 @@ def place_words(problem: Problem, candidate: Candidate, turns: bool) -> tuple[st
 def dropped(problem: Problem, candidate: Candidate, place: Place) -> tuple[Dropped, ...]:
     """Every unknown that touches the bodies of a candidate but is not in it, those of one reason together."""
     found: dict[str, list[str]] = {}
+    names = [problem.bodies[i] for i in candidate.group]
+    leading = {load.follows[0] for load in problem.free.loads if load.follows}
     for i, unknown in enumerate(problem.unknowns):
         touches = np.abs(problem.systems[0].columns[i, list(candidate.group)]).max() > 0
         if touches and not candidate.support >> i & 1:
-            found.setdefault(_why(problem, candidate, place, unknown), []).append(unknown.name)
-    return tuple(Dropped(tuple(names), agree(why, len(names))) for why, names in found.items())
-
-
-def _why(problem: Problem, candidate: Candidate, place: Place, unknown: Unknown) -> str:
-    names = [problem.bodies[i] for i in candidate.group]
-    load = problem.load(unknown)
-    if load is None:
-        if place.kind == "AMB":
-            return f"it makes no moment of inertia about {place.short}"
-        return f"it accelerates no mass centre along {place.short}"
-    has_friction = any(other.follows and other.follows[0] == unknown.load for other in problem.free.loads)
-    return why_absent(load, names, place, problem.length, has_friction)
+            if load := problem.load(unknown):
+                why = why_absent(load, names, place, problem.length, unknown.load in leading)
+            else:
+                why = "makes no moment of inertia about" if place.kind == "AMB" else "accelerates no mass centre along"
+                why = f"it {why} {place.short}"
+            found.setdefault(why, []).append(unknown.name)
+    return tuple(Dropped(tuple(of), agree(why, len(of))) for why, of in found.items())
 
 
 def why_absent(load: Load, names: Sequence[str], place: Place, length: float, has_friction: bool = False) -> str:
-    """Why a load is not in the balance of a group (``names``); ``length`` is the size of the mechanism, m; ``rubs``: friction
+    """Why a load is not in the balance of a group (``names``); ``length`` is the size of the mechanism, m; ``has_friction``: friction
     follows from it, and is meant with it."""
     if load.inside(names):
         return f"it is internal to {' + '.join(names)}"
-    if has_friction and not (place.kind == "AMB" and _acts_at(load, names, place.at, length)):
+    there = (np.hypot(*np.subtract(part.point, place.at)) < AT * length for part in load.on if part.body in names)
+    acts_at = place.kind == "AMB" and all(there)
+    if has_friction and not acts_at:
         sum_is = "passes through" if place.kind == "AMB" else "is perpendicular to"
         return f"its sum with its friction {sum_is} {place.short}"
     unit = load.unit(names, place.at if place.kind == "AMB" else (0.0, 0.0))
@@ -100,13 +98,7 @@ def why_absent(load: Load, names: Sequence[str], place: Place, length: float, ha
         return "it is a couple, which has no part in a force balance"
     if place.kind == "LMB":
         return f"it is perpendicular to {place.short}"
-    if _acts_at(load, names, place.at, length):
-        return f"it acts at {place.short}"
-    return f"its line of action passes through {place.short}"
-
-
-def _acts_at(load: Load, names: Sequence[str], at: Pair, length: float) -> bool:
-    return all(np.hypot(*np.subtract(part.point, at)) < AT * length for part in load.on if part.body in names)
+    return f"it acts at {place.short}" if acts_at else f"its line of action passes through {place.short}"
 
 
 def agree(why: str, number: int) -> str:

@@ -11,24 +11,30 @@ from freebody.equations.balances.candidates import WORTH, Candidate, independent
 Supports = Mapping[int, Sequence[Candidate]]
 
 
-def smallest(by_support: Supports, wanted: int, accelerations: int) -> list[Candidate] | None:
-    """The best of the smallest sets of equations that hold ``wanted`` (a bit) and no more unknowns than they are; None if
+def smallest(by_support: Supports, wanted: int, accelerations: int) -> list[Candidate]:
+    """The best of the smallest sets of equations that hold ``wanted`` (a bit) and no more unknowns than they are; none if
     every set has more than ``WORTH``."""
     for size in range(1, WORTH + 1):
-        solved = (_solvable(by_support, unknowns, size, accelerations) for unknowns in grown(by_support, wanted, size, size))
-        if best := min((found for found in solved if found), key=lambda found: set_cost(found, accelerations), default=None):
-            return best
-    return None
+        if found := best(by_support, grown(by_support, wanted, size), size, accelerations)[0]:
+            return found
+    return []
 
 
-def grown(by_support: Supports, start: int, size: int, least: int = 0) -> Iterator[int]:
-    """All sets of at least ``least`` and at most ``size`` unknowns that contain ``start`` and are put together from whole
-    equations, each of which shares an unknown with what is there."""
+def best(by_support: Supports, sets: Iterator[int] | Sequence[int], size: int, accelerations: int) -> tuple[list[Candidate], int]:
+    """The best ``size`` independent equations that hold no unknown outside one of some sets, and that set; none where no set has
+    as many."""
+    solved = ((plainest(within(by_support, unknowns), size, accelerations), unknowns) for unknowns in sets)
+    return min((found for found in solved if found[0]), key=lambda found: set_cost(found[0], accelerations), default=([], 0))
+
+
+def grown(by_support: Supports, start: int, size: int) -> Iterator[int]:
+    """All sets of ``size`` unknowns that contain ``start`` and are put together from whole equations, each of which shares an
+    unknown with what is there."""
     small = [support for support in by_support if support.bit_count() <= size]
     seen, edge = {start}, [start]
     while edge:
         unknowns = edge.pop()
-        if unknowns.bit_count() >= least:
+        if unknowns.bit_count() >= size:
             yield unknowns
         for support in small:
             more = unknowns | support
@@ -54,20 +60,15 @@ def within(by_support: Supports, unknowns: int) -> list[Candidate]:
     return found
 
 
-def plainest(equations: Sequence[Candidate], size: int, accelerations: int) -> list[Candidate] | None:
-    """The first ``size`` independent equations in the order of plainness, or None if there are fewer."""
+def plainest(equations: Sequence[Candidate], size: int, accelerations: int) -> list[Candidate]:
+    """The first ``size`` independent equations in the order of plainness; none if there are fewer."""
     chosen: list[Candidate] = []
-    for equation in sorted(equations, key=lambda e: e.order(accelerations)):
+    for equation in sorted(equations, key=lambda e: e.order(accelerations)) if len(equations) >= size else ():
         if independent([*chosen, equation]):
             chosen.append(equation)
             if len(chosen) == size:
                 return chosen
-    return None
-
-
-def _solvable(by_support: Supports, unknowns: int, size: int, accelerations: int) -> list[Candidate] | None:
-    equations = within(by_support, unknowns)
-    return plainest(equations, size, accelerations) if len(equations) >= size else None
+    return []
 
 
 def set_cost(equations: Sequence[Candidate], accelerations: int) -> tuple[float, ...]:

@@ -110,7 +110,7 @@ def smallest_set(
     tried = candidates(given, points or {}, counted=bits(range(len(given.unknowns))), in_letters=in_letters)
     accelerations = bits(i for i, unknown in enumerate(given.unknowns) if unknown.coordinate)
     found = smallest(tried.by_support, 1 << place, accelerations)
-    equations = tuple(equation(given, candidate) for candidate in found or ())
+    equations = tuple(equation(given, candidate) for candidate in found)
     virtual = None if found else virtual_power(given, place)
     values = {virtual.unknown: virtual.right} if virtual else solved(equations)
     several = len(given.systems) > 1
@@ -129,17 +129,11 @@ def virtual_power(given: Problem, place: int) -> VirtualPower:
     left = (table @ motion) / sizes * sizes[place] - wanted
     if np.abs(left).max() > DETERMINED:
         raise Indeterminate(f"{unknown.name} is not determined by the balances")
-    right = float(motion @ system.right.ravel())
-    return VirtualPower(unknown.name, _of_bodies(given, motion.reshape(-1, 3)), right)
-
-
-def _of_bodies(given: Problem, motion: np.ndarray) -> dict[str, tuple[float, float, float]]:
-    """Velocity of the mass centre and turning rate, from a motion of the origin and turn × length."""
-    found = {}
-    for name, (vx, vy, turn) in zip(given.bodies, motion, strict=True):
+    moves = {}  # velocity of the mass centre and turning rate, from a motion of the origin and turn × length
+    for name, (vx, vy, turn) in zip(given.bodies, motion.reshape(-1, 3), strict=True):
         rate = turn / given.length
         x, y = np.subtract(given.free.bodies[name].G, given.origin)
-        moves = float(vx - rate * y), float(vy + rate * x), float(rate)
-        if np.abs(moves).max() > DETERMINED * np.abs(motion).max():
-            found[name] = moves
-    return found
+        move = float(vx - rate * y), float(vy + rate * x), float(rate)
+        if np.abs(move).max() > DETERMINED * np.abs(motion).max():
+            moves[name] = move
+    return VirtualPower(unknown.name, moves, float(motion @ system.right.ravel()))

@@ -67,12 +67,14 @@ class Problem:
     def place(self, wanted: str) -> int:
         """Where an unknown stands, by the name of a coordinate, a motion, or a component of a reaction (``A.Fx``).
         Raises ``NotUnknown``, ``Indeterminate``."""
-        for i, unknown in enumerate(self.unknowns):
-            if wanted in (unknown.name, unknown.coordinate):
-                return self._determined(i)
+        found = [i for i, unknown in enumerate(self.unknowns) if wanted in (unknown.name, unknown.coordinate)]
         named = [i for i, u in enumerate(self.unknowns) if u.load is not None and self.free.loads[u.load].name == wanted]
-        if len(named) == 1:
-            return self._determined(named[0])
+        if found or len(named) == 1:
+            [i, *_] = found or named
+            load = self.load(self.unknowns[i])
+            if load is not None and not load.determinate:
+                raise Indeterminate(f"{load.symbol} is not determined: the joints hold the mechanism in more ways than it needs")
+            return i
         if wanted in self.free.accelerations or wanted.removeprefix("accel(").removesuffix(")") in self.free.accelerations:
             raise NotUnknown(f"the acceleration of {wanted} follows from motions and loops without any balance")
         for load in self.free.loads:
@@ -81,12 +83,6 @@ class Problem:
                 raise NotUnknown(f"{wanted} is {load.follows[1]:g} times {leader}, by the law of friction; ask for that")
         raise NotUnknown(f"nothing unknown is called {wanted!r}; there are {', '.join(u.name for u in self.unknowns)}")
 
-    def _determined(self, i: int) -> int:
-        load = self.load(self.unknowns[i])
-        if load is not None and not load.determinate:
-            raise Indeterminate(f"{load.symbol} is not determined: the joints hold the mechanism in more ways than it needs")
-        return i
-
 
 def problem(states: Sequence[FreeBodies], prefer: str | None = None, known_motion: bool = False) -> Problem:
     """The problem at ``states[0]``; the others tell structure from chance, where they have the same loads.
@@ -94,7 +90,10 @@ def problem(states: Sequence[FreeBodies], prefer: str | None = None, known_motio
     accelerations are given, as they are."""
     first = states[0]
     same = [state for state in states if alike(state, first)]
-    origin, length = _extent(first)
+    points = [part.point for load in first.loads for part in load.on if part.body in {*first.bodies, GROUND}]
+    points += [body.G for body in first.bodies.values()]
+    low, high = np.min(points, axis=0), np.max(points, axis=0)
+    origin, length = (low + high) / 2, float(np.hypot(*(high - low))) or 1.0  # moments are scaled with these
     unprescribed = [] if known_motion else _free_coordinates(same, prefer)
     accelerations = [Unknown(f"accel({name})", coordinate=name) for name in unprescribed]
     loads = [Unknown(load.symbol, load=i) for i, load in enumerate(first.loads) if load.unknown and not load.follows]
@@ -116,33 +115,24 @@ def released(free: FreeBodies, name: str) -> FreeBodies:
     return replace(free, loads=(*free.loads[:i], freed, *free.loads[i + 1 :]))
 
 
-def _extent(free: FreeBodies) -> tuple[Array, float]:
-    """The middle of the mechanism and its size: what moments are scaled with."""
-    bodies = {*free.bodies, GROUND}
-    points = [part.point for load in free.loads for part in load.on if part.body in bodies]
-    points += [body.G for body in free.bodies.values()]
-    low, high = np.min(points, axis=0), np.max(points, axis=0)
-    return (low + high) / 2, float(np.hypot(*(high - low))) or 1.0
-
-
 def _free_coordinates(states: Sequence[FreeBodies], prefer: str | None) -> list[str]:
     """Coordinates whose accelerations motions and loops leave open, the first ones where there is a choice."""
     names = sorted(states[0].accelerations, key=lambda name: name != prefer)
     tables = [np.array([[row.coefficients[name] for name in names] for row in state.rows]) for state in states if state.rows]
     found: list[int] = []
+
+    def adds(table: Array, column: int) -> bool:
+        new = table[:, column]
+        if found:
+            basis, sizes, _ = np.linalg.svd(table[:, found], full_matrices=False)
+            basis = basis[:, sizes > DEPENDENT * sizes[0]]
+            new = new - basis @ (basis.T @ new)
+        return bool(np.linalg.norm(new) > DEPENDENT * np.abs(table).max())
+
     for column in reversed(range(len(names)) if tables else ()):
-        if all(_adds(table, found, column) for table in tables):
+        if all(adds(table, column) for table in tables):
             found.append(column)
     return [name for i, name in enumerate(names) if i not in found]
-
-
-def _adds(table: Array, found: list[int], column: int) -> bool:
-    new = table[:, column]
-    if found:
-        basis, sizes, _ = np.linalg.svd(table[:, found], full_matrices=False)
-        basis = basis[:, sizes > DEPENDENT * sizes[0]]
-        new = new - basis @ (basis.T @ new)
-    return bool(np.linalg.norm(new) > DEPENDENT * np.abs(table).max())
 
 
 def _system(free: FreeBodies, unknowns: Sequence[Unknown], origin: Array, length: float, known_motion: bool) -> System:

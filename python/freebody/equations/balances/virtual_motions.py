@@ -103,32 +103,20 @@ def pair_motions(columns: Array, boundary: Sequence[int]) -> VirtualMotions:
 def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[VirtualMotion, list[Pair]]]:
     """The turns about joints, mass centres and named points, with the place at every state."""
     joints: dict[str, int] = {}
-    pins_first = sorted(enumerate(problem.free.loads), key=lambda each: not each[1].axis)
-    for i, load in pins_first:
+    for i, load in sorted(enumerate(problem.free.loads), key=lambda each: not each[1].axis):  # pins first
         if load.kind in ("joint", "contact"):
             joints.setdefault(load.name, i)
-    rolling = touching(problem.free)
-    found = [
-        (
-            VirtualMotion("the point of contact" if rolling == [name] else name, question={"about": {"load": i}}),
-            [_last_point(s.free, i) for s in problem.systems],
-        )
-        for name, i in joints.items()
-    ]
-    for body in problem.bodies:
-        found.append((_about_point(f"{body}.G"), [system.free.bodies[body].G for system in problem.systems]))
-    for name, (body, x, y) in points.items():
+    rolling, states = touching(problem.free), [system.free for system in problem.systems]
+    found = []
+    for name, i in joints.items():
+        words = "the point of contact" if rolling == [name] else name
+        twist = VirtualMotion(words, question={"about": {"load": i}})
+        found.append((twist, [free.loads[i].on[-1].point for free in states]))
+    named = {f"{body}.G": [free.bodies[body].G for free in states] for body in problem.bodies}
+    for name, point in points.items():
         if not name.endswith(".origin"):
-            found.append((_about_point(name), [placed(system.free, body, x, y) for system in problem.systems]))
-    return found
-
-
-def _about_point(name: str) -> VirtualMotion:
-    return VirtualMotion(name, rank=2, question={"about": {"point": name}})
-
-
-def _last_point(free: FreeBodies, load: int) -> Pair:
-    return free.loads[load].on[-1].point
+            named.setdefault(name, [placed(free, *point) for free in states])
+    return found + [(VirtualMotion(name, rank=2, question={"about": {"point": name}}), at) for name, at in named.items()]
 
 
 def placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
@@ -145,12 +133,12 @@ def _joint_directions(problem: Problem) -> list[tuple[VirtualMotion, Array]]:
     found: list[tuple[VirtualMotion, Array]] = []
     for unknown in problem.unknowns:
         load = problem.load(unknown)
-        if load is None or load.axis:
-            continue
-        f = _directions(problem, unknown.load)
+        f = None if load is None or load.axis else _directions(problem, unknown.load)
         if f is None:
             continue
-        still, rubbing = np.zeros(len(f)), _frictional(problem, unknown.load)
+        follows = (i for i, other in enumerate(problem.free.loads) if other.follows and other.follows[0] == unknown.load)
+        rubbing = next((i for i in follows if _directions(problem, i) is not None), None)  # the friction that follows from it
+        still = np.zeros(len(f))
         own, right_angle = _direction_words(problem, load, f)
         rank = 0 if rubbing is not None and np.abs(f).min() > ONE_LINE else 1
         across = {"across": unknown.load} if rubbing is None else {"load": rubbing}
@@ -158,12 +146,6 @@ def _joint_directions(problem: Problem) -> list[tuple[VirtualMotion, Array]]:
         found.append((VirtualMotion(right_angle, rank=rank, question={"along": across}), np.column_stack([slides, still])))
         found.append((VirtualMotion(own, rank=rank, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
     return found
-
-
-def _frictional(problem: Problem, load: int) -> int | None:
-    """The friction that follows from a load, and has one direction, if there is any."""
-    follows = (i for i, other in enumerate(problem.free.loads) if other.follows and other.follows[0] == load)
-    return next((i for i in follows if _directions(problem, i) is not None), None)
 
 
 def touching(free: FreeBodies) -> list[str]:
