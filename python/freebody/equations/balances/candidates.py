@@ -47,17 +47,12 @@ class Candidate:
         return inertial, len(self.group), bool(pair), (self.support & accelerations).bit_count(), self.twist.rank
 
 
-@dataclass(frozen=True)
-class Candidates:
-    """The equations by what is unknown in them; ``exact`` where every connected set of bodies was tried."""
-
-    by_support: dict[int, list[Candidate]]
-    exact: bool
-
-
-def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: bool = False) -> Candidates:
-    """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits); of those with the same unknowns the plainest,
-    as many as are independent. ``in_letters``: only those that the core can tell symbolically."""
+def candidates(
+    problem: Problem, points: NamedPoints, counted: int, in_letters: bool = False
+) -> tuple[dict[int, list[Candidate]], bool]:
+    """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits) by what is unknown in them; of those with the same
+    unknowns the plainest, as many as are independent; and whether every connected set of bodies was tried. ``in_letters``: only
+    those that the core can tell symbolically."""
     sets, exact = groups(problem)
     named = named_motions(problem, points)
     accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
@@ -69,7 +64,7 @@ def candidates(problem: Problem, points: NamedPoints, counted: int, in_letters: 
         alike = by_support.setdefault(candidate.support, [])
         if len(alike) < candidate.support.bit_count() and independent([*alike, candidate]):
             alike.append(candidate)
-    return Candidates(by_support, exact)
+    return by_support, exact
 
 
 def has_letters(problem: Problem, twist: VirtualMotion) -> bool:

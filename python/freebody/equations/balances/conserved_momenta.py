@@ -43,44 +43,19 @@ class ConservedMomentum:
     values: Array = field(repr=False)
 
 
-@dataclass(frozen=True)
-class _Seen:
-    """What is at every state: ``columns`` (ns, nl, nb, 3) of the unknown loads on every body, and of their ``sizes`` (nl,); the sum of the
-    ``known`` ones and the ``momentum`` of every body (ns, nb, 3), moments about the origin of the problem over its length."""
-
-    given: Problem
-    columns: Array
-    sizes: Array
-    known: Array
-    momentum: Array
-
-    @classmethod
-    def of(cls, given: Problem) -> _Seen:
-        """Of a problem."""
-        loads = [i for i, unknown in enumerate(given.unknowns) if unknown.load is not None]
-        columns = np.array([system.columns[loads] for system in given.systems])
-        about, scale = (given.origin[0], given.origin[1]), np.array([1.0, 1.0, 1.0 / given.length])
-        known = [[_known(system.free, name, about) for name in given.bodies] for system in given.systems]
-        bodies = [[system.free.bodies[name] for name in given.bodies] for system in given.systems]
-        momentum = [[body.effective(about, (*body.v, body.omega)) for body in row] for row in bodies]
-        sizes = np.linalg.norm(columns, axis=3).max(axis=(0, 2), initial=0.0)
-        return cls(given, columns, sizes, np.array(known) * scale, np.array(momentum) * scale)
-
-
 def lasting(states: Sequence[FreeBodies], points: NamedPoints) -> list[ConservedMomentum]:
     """All constant momenta, those of fewer bodies first. Of a set that keeps all of its momentum, of its moments only that about
     its mass centre: the others say no more.
 
     ``states`` move, all at once; as for the smallest sets the first is the one asked about."""
     given = problem(states)
-    seen, fixed = _Seen.of(given), _fixed(given, points)
+    kept, fixed = _Kept(given), _fixed(given, points)
     found: list[ConservedMomentum] = []
     for group in groups(given, known=True)[0]:
-        own = _kept(seen, group, mass_centre(given, group))
-        kept = sorted(_kept(seen, group, fixed), key=lambda each: each.twist.rank)
-        shifts = [each for each in kept if not each.turns]
-        turning = [] if len(independent(shifts)) > 1 else [each for each in kept if each.turns]
-        found += [*shifts, *turning, *own]
+        named = sorted(kept.of(group, fixed), key=lambda each: each.twist.rank)
+        shifts = [each for each in named if not each.turns]
+        turning = [] if len(independent(shifts)) > 1 else [each for each in named if each.turns]
+        found += [*shifts, *turning, *kept.of(group, mass_centre(given, group))]
     return found
 
 
@@ -104,28 +79,37 @@ def _fixed(given: Problem, points: NamedPoints) -> VirtualMotions:
     return [twist for twist, keep in zip(twists, still, strict=True) if keep], motions[still]
 
 
-def _kept(seen: _Seen, group: Group, tried: VirtualMotions) -> list[ConservedMomentum]:
-    """The momenta of a group in some motions that no load from outside changes, and that are not 0 always."""
-    (twists, motions), given, members = tried, seen.given, list(group)
-    columns, known, momentum = (of[..., members, :].sum(axis=-2) for of in (seen.columns, seen.known, seen.momentum))
-    unknown = np.abs(np.einsum("csk,suk->csu", motions, columns) / seen.sizes).max(axis=(1, 2), initial=0.0)
-    power = np.abs(np.einsum("csk,sk->cs", motions, known)).max(axis=1)
-    values = np.einsum("csk,sk->cs", motions, momentum)
-    stays = (unknown < ABSENT) & (power < ABSENT * max(1.0, np.abs(seen.known).max()))
-    stays &= np.abs(values).max(axis=1) > ABSENT * max(1.0, np.abs(momentum).max())
-    names = tuple(given.bodies[i] for i in group)
-    elsewhere = len({body.G for system in given.systems for body in system.free.bodies.values()}) > len(given.bodies)
-    return [ConservedMomentum(names, twists[c], *_place(given, motions[c, 0]), elsewhere, values[c]) for c in np.flatnonzero(stays)]
+class _Kept:
+    """What is at every state: ``columns`` (ns, nl, nb, 3) of the unknown loads on every body, and of their ``sizes`` (nl,); the sum of
+    the ``known`` ones and the ``momentum`` of every body (ns, nb, 3), moments about the origin of the problem over its length."""
 
+    def __init__(self, given: Problem) -> None:
+        self.given = given
+        about, scale = (given.origin[0], given.origin[1]), np.array([1.0, 1.0, 1.0 / given.length])
+        loads = [i for i, unknown in enumerate(given.unknowns) if unknown.load is not None]
+        self.columns = np.array([system.columns[loads] for system in given.systems])
+        self.sizes = np.linalg.norm(self.columns, axis=3).max(axis=(0, 2), initial=0.0)
+        states = [(system.free, [load for load in system.free.loads if not load.unknown]) for system in given.systems]
+        known = [[sum((load.unit([b], about) for load in of), np.zeros(3)) for b in given.bodies] for _, of in states]
+        bodies = [[free.bodies[name] for name in given.bodies] for free, _ in states]
+        self.known = np.array(known) * scale
+        self.momentum = np.array([[body.effective(about, (*body.v, body.omega)) for body in row] for row in bodies]) * scale
+        self.elsewhere = len({body.G for row in bodies for body in row}) > len(given.bodies)
 
-def _known(free: FreeBodies, body: str, about: tuple[float, float]) -> Array:
-    """The sum of all known loads on a body."""
-    return sum((load.unit([body], about) for load in free.loads if not load.unknown), np.zeros(3))
-
-
-def _place(given: Problem, motion: Array) -> tuple[bool, tuple[float, float]]:
-    (x, y), turn = motion[:2], motion[2]
-    if abs(turn) < SAME_PLACE * np.linalg.norm(motion):
-        return False, (float(x), float(y))
-    ox, oy = given.origin
-    return True, (float(ox - y / turn * given.length), float(oy + x / turn * given.length))
+    def of(self, group: Group, tried: VirtualMotions) -> list[ConservedMomentum]:
+        """The momenta of a group in some motions that no load from outside changes, and that are not 0 always."""
+        (twists, motions), given = tried, self.given
+        columns, known, momentum = (of[..., list(group), :].sum(axis=-2) for of in (self.columns, self.known, self.momentum))
+        unknown = np.abs(np.einsum("csk,suk->csu", motions, columns) / self.sizes).max(axis=(1, 2), initial=0.0)
+        power = np.abs(np.einsum("csk,sk->cs", motions, known)).max(axis=1)
+        values = np.einsum("csk,sk->cs", motions, momentum)
+        stays = (unknown < ABSENT) & (power < ABSENT * max(1.0, np.abs(self.known).max()))
+        stays &= np.abs(values).max(axis=1) > ABSENT * max(1.0, np.abs(momentum).max())
+        found = []
+        for c in np.flatnonzero(stays):
+            x, y, turn = motions[c, 0]
+            if turns := bool(abs(turn) >= SAME_PLACE * np.linalg.norm(motions[c, 0])):
+                x, y = given.origin + np.array([-y, x]) / turn * given.length
+            bodies = tuple(given.bodies[i] for i in group)
+            found.append(ConservedMomentum(bodies, twists[c], turns, (float(x), float(y)), self.elsewhere, values[c]))
+        return found

@@ -91,7 +91,7 @@ def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None
     least = fewest(given, sets, wanted, WORTH)
     reactions, accelerations = bits(range(len(unknowns))) & ~bits(wanted), bits(moving)
     by_reactions: dict[int, list[Candidate]] = {}
-    for support, alike in candidates(given, points or {}, counted=reactions).by_support.items():
+    for support, alike in candidates(given, points or {}, counted=reactions)[0].items():
         by_reactions.setdefault(support & reactions, []).extend(alike)
     tried = (best(by_reactions, unions(by_reactions, n), n + len(wanted), accelerations) for n in range(least, WORTH + 1))
     chosen, stays = next((found for found in tried if found[0]), ([], 0))

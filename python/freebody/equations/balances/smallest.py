@@ -107,14 +107,14 @@ def smallest_set(
     given = problem(states, wanted.removeprefix("accel(").removesuffix(")"), known_motion)
     place = given.place(wanted)
     name = given.unknowns[place].name
-    tried = candidates(given, points or {}, counted=bits(range(len(given.unknowns))), in_letters=in_letters)
+    by_support, exact = candidates(given, points or {}, counted=bits(range(len(given.unknowns))), in_letters=in_letters)
     accelerations = bits(i for i, unknown in enumerate(given.unknowns) if unknown.coordinate)
-    found = smallest(tried.by_support, 1 << place, accelerations)
+    found = smallest(by_support, 1 << place, accelerations)
     equations = tuple(equation(given, candidate) for candidate in found)
     virtual = None if found else virtual_power(given, place)
     values = {virtual.unknown: virtual.right} if virtual else solved(equations)
     several = len(given.systems) > 1
-    return SmallestSet(name, equations, virtual, values, disagreement(given, values), tried.exact, several, known_motion)
+    return SmallestSet(name, equations, virtual, values, disagreement(given, values), exact, several, known_motion)
 
 
 def virtual_power(given: Problem, place: int) -> VirtualPower:
