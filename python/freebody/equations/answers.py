@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import State
+from freebody.core import MotionError, State
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.document.document import Document
 from freebody.equations.balances.system import NotUnknown
-from freebody.equations.derivation.data import Row, SymbolicState
+from freebody.equations.dependent_coordinates import held_still
+from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import joined, lettered
-from freebody.equations.immobile_coordinates import held_still
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.solve import TooLarge, limit, solve
 from freebody.equations.substitutions import Substitutions, given
 from freebody.equations.sufficient_equations import Search, SufficientSet
-from freebody.equations.velocity_ratios import Ratios, driven, ratios
 from freebody.equations.velocity_ratios import blocks as of_ratios
+from freebody.equations.velocity_ratios import driven, ratios
 from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import nearby, others
 from freebody.symbolic.decimals import shown
@@ -53,30 +53,24 @@ _SEED = 5
 
 
 @dataclass(frozen=True)
-class Answers:
+class Answers(Document):
     """What was ``wanted``, by name the letters, as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``named`` letters of theirs,
     each by those before; ``print`` shows the
     equations that give it. ``checked``: at how many states it was held against the numbers."""
 
-    values: Mapping[str, Tree]
-    wanted: Mapping[str, Sym]
-    named: Mapping[Sym, Tree]
-    limits: Mapping[tuple[str, str], Tree]
-    letters: Letters
-    document: Document = field(repr=False)
-    checked: int
+    values: Mapping[str, Tree] = field(kw_only=True)
+    wanted: Mapping[str, Sym] = field(kw_only=True)
+    named: Mapping[Sym, Tree] = field(kw_only=True)
+    limits: Mapping[tuple[str, str], Tree] = field(kw_only=True)
+    checked: int = field(kw_only=True)
 
     def __getitem__(self, name: str) -> Tree:
         return self.values[name]
 
-    def __str__(self) -> str:
-        return self.document.text()
-
-    def _repr_html_(self) -> str:
-        return self.document._repr_html_()
-
-    def _repr_latex_(self) -> str:
-        return self.document.latex()
+    @property
+    def document(self) -> Document:
+        """The equations that give it."""
+        return Document(self.blocks, self.letters)
 
     def sympy(self) -> dict[str, Any]:
         """What was wanted as SymPy expressions."""
@@ -161,78 +155,96 @@ def _answers(
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
     states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
     held = held_still(subject, chosen, states)
-    said, chosen = _title(subject, chosen), chosen.and_held(held)
+    made, chosen = [*_title(subject, chosen), *_held(subject, held)], chosen.and_held(held)
     found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_still(x)}
-    made, labels = _held(subject, held), dict[str, str]()
-    ratio = _ratios(subject, chosen, wanted.values()) if with_ratios else None
-    if ratio:
+    ratio = None
+    if with_ratios:  # by what is driven, else by the first acceleration that is wanted, or by the first coordinate
+        first = driven(subject) or next((x.name for x in wanted.values() if x.dots), subject.names[0])
+        places = replace(chosen, follow={x: tree for x, tree in chosen.follow.items() if not x.dots})
+        ratio = ratios(subject, places.put, first)
         made += of_ratios(ratio, [x.name for x in wanted.values() if x.dots], shown)
         found |= {Sym(name, 2): Sym(name, 2) for name in ratio.rates} | ratio.driving
         made += [Equation(x, shown(tree), "So") for x, tree in ratio.driving.items() if x in wanted.values()]
+    labels = dict[str, str]()
     for x in wanted.values():
         if x not in found:
             system = Search(subject, chosen, replace(held, follow={}), states).enough(x, found, labels)
             solution = _solved(subject, system, chosen, patience)
-            made += [*_stated(subject, system, labels), *_asked(system.rows), *_where(system, chosen), *_shown(system, solution)]
+            made += _stated(subject, system, chosen, labels, solution)
             found |= solution
     values = {name: ratio.acceleration(x.name) if ratio and x.dots else found[x] for name, x in wanted.items()}
     named = ratio.letters() if ratio else {}
     checked = _check(subject, chosen, {x: values[name] for name, x in wanted.items()}, named)
     at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
-    stated = (*said, *made, *_limits(subject, at, limits))
-    document = Document(tuple(lettered(block, letters) for block in stated), letters)
-    return Answers(values, wanted, named, at, letters, document, checked)
+    made += [Heading("Limits")] if at else []
+    for letter, to in limits.items():
+        goes = [Sym(letter), f" → {'∞' if str(to) == 'inf' else to}"]
+        made += [Equation(x, shown(at[n, letter]), "" if i else goes) for i, (n, x) in enumerate(wanted.items())]
+    stated = tuple(lettered(block, letters) for block in made)
+    return Answers(stated, letters, values=values, wanted=wanted, named=named, limits=at, checked=checked)
 
 
-def _ratios(subject: SymbolicState, chosen: Substitutions, wanted: Collection[Sym]) -> Ratios:
-    """By what is driven, else by the first acceleration that is wanted, or by the first coordinate."""
-    first = driven(subject) or next((x.name for x in wanted if x.dots), subject.coordinates[0]["name"])
-    places = replace(chosen, follow={x: tree for x, tree in chosen.follow.items() if not x.dots})
-    return ratios(subject, places.put, first)
+def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
+    made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
+    if chosen.measured:
+        made.append(Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI."))
+    if chosen.at_start:
+        made.append(Paragraph("The symbolic form for every configuration would fill pages: this one holds at the start."))
+    if said := ["all rates are 0"] * subject.at_rest + chosen.said():
+        made.append(Paragraph(f"At the instant at which {', '.join(said)}."))
+    return made
 
 
 def _held(subject: SymbolicState, held: Substitutions) -> list[Block]:
     """What cannot move, and where it is."""
-    still = [Sym(c["name"]) for c in subject.coordinates if held.is_still(Sym(c["name"], 1))]
+    still = [Sym(name) for name in subject.names if held.is_still(Sym(name, 1))]
     if not still:
         return []
-    said: list[str | Side] = ["Nothing can move: " if len(still) == len(subject.coordinates) else "What cannot move: "]
+    said: list[str | Side] = ["Nothing can move: " if len(still) == len(subject.names) else "What cannot move: "]
     said += [*listed(still), " stand still" if len(still) > 1 else " stands still"]
     for i, (name, place) in enumerate(held.trees.items()):
         said += [", " if i else ", with ", Sym(name), " = ", place]
     return [Paragraph([*said, "."])]
 
 
-def _stated(subject: SymbolicState, system: SufficientSet, labels: dict[str, str]) -> list[Block]:
-    """The balances that were not told before, numbered on."""
+def _stated(
+    subject: SymbolicState, system: SufficientSet, chosen: Substitutions, labels: dict[str, str], solution: Mapping[Sym, Tree]
+) -> list[Block]:
+    """The balances that were not told before, numbered on; what is closed; what letters are by others, as parameters that are defined
+    so and what follows from what is closed; and the solution."""
     made: list[Block] = []
     for stated in system.stated:
         if stated.title not in labels:
             labels[stated.title] = str(len(labels) + 1)
             made += replace(stated, label=labels[stated.title]).blocks(subject)
-    return made
+    names = list(dict.fromkeys(row.name for row in system.rows))
+    made += [Equation(row.acceleration, ZERO, "" if i else f"With {joined(names)}") for i, row in enumerate(system.rows)]
+    known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
+    there = symbols(*(each.balance.residual for each in system.stated), *(row.acceleration for row in system.rows))
+    for i, x in enumerate(sorted(there & known.keys(), key=lambda x: (x.dots, x.name))):
+        short = presented(chosen.put(known[x]), patience=_BRIEF)
+        made.append(Equation(x, shown(short), "" if i else "Where"))
+    name: Words = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
+    if system.known:
+        name = ["With ", *listed(system.known), " as above"]
+    return made + [Equation(x, shown(tree), "" if i else name) for i, (x, tree) in enumerate(solution.items())]
 
 
 def _solved(subject: SymbolicState, system: SufficientSet, chosen: Substitutions, patience: float) -> dict[Sym, Tree]:
-    letters = subject.letters
+    letters, measured, n = subject.letters, chosen.measured, len(system.linear)
     unknowns = sorted(system.unknowns, key=lambda x: (x.dots == 0, letters.place(x.name)))
-    matrix = [[each.coefficients.get(x, ZERO) for x in unknowns] for each in system.linear]
-    right = [negative(each.rest) for each in system.linear]
-    _require_short(matrix, right, chosen.measured)
-    if not chosen.measured:
-        known = distances(chosen.put(row.value) for row in subject.rows if row.value is not None and row.kind != "motion")
-        matrix = [[with_plain_roots(entry, known, subject.values) for entry in row] for row in matrix]
-        right = [with_plain_roots(entry, known, subject.values) for entry in right]
-    solution = zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True)
-    return {x: with_positive_divisors(tree, subject.values) for x, tree in solution if x in system.gives}
-
-
-def _require_short(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], measured: bool) -> None:
-    n, size = len(right), sum(operations(entry) for row in (*matrix, right) for entry in row)
+    rows = [[*(each.coefficients.get(x, ZERO) for x in unknowns), negative(each.rest)] for each in system.linear]
     if n > (MOST_MEASURED if measured else MOST_EQUATIONS):
         raise TooLarge(f"it takes {n} equations together, too many for a symbolic answer; ask for numbers")
+    size = sum(operations(entry) for row in rows for entry in row)
     if size > (MOST_OPERATIONS_MEASURED if measured else MOST_OPERATIONS[n]):
         raise TooLarge(f"{n} equations with {size} operations are too long for a symbolic answer; ask for numbers")
+    if not measured:
+        known = distances(chosen.put(row.value) for row in subject.rows if row.value is not None and row.kind != "motion")
+        rows = [[with_plain_roots(entry, known, subject.values) for entry in row] for row in rows]
+    found = solve([row[:-1] for row in rows], [row[-1] for row in rows], letters, patience=patience)
+    solution = zip(unknowns, found, strict=True)
+    return {x: with_positive_divisors(tree, subject.values) for x, tree in solution if x in system.gives}
 
 
 def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
@@ -245,30 +257,6 @@ def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
     turned = [f for f in below if evaluate(f.base, values) < 0]
     made = mul(*(power(negative(f.base), -1) if f in turned else f for f in tree.factors))
     return mul(MINUS_ONE, made) if len(turned) % 2 else made
-
-
-def _asked(rows: Sequence[Row]) -> list[Block]:
-    names = joined(list(dict.fromkeys(row.name for row in rows))) if rows else ""
-    return [Equation(row.acceleration, ZERO, f"With {names}" if i == 0 else "") for i, row in enumerate(rows)]
-
-
-def _where(system: SufficientSet, chosen: Substitutions) -> list[Block]:
-    """What letters of the equations are by others: parameters that are defined so, and what follows from what is closed."""
-    stated = (each.balance.residual for each in system.stated)
-    there = symbols(*stated, *(row.acceleration for row in system.rows))
-    known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
-    used = [
-        (x, presented(chosen.put(known[x]), patience=_BRIEF))
-        for x in sorted(there & known.keys(), key=lambda x: (x.dots, x.name))
-    ]
-    return [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(used)]
-
-
-def _shown(system: SufficientSet, solution: Mapping[Sym, Tree]) -> list[Block]:
-    name: Words = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
-    if system.known:
-        name = ["With ", *listed(system.known), " as above"]
-    return [Equation(x, shown(tree), name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
 
 
 def _letter(subject: SymbolicState, name: str) -> Sym:
@@ -289,15 +277,18 @@ def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, T
     """Holds the answers against numbers at the state and at others; says at how many."""
     rng, compared = np.random.default_rng(_SEED), 0
     for state in [subject.state, *(chosen.near(subject, rng) for _ in range(_OTHERS)), *_closed(subject, chosen)]:
-        there = state and _like(subject, SymbolicState(subject.source, state, subject.at_rest))
-        if not there:
+        there = None if state is None else SymbolicState(subject.source, state, subject.at_rest)
+        if there is None or not _is_like(subject, there):
             continue
         numbers = dict(there.values)
         for x, tree in named.items():
             numbers[x] = float(evaluate(tree, numbers, there.tables))
         for x, tree in values.items():
             found, true = float(evaluate(tree, numbers, there.tables)), numbers[x]
-            if abs(found - true) > AGREES * max(abs(true), _scale(there, x)):
+            # relative to the largest of its kind, or among the terms that balance where all of a kind vanish
+            kind = there.free.accelerations.values() if x.dots else [load.value for load in there.free.loads if load.unknown]
+            scale = max(Instant(there.source, state).sizes[1 if x.dots else 0], *(abs(v) for v in kind if np.isfinite(v)))
+            if abs(found - true) > AGREES * max(abs(true), scale):
                 raise ArithmeticError(f"the answer for {x.name} is {found:g} where the numbers are {true:g}; take the numbers")
         compared += 1
     return compared
@@ -305,58 +296,26 @@ def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, T
 
 def _closed(subject: SymbolicState, chosen: Substitutions) -> list[State]:
     """States near by at which contacts and strings stay closed; none where a coordinate is set that could move."""
-    if not subject.source.about["limits"] or any(c["name"] in chosen.trees.keys() - chosen.still for c in subject.coordinates):
+    if not subject.source.about["limits"] or set(subject.names) & chosen.trees.keys() - chosen.still:
         return []
     found = others(subject.source, subject.state)
     places = {tuple(state.q): replace(state, u=np.zeros_like(state.u)) for state in found}
     return list(places.values() if subject.at_rest else found)[:_OTHERS]
 
 
-def _like(subject: SymbolicState, there: SymbolicState) -> SymbolicState | None:
-    """Another state of a subject, if the same loads act there, and what is closed is so."""
-    from freebody.core import MotionError
+def _is_like(subject: SymbolicState, there: SymbolicState) -> bool:
+    """Whether the same loads act in another state of a subject, those that follow from others in the same sense, and what is closed
+    is so."""
+
+    def acting(each: SymbolicState) -> list[tuple[str, float]]:
+        return [(load.symbol, float(np.sign(load.follows[1])) if load.follows else 0.0) for load in each.free.loads]
 
     try:
         gaps = [evaluate(row.value, there.values, there.tables) for row in there.rows if row.value is not None]
-        same = _acting(there) == _acting(subject) and np.abs(gaps).max(initial=0.0) < AGREES
+        return acting(there) == acting(subject) and bool(np.abs(gaps).max(initial=0.0) < AGREES)
     except MotionError:  # what touches here would be pressed in
-        return None
-    return there if same else None
-
-
-def _acting(subject: SymbolicState) -> list[tuple[str, float]]:
-    """The loads, and in which sense those act that follow from others."""
-    return [(load.symbol, float(np.sign(load.follows[1])) if load.follows else 0.0) for load in subject.free.loads]
-
-
-def _scale(there: SymbolicState, x: Sym) -> float:
-    """The largest of its kind, or among the terms that balance where all of a kind vanish."""
-    free, state = there.free, there.state
-    values = free.accelerations.values() if x.dots else [load.value for load in free.loads if load.unknown]
-    sizes = Instant(there.source, state).sizes
-    return max(sizes[1 if x.dots else 0], *(abs(v) for v in values if np.isfinite(v)))
+        return False
 
 
 def _target(to: Any) -> float | Fraction:
     return float(to) if str(to).lstrip("-") == "inf" else Fraction(str(to))
-
-
-def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
-    said = ["all rates are 0"] * subject.at_rest + chosen.said()
-    made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
-    if chosen.measured:
-        made.append(
-            Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI.")
-        )
-    if chosen.at_start:
-        made.append(Paragraph("The symbolic form for every configuration would fill pages: this one holds at the start."))
-    return made + ([Paragraph(f"At the instant at which {', '.join(said)}.")] if said else [])
-
-
-def _limits(subject: SymbolicState, found: Mapping[tuple[str, str], Tree], limits: Mapping[str, Any]) -> list[Block]:
-    made: list[Block] = [Heading("Limits")] if found else []
-    for letter, to in limits.items():
-        goes = "∞" if str(to) == "inf" else str(to)
-        for i, (name, tree) in enumerate((name, tree) for (name, x), tree in found.items() if x == letter):
-            made.append(Equation(_letter(subject, name), shown(tree), "" if i else [Sym(letter), f" → {goes}"]))
-    return made

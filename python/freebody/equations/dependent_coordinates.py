@@ -1,19 +1,27 @@
-"""Coordinates and rates that follow from others because of what is closed: y = R + d sin φ of a body that rolls."""
+"""What loops, motions and contacts make of coordinates: some cannot move, others follow, y = R + d sin φ of a body that rolls."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace as replaced
 from typing import Any
 
-from freebody.equations.derivation.data import Row
 from freebody.symbolic.algebra import equal
+import numpy as np
+
+from freebody.core import FreeBodies
+from freebody.equations.derivation.data import Row, SymbolicState
+from freebody.equations.linearization import is_natural, place_of
+from freebody.equations.substitutions import Substitutions
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
-from freebody.symbolic.tree import ZERO, Sym, Tree, operations, replace
+from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, operations, replace, symbols
 
 MOST_OPERATIONS = 120
 """In what is closed, above which nothing is sought that follows from it."""
+_HELD = 1e-7
+"""Part of a unit perturbation that rows leave free below which they hold it."""
 
 
 def followed(
@@ -38,11 +46,6 @@ def solved(given: Sequence[Tree], free: Collection[str], dots: int, values: Mapp
     return found
 
 
-def vanishing(values: Sequence[Tree], found: Mapping[Sym, Tree]) -> list[bool]:
-    """Which of some expressions vanish, whatever the letters are, with what was solved."""
-    return [equal(replace(value, found), ZERO) for value in values]
-
-
 def _one(value: Any, free: Collection[str], dots: int, values: Mapping[Sym, float]) -> tuple[Sym, Tree] | None:
     """The letter with the plainest factor that depends on no place and no rate, and what it is."""
     import sympy
@@ -64,3 +67,47 @@ def _shortly(tree: Tree) -> Tree:
 
     short = to_sympy(presented(tree, patience=PATIENCE / 5))
     return from_sympy(short.replace(sympy.tan, lambda angle: sympy.sin(angle) / sympy.cos(angle)))
+
+
+def held_still(subject: SymbolicState, chosen: Substitutions, states: Sequence[FreeBodies]) -> Substitutions:
+    """The coordinates that nothing lets move, at all ``states``, as ``still``, and their places where these do not depend on any
+    letter but those ``chosen``; and what ``follow`` from others."""
+    names = subject.names
+    fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Substitutions({}, still=frozenset(names)))]
+    free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
+    still = frozenset(name for i, name in enumerate(names) if fixed and all(holds(rows, i) for rows in free))
+    held = Substitutions({}, still=still)
+    natural = {
+        name: place for name, place in place_of(subject).items() if is_natural(place) and name in still - chosen.trees.keys()
+    }
+    moving = [name for name in names if name not in still and name not in chosen.trees]
+    closed = [held.put(chosen.put(value)) for i in fixed if (value := subject.rows[i].value) is not None]
+    places = Substitutions(_closing(closed, natural, moving, subject.values), still=still)
+    rows = [row for row in subject.rows if row.kind != "motion"]
+    return replaced(places, follow=followed(rows, lambda tree: places.put(chosen.put(tree)), moving, subject.values))
+
+
+def holds(rows: np.ndarray, place: int) -> bool:
+    """Whether rows, linear in some unknowns, determine the one at a place."""
+    unit = np.eye(rows.shape[1])[place]
+    return bool(np.linalg.norm(unit - np.linalg.pinv(rows) @ (rows @ unit)) < _HELD)
+
+
+def _is_fixed(row: Row, rest: Substitutions) -> bool:
+    """Whether it asks for rest: it is met where all rates and accelerations are 0. A motion may ask for accelerations alone."""
+    asked = [row.acceleration, *([] if row.rate is None else [row.rate])]
+    return not (row.rate is None and row.kind == "motion") and all(is_zero(rest.put(tree)) for tree in asked)
+
+
+def _closing(
+    closed: Sequence[Tree], places: Mapping[str, Tree], moving: Sequence[str], numbers: Mapping[Sym, float]
+) -> Mapping[str, Tree]:
+    """Of these places those with which everything that they are in vanishes, whatever the letters are, or tells what is moving."""
+    there = Substitutions(places)
+    values = [there.put(value) for value in closed]
+    found = solved(values, moving, 0, numbers)
+    unmet = [value for value, put in zip(closed, values, strict=True) if not equal(replace(put, found), ZERO)]
+    open_by = {x.name for x in symbols(*unmet)}
+    if not open_by & places.keys():
+        return places
+    return _closing(closed, {n: place for n, place in places.items() if n not in open_by}, moving, numbers)

@@ -1,10 +1,32 @@
-"""Expressions of the model language as trees."""
+"""Expressions of the model language as trees, and parameters that a model defines by others: h = w tan α/3."""
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
+from freebody.core import CompiledModel
 from freebody.model import syntax
 from freebody.symbolic.decimals import exact
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, Tree, add, mul, negative, over, power
+from freebody.symbolic.tree import (
+    PI,
+    Add,
+    Fn,
+    Mul,
+    Negative,
+    Node,
+    Num,
+    Pow,
+    Quotient,
+    Sym,
+    Tree,
+    add,
+    mul,
+    negative,
+    over,
+    power,
+    symbols,
+)
+from freebody.symbolic.tree import replace as replaced
 
 _SAME = ("sin", "cos", "exp", "ln", "atan2", "abs", "sign")
 _DOTS = {"rate": 1, "accel": 2}
@@ -46,3 +68,20 @@ def _tree(of: Node) -> Tree:
         case Fn(name, arguments) if name in _SAME:
             return Fn(name, tuple(map(_tree, arguments)))
     raise NoForm("the expression has no symbolic form")
+
+
+def definitions(source: CompiledModel, free: Collection[str]) -> dict[str, Tree]:
+    """Every parameter that is defined by others, by those that are not or are ``free``; one without a symbolic form, as a least
+    of two, stays a letter."""
+    found: dict[str, Tree] = {}
+    for parameter in source.spec["parameters"]:
+        name, value = parameter["name"], parameter["value"]
+        if name in free or not isinstance(value, str):
+            continue
+        try:
+            tree = replaced(read_text(value), {Sym(x): known for x, known in found.items()})
+        except NoForm:
+            continue
+        if symbols(tree) - {Sym(PI)}:
+            found[name] = tree
+    return found

@@ -1,8 +1,8 @@
-"""small perturbations from rest: the linear equations of the coordinates, and of those that loops and motions leave free."""
+"""Small perturbations from rest: the linear equations of the coordinates, and of those that loops and motions leave free."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -81,7 +81,8 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where
     they do no work) the equations are Lᵀ (M N z̈ + C N ż + K N z) = 0. Raises ``TooLarge``, ``Singular``."""
     names, letters = found.coordinates, subject.letters
-    laws = [row for row in replace(subject, at_rest=False).rows if _is_law(row, names)]
+    laws = [row for row in replace(subject, at_rest=False).rows if row.kind == "motion" and row.value is None and row.rate is None
+            and any(x.name in names for x in symbols(row.linear.rest))]  # of places and rates, which they so leave free
     holding = [row for row in subject.rows if row.name not in {law.name for law in laws}]
     slopes = [[_put(row.linear.coefficients.get(Sym(name, 2), ZERO), put) for name in names] for row in holding]
     loads = [Sym(load.symbol) for load in subject.free.loads if load.unknown]
@@ -103,30 +104,19 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
 
     ways = perturbations(_part(slopes, asked, follows), _part(slopes, asked, chosen), follows, chosen)
     inner = _part(loading, bearing, acting)
-    tests = perturbations(_turned(inner), _turned(_part(loading, bare, acting)), bearing, bare)
+    turned, others = ([list(column) for column in zip(*part, strict=True)] for part in (inner, _part(loading, bare, acting)))
+    tests = perturbations(turned, others, bearing, bare)
     rests = solve(inner, [parts[i].rest for i in bearing], letters, patience=PATIENCE)
     reactions = dict.fromkeys(loads, ZERO) | dict(zip([loads[i] for i in acting], rests, strict=True))
     stiffness = [[_put(entry, {x.name: tree for x, tree in reactions.items()}) for entry in row] for row in found.stiffness]
     balances = [_between(tests, matrix, ways, subject) if bare else [] for matrix in (found.mass, found.damping, stiffness)]
-    lawful = [_between(_identity(len(laws)), [[_slope(law, Sym(name, dots), put) for name in names] for law in laws], ways, subject)
+    identity = [[ONE if i == j else ZERO for j in range(len(laws))] for i in range(len(laws))]
+    lawful = [_between(identity, [[_slope(law, Sym(name, dots), put) for name in names] for law in laws], ways, subject)
               if laws else [] for dots in (2, 1, 0)]  # fmt: skip
     matrices = ([*above, *below] for above, below in zip(balances, lawful, strict=True))
-    undecided = len(acting) < len(loads)
     equations = Linearised(tuple(names[i] for i in chosen), *matrices, [ZERO] * len(chosen))
-    return Held(
-        [slopes[i] for i in asked],
-        {names[i]: ways[i] for i in follows},
-        reactions,
-        undecided,
-        equations,
-        tuple(law.name for law in laws),
-    )
-
-
-def _is_law(row: Row, coordinates: Collection[str]) -> bool:
-    """Whether a motion prescribes an acceleration by a law of places and rates, and so leaves them free."""
-    accelerated = row.kind == "motion" and row.value is None and row.rate is None
-    return accelerated and any(x.name in coordinates for x in symbols(row.linear.rest))
+    follow, undecided = {names[i]: ways[i] for i in follows}, len(acting) < len(loads)
+    return Held([slopes[i] for i in asked], follow, reactions, undecided, equations, tuple(law.name for law in laws))
 
 
 def _slope(row: Row, letter: Sym, put: Mapping[str, Tree]) -> Tree:
@@ -137,10 +127,6 @@ def _slope(row: Row, letter: Sym, put: Mapping[str, Tree]) -> Tree:
     slope = expression.diff(sympy.Symbol(letter.name + "'" * letter.dots))
     still = {x: 0 for x in slope.free_symbols if x.name.endswith("'")}
     return _put(from_sympy(slope.subs(still)), put)
-
-
-def _identity(n: int) -> Matrix:
-    return [[ONE if i == j else ZERO for j in range(n)] for i in range(n)]
 
 
 def place_of(subject: SymbolicState) -> dict[str, Tree]:
@@ -184,10 +170,6 @@ def _put(tree: Tree, place: Mapping[str, Tree]) -> Tree:
 
 def _part(matrix: Matrix, rows: Sequence[int], columns: Sequence[int]) -> Matrix:
     return [[matrix[i][j] for j in columns] for i in rows]
-
-
-def _turned(matrix: Matrix) -> Matrix:
-    return [list(column) for column in zip(*matrix, strict=True)]
 
 
 def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: SymbolicState) -> Matrix:

@@ -45,11 +45,21 @@ def modes(subject: SymbolicState, found: Linearised) -> Modes:
     own = [i for i, value in enumerate(values) if abs(value) > _EQUAL * np.abs(values).max(initial=0.0)]
     moving = vectors[: len(m), own]
     symmetric = all(is_zero(entry) for row in found.damping for entry in row) and all(
-        map(_is_symmetric, (found.mass, found.stiffness))
+        equal(x[i][j], x[j][i]) for x in (found.mass, found.stiffness) for i in range(len(m)) for j in range(i)
     )
-    names = found.coordinates
-    grows = not symmetric and any(_lacks(a, values, values[i]) for i in own)
-    return Modes(_in(free, names), _in(drifting, names), _in(moving, names), symmetric, grows)
+    scale = np.abs(values).max(initial=0.0)
+
+    def lacks(value: complex) -> bool:
+        """Whether an eigenvalue on the imaginary axis is there more often than it has directions."""
+        sizes = np.linalg.svd(a - value * np.eye(len(a)), compute_uv=False)
+        count = int((np.abs(values - value) < _EQUAL * scale).sum())
+        return abs(value.real) < _EQUAL * scale and count > int((sizes < _EQUAL * sizes.max()).sum())
+
+    def moved(directions: Array) -> tuple[str, ...]:
+        return tuple(x for x, row in zip(found.coordinates, directions, strict=True) if np.abs(row).max(initial=0.0) > _SMALL)
+
+    grows = not symmetric and any(map(lacks, values[own]))
+    return Modes(moved(free), moved(drifting), moved(moving), symmetric, grows)
 
 
 def first_order(m: Array, c: Array, k: Array) -> Array:
@@ -63,22 +73,6 @@ def null_space(matrix: Array) -> Array:
     _, sizes, directions = np.linalg.svd(matrix)
     rank = int((sizes > _SMALL * sizes.max(initial=0.0)).sum())
     return directions[rank:].conj().T
-
-
-def _lacks(a: Array, values: Array, value: complex) -> bool:
-    """Whether an eigenvalue on the imaginary axis is there more often than it has directions."""
-    scale = np.abs(values).max()
-    count = int((np.abs(values - value) < _EQUAL * scale).sum())
-    sizes = np.linalg.svd(a - value * np.eye(len(a)), compute_uv=False)
-    return abs(value.real) < _EQUAL * scale and count > int((sizes < _EQUAL * sizes.max()).sum())
-
-
-def _in(directions: Array, names: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(name for name, row in zip(names, directions, strict=True) if np.abs(row).max(initial=0.0) > _SMALL)
-
-
-def _is_symmetric(matrix: Matrix) -> bool:
-    return all(equal(matrix[i][j], matrix[j][i]) for i in range(len(matrix)) for j in range(i))
 
 
 def _beside(subject: SymbolicState, matrix: Matrix) -> Array:

@@ -11,13 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, State
+from freebody.core import Array, MotionError, State
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.parameter_definitions import definitions
+from freebody.equations.language import definitions
+from freebody.model.start import evaluate as quantity
+from freebody.model.start import parameter_values
 from freebody.solve.perturbed_states import alike
 from freebody.symbolic.decimals import exact, shown, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import is_heavy
+from freebody.symbolic.printers.text import text
 from freebody.symbolic.tree import PI, ZERO, Sym, Tree, mul, number, replace, symbols
 
 if TYPE_CHECKING:
@@ -73,7 +76,7 @@ class Substitutions:
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
         """The start of the model with these values. Raises ``ModelFileError``, ``MotionError``."""
         first, _ = mechanism.start(initial)
-        changes = self._numbers(_parameters(mechanism.source().about, first.p))
+        changes = self._numbers(parameter_values(mechanism.source(), first.p))
         if at_rest:
             changes["at_rest"] = True
             if initial is None and mechanism.lowered().start.rates:
@@ -83,13 +86,10 @@ class Substitutions:
     def near(self, subject: SymbolicState, rng: np.random.Generator) -> State | None:
         """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
         None where it cannot be assembled."""
-        from freebody.core import MotionError
-
         source, state, names = subject.source, subject.state, subject.names
         p = self.parameters_near(subject, state, rng)
-        set_to = self._consistent(_parameters(source.about, p))
-        q = {name: float(x) for name, x in zip(names, state.q + rng.uniform(-_NEAR, _NEAR, len(names)), strict=True)}
-        fixed = {name: x for name, x in set_to.items() if name in q}
+        q = dict(zip(names, (state.q + rng.uniform(-_NEAR, _NEAR, len(names))).tolist(), strict=True))
+        fixed = {name: x for name, x in self._consistent(parameter_values(source, p)).items() if name in q}
         parts = rng.uniform(-1, 1, len(names))
         rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
@@ -100,22 +100,18 @@ class Substitutions:
 
     def parameters_near(self, subject: SymbolicState, state: State, rng: np.random.Generator) -> Array:
         """Parameters beside those of a state, with which it may not close; what is set stays so."""
-        values = _parameters(subject.source.about, state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p)))
+        values = parameter_values(subject.source, state.p * rng.uniform(1 - _NEAR, 1 + _NEAR, len(state.p)))
         set_to = self._consistent(values)
         return subject.source.bind({name: set_to.get(name, value) for name, value in values.items()})
 
     def generic(self, subject: SymbolicState) -> State:
         """The state where no parameter is 0 by chance, so that what drops out of a balance does so whatever they are."""
-        from freebody.core import MotionError
-
         source, state = subject.source, subject.state
-        values = _parameters(source.about, state.p)
-        moved = {name: value or _NEAR for name, value in values.items()}
-        moved |= self._consistent(moved)
-        names = [c["name"] for c in source.about["coordinates"]]
-        p = source.bind({name: moved[name] for name in values})
+        values = {name: value or _NEAR for name, value in parameter_values(source, state.p).items()}
+        set_to = self._consistent(values)
+        p = source.bind({name: set_to.get(name, value) for name, value in values.items()})
         try:
-            place, _ = source.assemble(p, state.t, guess=dict(zip(names, state.q.tolist(), strict=True)))
+            place, _ = source.assemble(p, state.t, guess=dict(zip(subject.names, state.q.tolist(), strict=True)))
         except MotionError:
             return state
         found = replaced(place, u=state.u)
@@ -123,8 +119,6 @@ class Substitutions:
 
     def said(self) -> list[str]:
         """As words: ``theta = π/4``."""
-        from freebody.symbolic.printers.text import text
-
         return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
 
     def _consistent(self, parameters: Mapping[str, float]) -> dict[str, Any]:
@@ -141,19 +135,20 @@ class Substitutions:
 def given(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()) -> Substitutions:
     """What is set, exactly, and lengths and angles that the model defines by others, but what is ``free``. Raises ``ValueError`` where it is no
     quantity and no letter."""
-    about = mechanism.source().about
-    letters = [p["name"] for p in about["parameters"]]
-    known = [*letters, *(c["name"] for c in about["coordinates"])]
+    source = mechanism.source()
+    units = {p["name"]: p["unit"] for p in source.about["parameters"]}
+    letters, known = [*units], [*units, *(c["name"] for c in source.about["coordinates"])]
     for name in set:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
-    sizes = [p["name"] for p in about["parameters"] if not is_heavy(p["unit"])]
-    defined = {name: tree for name, tree in definitions(mechanism.source(), {*set, *free}).items() if name in sizes}
+    defined = {name: tree for name, tree in definitions(source, {*set, *free}).items() if not is_heavy(units[name])}
     named = {Sym(name): tree for name, tree in defined.items()}
     return Substitutions({name: replace(_exact(value, letters), named) for name, value in set.items()}, defined=defined)
 
 
 def _exact(value: Any, letters: list[str]) -> Tree:
+    from freebody.model.errors import ModelProblem
+
     if isinstance(value, int | float | Fraction) and not isinstance(value, bool):
         return exact(float(value))
     if found := _DEGREES.fullmatch(str(value)):
@@ -162,18 +157,7 @@ def _exact(value: Any, letters: list[str]) -> Tree:
         return number(Fraction(str(value).strip()))
     if str(value).strip() in letters:
         return Sym(str(value).strip())
-    return exact(_quantity(str(value), letters))
-
-
-def _quantity(value: str, letters: list[str]) -> float:
-    from freebody.model.errors import ModelProblem
-    from freebody.model.start import evaluate as quantity
-
     try:
-        return quantity(value, {})
-    except ModelProblem as complaint:
-        raise ValueError(f"{value!r} is no quantity and none of {', '.join(letters)}: {complaint.what}") from None
-
-
-def _parameters(about: Mapping[str, Any], p: Any) -> dict[str, float]:
-    return {each["name"]: float(x) for each, x in zip(about["parameters"], p, strict=True)}
+        return exact(quantity(str(value), {}))
+    except ModelProblem as problem:
+        raise ValueError(f"{str(value)!r} is no quantity and none of {', '.join(letters)}: {problem.what}") from None

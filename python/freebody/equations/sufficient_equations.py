@@ -9,11 +9,11 @@ import numpy as np
 
 from freebody.core import Array, FreeBodies
 from freebody.equations.balances.smallest import smallest_set
+from freebody.equations.dependent_coordinates import holds
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.minimal import from_search
-from freebody.equations.immobile_coordinates import holds
 from freebody.equations.linear import Linear
 from freebody.equations.linearization import independent
 from freebody.equations.solve import TooLarge
