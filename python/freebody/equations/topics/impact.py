@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.core import Load
-from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Words
+from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Words, listed
 from freebody.document.document import Document
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
@@ -66,6 +65,8 @@ def impact(
 
 
 def _what(found: Impact) -> list[Block]:
+    from freebody.views.diagram.impulses import Impulses
+
     said = "During the short impact the configuration stays the same, and the rates jump. Impulses are the integrals of forces over it."
     if found.subject.blow.given:
         said += " Before it everything is at rest."
@@ -75,71 +76,49 @@ def _what(found: Impact) -> list[Block]:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
         items: list[Words] = [[found.letter(load), f", {_named(found, load, body)}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
-    from freebody.views.diagram.impulses import Impulses
-
+    drawn = Impulses(f"blow of {found.subject.source.name}", found.subject.blow)
+    made.append(Figure(drawn, "Impulses, and the jumps of momentum.", "impulses"))
     missing = found.subject.blow.absent()
-    made.append(
-        Figure(
-            Impulses(f"blow of {found.subject.source.name}", found.subject.blow),
-            "Impulses, and the jumps of momentum.",
-            "impulses",
-        )
-    )
     return [*made, Paragraph("Absent:"), Bullets(missing)] if missing else made
 
 
 def _named(found: Impact, load: Load, body: str) -> str:
-    return "which strikes" if load.name in found.subject.blow.given else f"of the {_plain(_on(load, body))}"
-
-
-def _plain(words: str) -> str:
-    return words.removeprefix("the ")
+    """A pair of equal pushes or pulls is told as that on the body, what has a sign as it is counted."""
+    words = load_words(load, [body] if load.kind in ("contact", "string") else ())
+    return "which strikes" if load.name in found.subject.blow.given else f"of the {words.removeprefix('the ')}"
 
 
 def _equations(found: Impact) -> list[Block]:
     free = found.conserved()
     made: list[Block] = [Heading("Impulse and momentum")]
     if free:
-        made.append(
-            Paragraph(
-                "No impulse has a part in these, in the configuration of the impact, so the momenta are the same before and after:"
-            )
-        )
+        constant = "No impulse has a part in these, in the configuration of the impact, so the momenta are the same before and after:"
+        made.append(Paragraph(constant))
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
     before = ", everything was at rest before" if found.subject.blow.given else " − momentum before"
     made.append(Paragraph(f"With the impulses in them, one for each coordinate, impulse = momentum after{before}:"))
-    of_coordinates = found.of_coordinates()
-    made += [_with_impulses(found, each) for each in of_coordinates]
-    return made + _of_bodies(found, of_coordinates)
-
-
-def _of_bodies(found: Impact, stated: Sequence[Stated]) -> list[Block]:
-    """The balances of the bodies on which impulses act that those stated do not have."""
-    free, there = found.subject.free, {c.load for each in stated for c in each.balance.contributions if not c.absent}
-    said = {each.title for each in stated}
-    kept_out = {load.symbol for i, load in enumerate(free.loads) if load in found.forces and i not in there}
-    bodies = [body for body in free.bodies if any(load.symbol in kept_out for load in free.on(body))]
-    if not bodies:
-        return []
-    words = Paragraph(f"Of {joined(bodies)} alone, on which impulses of joints act that are not in those:")
-    more = [each for each in found.of_bodies() if each.balance.bodies[0] in bodies and each.title not in said]
-    return [words, *(_with_impulses(found, each) for each in more)]
+    stated = found.of_coordinates()
+    made += [_with_impulses(found, each) for each in stated]
+    # the balances of the bodies on which impulses act that those of the coordinates do not have
+    loads, said = found.subject.free, {each.title for each in stated}
+    there = {c.load for each in stated for c in each.balance.contributions if not c.absent}
+    kept_out = {load.symbol for i, load in enumerate(loads.loads) if load in found.forces and i not in there}
+    if bodies := [body for body in loads.bodies if any(load.symbol in kept_out for load in loads.on(body))]:
+        made.append(Paragraph(f"Of {joined(bodies)} alone, on which impulses of joints act that are not in those:"))
+        more = [each for each in found.of_bodies() if each.balance.bodies[0] in bodies and each.title not in said]
+        made += [_with_impulses(found, each) for each in more]
+    return made
 
 
 def _with_impulses(found: Impact, each: Stated) -> Equation:
+    """A balance with its impulses, and which impulses on the bodies are not in it, and why."""
     unknown = [Sym(after(name), 1) for name in found.subject.names]
     left = presented(found.acting(each.balance), unknowns=list(found.impulses.values()))
-    return Equation(left, presented(found.jump(each.balance), unknowns=unknown), _title(each.title), note=_left_out(found, each))
-
-
-def _left_out(found: Impact, each: Stated) -> Words:
-    """Which impulses on the bodies are not in an equation, and why."""
-    said: list[str | Sym] = []
+    right = presented(found.jump(each.balance), unknowns=unknown)
+    said: list[str | Side] = []
     for why, loads in dropped(found.subject, each).items():
-        letters = [found.letter(load) for load in loads]
-        said += ["; " if said else "Not in it: ", letters[0], *(x for letter in letters[1:] for x in (", ", letter))]
-        said.append(f" ({agree(why, len(loads))})")
-    return [*said, "."] if said else ""
+        said += ["; " if said else "Not in it: ", *listed(map(found.letter, loads)), f" ({agree(why, len(loads))})"]
+    return Equation(left, right, _title(each.title), note=[*said, "."] if said else "")
 
 
 def _title(title: str) -> str:
@@ -156,27 +135,18 @@ def _restitution(found: Impact) -> list[Block]:
         if not found.holds(each):
             made.append(Paragraph(f"At {each.name}: {found.otherwise()}."))
             continue
-        struck = found.change.impulses is not None and each.name in found.change.impulses.restitution
-        back = (
-            f"{each.name} throws back"
-            if not is_zero(right)
-            else f"At {each.name} nothing comes back"
-            if struck
-            else f"{each.name} holds"
-        )
-        made.append(Equation(left, right, back))
+        back = f"At {each.name} nothing comes back" if each.name in found.restitution else f"{each.name} holds"
+        made.append(Equation(left, right, back if is_zero(right) else f"{each.name} throws back"))
     made += _friction(found)
     return [Heading("What holds" if found.subject.blow.given else "Restitution, and what holds"), *made] if made else []
 
 
 def _friction(found: Impact) -> list[Block]:
     """What friction does: of what slides its law, of what sticks that it could."""
-    made: list[Block] = []
     sizes = found.sizes()
-    for load in found.slides:
-        note = "Coulomb's law, integrated over the impact: friction has all the impulse that it can, against the sliding."
-        law = found.law(load)
-        made.append(Equation(found.letter(load), law, f"{load.name} slides throughout the impact", note=note))
+    note = "Coulomb's law, integrated over the impact: friction has all the impulse that it can, against the sliding."
+    words = "{} slides throughout the impact"
+    made: list[Block] = [Equation(found.letter(x), found.law(x), words.format(x.name), note=note) for x in found.slides]
     stuck = all(found.holds(each) for each in found.conditions())
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
@@ -199,8 +169,7 @@ def _answers(found: Impact) -> list[Block]:
     made += _stated(solved.known, "What held before the impact gives of the rates then")
     made += _stated(solved.names, "With")
     own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
-    made += _stated(own, "So" if made[1:] else "")
-    made += _stated(solved.joints, "and in the joints")
+    made += _stated(own, "So" if made[1:] else "") + _stated(solved.joints, "and in the joints")
     return made + [Paragraph(f"Of the joints no more is said: {solved.untold}.")] * bool(solved.untold)
 
 
@@ -220,28 +189,21 @@ def _given(found: Impact) -> list[Block]:
 def _matrix(found: Impact) -> list[Block]:
     """All equations together in numbers."""
     rows = Rows.of(found)
-    matrix, right = rows.matrix(found)
     unknowns = [Sym(after(name), 1) for name in found.subject.names] + rows.impulses
+    matrix, right = rows.matrix(found)
+    table = [[ZERO if abs(x) < _NOTHING else Num(float(f"{x:.5g}")) for x in row] for row in (*matrix, right)]
     name = "The balances of the coordinates, then what holds, in numbers (SI) at this impact"
-    return [MatrixEquation([list(map(_figure, row)) for row in matrix], unknowns, list(map(_figure, right)), name)]
-
-
-def _figure(value: float) -> Num:
-    return ZERO if abs(value) < _NOTHING else Num(float(f"{value:.5g}"))
+    return [MatrixEquation(table[:-1], unknowns, table[-1], name)]
 
 
 def _numbers(found: Impact) -> list[Block]:
     change = found.change
     given = [Sym(letter) for letter in found.subject.blow.given.values()]
-    before, now = change.before.u, change.after.u
-    small = _ROUND_OFF * max(map(abs, (*before.values(), *now.values())), default=0.0)
-    rows: list[Words] = [
-        [Sym(name, 1), f": {_clean(before[name], small):.6g} before, {_clean(u, small):.6g} after"] for name, u in now.items()
-    ]
-    impulses: list[Words] = [
-        [x, " is not determined: more is held than it takes" if np.isnan(size) else f" = {size:.6g}"]
-        for x, size in found.sizes().items()
-    ]
+    small = _ROUND_OFF * max(map(abs, (*change.before.u.values(), *change.after.u.values())), default=0.0)
+    before, now = ({name: u if abs(u) > small else 0.0 for name, u in each.u.items()} for each in (change.before, change.after))
+    rows: list[Words] = [[Sym(name, 1), f": {before[name]:.6g} before, {u:.6g} after"] for name, u in now.items()]
+    unknown = " is not determined: more is held than it takes"
+    impulses: list[Words] = [[x, unknown if np.isnan(size) else f" = {size:.6g}"] for x, size in found.sizes().items()]
     where: Words = f"At t = {change.t:.6g} s, rates in m/s or rad/s:"
     if given:
         where = ["With ", given[0], f" = {found.values[given[0]]:.6g} N·s, rates in m/s or rad/s:"]
@@ -250,12 +212,3 @@ def _numbers(found: Impact) -> list[Block]:
     if impulses:
         made += [Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses)]
     return [*made, Paragraph(f"The impact {took} J." + f" {change.note}" * bool(change.note))]
-
-
-def _clean(rate: float, small: float) -> float:
-    return rate if abs(rate) > small else 0.0
-
-
-def _on(load: Load, body: str) -> str:
-    """A pair of equal pushes or pulls is told as that on the body, what has a sign as it is counted."""
-    return load_words(load, [body] if load.kind in ("contact", "string") else ())

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import repeat
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import GROUND, FreeBodies, Load, SymbolicAnswers
 from freebody.equations.answers import AGREES
 from freebody.equations.balances.minimal import minimal_form
-from freebody.equations.derivation.balance_text import Stated
+from freebody.equations.derivation.balance_text import Stated, of_bodies
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.data import Balance, Row, SymbolicState
 from freebody.equations.linear import linear_in
@@ -24,7 +23,6 @@ from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter, Letters
-from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, mul, negative, power, rebuilt, symbols, walk
 from freebody.symbolic.tree import replace as put
@@ -95,15 +93,14 @@ class Impact:
         spec = self.subject.source.spec
         given = {limit["name"]: limit["restitution"] for kind in ("contacts", "strings", "stops") for limit in spec[kind]}
         named = {name: x for name, x in given.items() if isinstance(x, str) and x.isidentifier()}
-        return {
-            name: Sym(named.get(name, re.sub(r"\W+", "_", f"e_{name}").strip("_"))) for name, e in self.restitution.items() if e
-        }
+        back = [name for name, e in self.restitution.items() if e]
+        return {name: Sym(named.get(name, re.sub(r"\W+", "_", f"e_{name}").strip("_"))) for name in back}
 
     def letter(self, load: Load) -> Sym:
         """The letter of an impulse."""
         return Sym(self.subject.blow.given.get(load.name) or impulse(load))
 
-    @property
+    @cached_property
     def impulses(self) -> dict[Sym, Sym]:
         """The impulse for each unknown force."""
         return {Sym(load.symbol): Sym(impulse(load)) for load in self.forces}
@@ -163,14 +160,12 @@ class Impact:
 
     def conditions(self) -> list[Condition]:
         """What holds after the impact: rates that are 0, or so much of what they were."""
-        rows = [(row, row.rate) for row in self.subject.rows if row.rate is not None]
-        return [Condition(row.name, self.told(rate), self._back(row, rate)) for row, rate in rows]
-
-    def _back(self, row: Row, rate: Tree) -> Tree:
-        """How much comes back of a rate: of a gap (a row with a value) that closes."""
-        if row.value is None or row.name not in self.coefficients or self._vanishes(rate):
-            return ZERO
-        return self.coefficients[row.name]
+        made = []
+        for row in (row for row in self.subject.rows if row.rate is not None):
+            closes = row.value is not None and not self.vanishes(row.rate)  # a gap
+            back = self.coefficients.get(row.name, ZERO) if closes else ZERO
+            made.append(Condition(row.name, self.told(row.rate), back))
+        return made
 
     def conserved(self) -> list[tuple[str, Balance]]:
         """Balances without any impulse, with their titles, as many as stay after what holds; empty where there are none."""
@@ -179,34 +174,27 @@ class Impact:
         if not asked or None in asked:
             return []
         balances = self.subject.balances([question for question in asked if question])
-        free = all(self._is_free(balance) for balance in balances)
-        return [(e.title, b.with_trees(self.told)) for e, b in zip(found, balances, strict=True)] if free else []
-
-    def _is_free(self, balance: Balance) -> bool:
-        """Whether no impulse has a part in a balance where the impact is; symbolically it may take what touches to see it."""
-        subject = self.subject
-        units = dict.fromkeys(self.impulses, 1.0)
-        parts = [c.tree for c in balance.contributions if not c.internal and subject.blow.grows(subject.free.loads[c.load])]
-        return all(abs(float(evaluate(part, subject.values | units, subject.tables))) < _NOTHING for part in parts)
+        values = self.values | dict.fromkeys(self.impulses, 1.0)  # in numbers: letters may not see what touches
+        grow = [self.subject.blow.grows(load) for load in self.subject.free.loads]
+        parts = [c.tree for balance in balances for c in balance.contributions if not c.internal and grow[c.load]]
+        if any(abs(float(evaluate(part, values, self.subject.tables))) >= _NOTHING for part in parts):
+            return []
+        return [(e.title, b.with_trees(self.told)) for e, b in zip(found, balances, strict=True)]
 
     @cached_property
     def zeros(self) -> dict[Sym, Tree]:
         """Coordinates, and rates before the impact, that are 0 there; and coordinates that are then as long as what holds."""
         state, names = self.subject.state, self.subject.names
-        found = [Sym(name) for name, x in zip(names, state.q, strict=True) if abs(x) < _NOTHING]
-        found += [Sym(name, 1) for name, x in zip(names, state.u, strict=True) if abs(x) < _NOTHING]
-        zeros: dict[Sym, Tree] = dict.fromkeys(found, ZERO)
-        return zeros | dict(pair for pair in map(self._along, self.roots.items(), repeat(zeros)) if pair is not None)
-
-    def _along(self, root: tuple[Tree, Tree], zeros: Mapping[Sym, Tree]) -> tuple[Sym, Tree] | None:
-        """A coordinate that is all of a distance where others are 0: y = −l of what hangs below."""
-        under = to_sympy(put(root[0], zeros))
-        factor, square = under.as_coeff_Mul()
-        letter = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
-        if not isinstance(letter, Sym) or letter.name not in self.subject.names:
-            return None
-        size = mul(root[1], from_sympy(factor ** (-to_sympy(Num(_HALF)))))
-        return letter, size if self.subject.values[letter] > 0 else negative(size)
+        rest = [Sym(n, dots) for dots, of in enumerate((state.q, state.u)) for n, x in zip(names, of, strict=True) if abs(x) < _NOTHING]
+        zeros: dict[Sym, Tree] = dict.fromkeys(rest, ZERO)
+        along: dict[Sym, Tree] = {}  # a coordinate that is all of a distance where others are 0: y = −l of what hangs below
+        for under, root in self.roots.items():
+            factor, square = to_sympy(put(under, zeros)).as_coeff_Mul()
+            letter = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
+            if isinstance(letter, Sym) and letter.name in names:
+                size = mul(root, from_sympy(factor ** (-to_sympy(Num(_HALF)))))
+                along[letter] = size if self.subject.values[letter] > 0 else negative(size)
+        return zeros | along
 
     def of_coordinates(self) -> list[Stated]:
         """The balances of the coordinates."""
@@ -214,34 +202,22 @@ class Impact:
 
     def of_bodies(self) -> list[Stated]:
         """The three balances of every body, two of a particle."""
-        made: list[tuple[dict[str, Any], str, str]] = []
-        for name, body in self.subject.free.bodies.items():
-            plain = {"ask": "equation", "bodies": [name]}
-            made += [(plain | {"along": "x"}, "x", "along"), (plain | {"along": "y"}, "y", "along")]
-            made += [] if body.particle else [(plain | {"about": "centre"}, f"the mass centre of {name}", "about")]
-        balances = self.subject.balances([question for question, _, _ in made])
-        return [Stated(b.with_trees(self.told), where, word) for b, (_, where, word) in zip(balances, made, strict=True)]
+        return [replace(each, balance=each.balance.with_trees(self.told)) for each in of_bodies(self.subject)]
 
     @cached_property
     def letters(self) -> Letters:
         """The letters of the model, of impulses and of rates after the impact."""
-        known = self.subject.letters
-        own = [name for name, e in self.coefficients.items() if e.name not in known]
-        made = [
-            *(
-                Letter(after(name), "coordinate", known[name].unit, f"{name}, rate after the impact")
-                for name in self.subject.names
-            ),
-            *(self._letter(load) for load in self.subject.blow.acting),
-            *(Letter(self.coefficients[name].name, "parameter", "", f"restitution at {name}") for name in own),
-        ]
+        known, written = self.subject.letters, ImpulseNaming.of(self.subject.blow).loads
+        made = [Letter(after(n), "coordinate", known[n].unit, f"{n}, rate after the impact") for n in self.subject.names]
+        for load in self.subject.blow.acting:
+            if load.name in self.subject.blow.given:
+                made.append(Letter(self.letter(load).name, "parameter", "N*s", "the impulse that strikes"))
+            else:
+                words = f"impulse of the {load_words(load).removeprefix('the ')}"
+                made.append(Letter(impulse(load), "unknown", "N*s", words, written[load.symbol]))
+        own = {name: e.name for name, e in self.coefficients.items() if e.name not in known}
+        made += [Letter(e, "parameter", "", f"restitution at {name}") for name, e in own.items()]
         return Letters({**known.table, **{letter.name: letter for letter in made}})
-
-    def _letter(self, load: Load) -> Letter:
-        words = load_words(load).removeprefix("the ")
-        if load.name in self.subject.blow.given:
-            return Letter(self.letter(load).name, "parameter", "N*s", "the impulse that strikes")
-        return Letter(impulse(load), "unknown", "N*s", f"impulse of the {words}", self.written[load.symbol])
 
     @cached_property
     def values(self) -> dict[Sym, float]:
@@ -253,20 +229,14 @@ class Impact:
         """Those after it."""
         return {Sym(after(name), 1): u for name, u in self.change.after.u.items()} if self.change.after else {}
 
-    def rates_held_before(self) -> list[Tree]:
-        """Rates that were 0 just before the impact, because of what held then."""
-        held = [row.rate for row in self.subject.rows_before if row.rate is not None]
-        return [rate for rate in held if self._vanishes(rate)]
-
-    def held_before(self, condition: Condition) -> bool:
-        """Whether a condition held before the impact."""
-        return self._vanishes(condition.rate)
+    def vanishes(self, rate: Tree) -> bool:
+        """Whether a rate is 0 just before the impact."""
+        return abs(float(evaluate(rate, self.values, self.subject.tables))) < _NOTHING
 
     def holds(self, condition: Condition) -> bool:
         """Whether a condition holds after the impact, to the rounding of the rates."""
-        one, other = (
-            float(evaluate(side, self.values | self.rates_after, self.subject.tables)) for side in self.sides(condition)
-        )
+        values = self.values | self.rates_after
+        one, other = (float(evaluate(side, values, self.subject.tables)) for side in self.sides(condition))
         return abs(one - other) <= self._rounding
 
     def sides(self, condition: Condition) -> tuple[Tree, Tree]:
@@ -296,18 +266,10 @@ class Impact:
         rates = [*(before.u.values() if before else ()), *(now.u.values() if now else ())]
         return 10 * AGREES * (max(map(abs, rates), default=1.0) or 1.0)
 
-    def _vanishes(self, rate: Tree) -> bool:
-        return abs(float(evaluate(rate, self.values, self.subject.tables))) < _NOTHING
-
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""
         happened = self.subject.blow
         return {self.letter(load): load.value for load in happened.impulses.loads if load.name not in happened.given}
-
-    @cached_property
-    def written(self) -> dict[str, Name]:
-        """How the letters of the impulses are written, by the symbols of their forces."""
-        return ImpulseNaming.of(self.subject.blow).loads
 
 
 def _root(value: Tree) -> tuple[Tree, Tree] | None:
@@ -328,19 +290,19 @@ def _root(value: Tree) -> tuple[Tree, Tree] | None:
 def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | float | None = None) -> Impact:
     """The impact of a ``number``, counted from 1, in the run of a mechanism: of all, of those of one contact, string or stop, or of
     those from a time ``at`` on (s, or ``"200 ms"``). Raises ``NotHere``."""
-    try:
-        found = mechanism.blow(number, of=of, at=at)
-    except NoImpact as error:
-        raise NotHere(str(error)) from None
-    return Impact(Struck(found.source, found.state, happened=found))
+    return _seen(lambda: mechanism.blow(number, of=of, at=at))
 
 
 def hammered(mechanism: Builder, state: State, point: str, **how: Any) -> Impact:
     """An impulse at a point of a mechanism at rest, see ``freebody.impact.applied_impulse.strike``. Raises ``NotHere``, ``ModelFileError``."""
     from freebody.impact.applied_impulse import strike
 
+    return _seen(lambda: strike(mechanism, state, point, **how))
+
+
+def _seen(happens: Callable[[], Impulsive]) -> Impact:
     try:
-        found = strike(mechanism, state, point, **how)
+        found = happens()
     except NoImpact as error:
         raise NotHere(str(error)) from None
     return Impact(Struck(found.source, found.state, happened=found))
@@ -354,8 +316,4 @@ def impulse(load: Load) -> str:
 
 def after(name: str) -> str:
     """The letter of a coordinate whose rate is that after the impact."""
-    return (
-        f"{name}_after"
-        if not name[-1:].isdigit()
-        else f"{name.rstrip('0123456789')}_{name[len(name.rstrip('0123456789')) :]}_after"
-    )
+    return re.sub(r"(?<=[^0-9])(?=[0-9]+$)", "_", name) + "_after"

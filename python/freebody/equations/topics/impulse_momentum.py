@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.equations.answers import with_positive_divisors
 from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
@@ -14,7 +15,8 @@ from freebody.equations.topics.abbreviations import Names
 from freebody.equations.topics.common import spread
 from freebody.equations.topics.impact_equations import Impact, after
 from freebody.equations.topics.impact_rows import MOST_OPERATIONS, Row, Rows, require_brief
-from freebody.symbolic.algebra import quotient, without_circles
+from freebody.solve.perturbed_states import independent
+from freebody.symbolic.algebra import divided, without_circles
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import length, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
@@ -104,8 +106,10 @@ class _System:
         self.names = Names(frozenset(found.letters))
         self.before = [Sym(name, 1) for name in found.subject.names]
         self.after = [Sym(after(x.name), 1) for x in self.before]
-        self.known = self._bound(found.rates_held_before(), self.before)
-        self.follow = self._follow([each.rate for each, _ in rows.conditions if is_zero(each.back)])
+        held = [row.rate for row in found.subject.rows_before if row.rate is not None and found.vanishes(row.rate)]
+        self.known = self._bound(held, self.before)
+        now = dict(zip(self.before, self.after, strict=True))
+        self.follow = self._bound([replace(each.rate, now) for each, _ in rows.conditions if is_zero(each.back)], self.after)
         self.mass = [[self._entry(entry) for entry in row] for row in rows.mass]
         self.gives = [self._named(row) for row in rows.gives]
         self.rows = [(each, *self._named(row)) for each, row in rows.conditions]
@@ -114,7 +118,7 @@ class _System:
     def solved(self) -> Jumps:
         """Without impulses where that is short: of what is free after the impact. Else impulses first, then the rates by them; last
         the impulses of joints."""
-        rates, impulses, full = self._freely() or self._by_impulses()
+        rates, impulses, full = self._without_impulses() or self._by_impulses()
         joints, untold = {}, ""
         try:
             joints = self._joints(full)
@@ -123,15 +127,17 @@ class _System:
         used = self.names.used((*impulses.values(), *rates.values(), *joints.values(), *self.known.values()))
         return Jumps(self.known, used, impulses, rates, joints, untold)
 
-    def _freely(self) -> tuple[Solution, Solution, Solution] | None:
+    def _without_impulses(self) -> tuple[Solution, Solution, Solution] | None:
         """Where what holds after the impact leaves rates free, and the others follow from these by short expressions: impulses give
         nothing to the balances of motions that it allows. Rates, impulses, and all of these by rates before."""
         free = [x for x in self.after if x not in self.follow]
         if len(self.follow) != len(self.rows) or not free:
             return None
-        ways = [[self._way(x, w) for w in free] for x in self.after]
-        if not self._idle(ways):
-            return None
+        motions = [linear_in(self.follow.get(x, x), free).coefficients for x in self.after]
+        ways = [[motion.get(w, ZERO) for w in free] for motion in motions]  # what each rate is for a unit of a free one
+        one, other = (self._in_numbers(rows) for rows in (ways, [row for row, _ in self.gives]))
+        if np.abs(one.T @ other).max(initial=0.0) >= _DEPENDS:
+            return None  # some impulse has a part in the balances of these motions
         changes = [add(self.follow.get(x, x), negative(self._of_before(y))) for x, y in zip(self.after, self.before, strict=True)]
         momenta = [add(*map(mul, row, changes), negative(rest)) for row, (_, rest) in zip(self.mass, self.gives, strict=True)]
         balances = [(add(*(mul(way[k], p) for way, p in zip(ways, momenta, strict=True))), ZERO) for k in range(len(free))]
@@ -142,30 +148,32 @@ class _System:
         full = {**rates, **{x: replace(tree, rates) for x, tree in self.follow.items()}}
         still = {x: tree for x, tree in full.items() if is_zero(tree)}
         impulses = {x: self._finished(replace(tree, still)) for x, tree in self._by_rates(self.acting).items()}
-        return {**rates, **self._rest(full)}, impulses, {**full, **{x: replace(tree, full) for x, tree in impulses.items()}}
+        rest = {x: self._stated(full[x], full[x]) for x in self.follow}  # by rates before where that is brief
+        for x, tree in rest.items():
+            if self._signs(tree) > max(_BRIEF, self._signs(self.follow[x])):
+                rest[x] = self.follow[x]
+        return {**rates, **rest}, impulses, {**full, **{x: replace(tree, full) for x, tree in impulses.items()}}
 
-    def _rest(self, full: Solution) -> Solution:
-        """The rates that follow, by rates before where that is brief."""
-        made = {x: self._stated(full[x], full[x]) for x in self.follow}
-        return {x: self.follow[x] if self._follows(x, tree) else tree for x, tree in made.items()}
-
-    def _way(self, x: Sym, free: Sym) -> Tree:
-        """What a rate is for a unit of a free one."""
-        return linear_in(self.follow.get(x, x), [free]).coefficients.get(free, ZERO)
-
-    def _idle(self, ways: Sequence[Sequence[Tree]]) -> bool:
-        """Whether no impulse gives anything to the balances of these motions."""
+    def _in_numbers(self, rows: Sequence[Sequence[Tree]]) -> Array:
         values, tables = self._numbers(), self.found.subject.tables
-        one, other = (
-            np.array([[float(evaluate(entry, values, tables)) for entry in row] for row in rows])
-            for rows in (ways, [row for row, _ in self.gives])
-        )
-        return bool(np.abs(one.T @ other).max(initial=0.0) < _DEPENDS)
+        return np.array([[float(evaluate(entry, values, tables)) for entry in row] for row in rows])
 
     def _by_impulses(self) -> tuple[Solution, Solution, Solution]:
         """Impulses by rates before, and rates after by these or by impulses, then all of them by rates before."""
-        jumped = self._jumped()
-        impulses = self._impulses(jumped)
+        # what every rate changes by, by the impulses
+        sums = [add(*map(mul, row, self.acting), rest) for row, rest in self.gives]
+        n = len(sums)
+        if all(is_zero(self.mass[i][k]) for i in range(n) for k in range(n) if i != k):
+            jumped = [divided(each, self.mass[i][i]) for i, each in enumerate(sums)]
+        else:
+            _require_few(n)
+            jumped = solve(self.mass, sums, self.found.letters, patience=0.0)
+        asked: list[_Sides] = []
+        for each, row, rest in self.rows:
+            before = add(*(mul(factor, self._of_before(x)) for factor, x in zip(row, self.before, strict=True)), rest)
+            jump = ZERO if self.found.vanishes(each.rate) else negative(mul(add(ONE, each.back), before))
+            asked.append((add(*map(mul, row, jumped)), jump))
+        impulses = self._together(asked, self.acting) if asked else {}
         old = [self._of_before(x) for x in self.before]
         full = {x: add(u, replace(jump, impulses)) for x, u, jump in zip(self.after, old, jumped, strict=True)}
         rates = {x: self._stated(add(u, jump), full[x]) for x, u, jump in zip(self.after, old, jumped, strict=True)}
@@ -183,10 +191,6 @@ class _System:
     def _named(self, row: Row) -> Row:
         return [self._entry(entry) for entry in row[0]], self._put(row[1])
 
-    def _follows(self, rate: Sym, tree: Tree) -> bool:
-        """Whether a rate after the impact is better told by others."""
-        return rate in self.follow and self._signs(tree) > max(_BRIEF, self._signs(self.follow[rate]))
-
     def _signs(self, tree: Tree) -> int:
         return length(tree, self.found.letters)[0]
 
@@ -196,11 +200,6 @@ class _System:
         chosen = [(self._put(left), self._put(replace(right, self.known))) for left, right in self._enough(balances, wanted)]
         return {x: self._stated(tree, tree) for x, tree in self._one_by_one(chosen, wanted).items()}
 
-    def _follow(self, held: Sequence[Tree]) -> Solution:
-        """Rates after the impact by others, from what holds then."""
-        now = dict(zip(self.before, self.after, strict=True))
-        return self._bound([replace(rate, now) for rate in held], self.after)
-
     def _bound(self, held: Sequence[Tree], there: Sequence[Sym]) -> Solution:
         """Some rates by others where some expressions of them vanish; those that are short."""
         there = [x for x in there if x not in self.found.zeros]
@@ -208,8 +207,7 @@ class _System:
         rows = [[self._put(each.coefficients.get(x, ZERO)) for x in there] for each in parts]
         if not rows:
             return {}
-        values, tables = self._numbers(), self.found.subject.tables
-        table = np.array([[float(evaluate(entry, values, tables)) for entry in row] for row in rows])
+        table = self._in_numbers(rows)
         if not (chosen := independent(table)):
             return {}
         simple = sorted(range(len(there)), key=lambda k: max(operations(rows[i][k]) for i in chosen))
@@ -224,23 +222,6 @@ class _System:
 
     def _of_before(self, rate: Sym) -> Tree:
         return self.found.zeros.get(rate, self.known.get(rate, rate))
-
-    def _jumped(self) -> list[Tree]:
-        """What every rate changes by, by the impulses."""
-        sums = [add(*(mul(factor, x) for factor, x in zip(row, self.acting, strict=True)), rest) for row, rest in self.gives]
-        n = len(sums)
-        if all(is_zero(self.mass[i][k]) for i in range(n) for k in range(n) if i != k):
-            return [_divided(each, self.mass[i][i]) for i, each in enumerate(sums)]
-        _require_few(n)
-        return solve(self.mass, sums, self.found.letters, patience=0.0)
-
-    def _impulses(self, jumped: Sequence[Tree]) -> Solution:
-        made: list[_Sides] = []
-        for each, row, rest in self.rows:
-            total = add(*(mul(factor, change) for factor, change in zip(row, jumped, strict=True)))
-            old = add(*(mul(factor, self._of_before(x)) for factor, x in zip(row, self.before, strict=True)), rest)
-            made.append((total, ZERO if self.found.held_before(each) else negative(mul(add(ONE, each.back), old))))
-        return self._together(made, self.acting) if made else {}
 
     def _joints(self, solution: Solution) -> Solution:
         """From the balances of single bodies, as many as it takes."""
@@ -259,9 +240,8 @@ class _System:
         values = self._numbers()
 
         def factor(x: Sym, tree: Tree) -> float:
-            return float(
-                evaluate(minus(replace(tree, {x: Num(1)}), replace(tree, {x: Num(0)})), values, self.found.subject.tables)
-            )
+            one, none = (replace(tree, {x: Num(value)}) for value in (1, 0))
+            return float(evaluate(minus(one, none), values, self.found.subject.tables))
 
         table = np.array([[factor(x, left) for x in wanted] for left, _ in equations])
         return [equations[i] for i in independent(table)]
@@ -291,10 +271,8 @@ class _System:
         short, whole = self._finished(staged), self.names.spelt(full)
         if operations(whole) > MOST_OPERATIONS:
             return short
-        letters = self.found.letters
-        forms = (
-            [whole, self.names.plain_angles(_fourier(whole))] if any(isinstance(part, Fn) for part in walk(whole)) else [whole]
-        )
+        letters, turns = self.found.letters, any(isinstance(part, Fn) for part in walk(whole))
+        forms = [whole, *([self.names.plain_angles(_fourier(whole))] if turns else [])]
         given = (sympy.together(to_sympy(form)) if isinstance(form, Add) else to_sympy(form) for form in forms)
         made = (self._finished(presented(form, letters, patience=_PATIENCE)) for form in given)
         best = min(made, key=lambda form: length(form, letters))
@@ -312,15 +290,6 @@ class _System:
         return values
 
 
-def independent(table: np.ndarray) -> list[int]:
-    """The first rows that do not depend on those before."""
-    chosen: list[int] = []
-    for i in range(len(table)):
-        if np.linalg.matrix_rank(table[[*chosen, i]], tol=_DEPENDS) > len(chosen):
-            chosen.append(i)
-    return chosen
-
-
 def _fourier(tree: Tree) -> Tree:
     """A fraction with products of sines and cosines as sums, in which the angles between parts stand by themselves."""
     import sympy
@@ -334,10 +303,6 @@ def _divides(tree: Tree) -> bool:
     """Whether an expression is divided by something that is 0 in some places."""
     below = (part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0)
     return any(isinstance(part, Fn) for base in below for part in walk(base))
-
-
-def _divided(tree: Tree, by: Tree) -> Tree:
-    return add(*(quotient(term, by) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
 
 
 def _require_few(unknowns: int) -> None:
