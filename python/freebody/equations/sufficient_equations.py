@@ -50,7 +50,9 @@ class Search:
 
     def enough(self, wanted: Sym, known: Mapping[Sym, Tree], titles: Collection[str]) -> SufficientSet:
         """The equations for one thing, ``known`` being answered before, from equations with ``titles``. Raises ``TooLarge``."""
-        if wanted.dots and self._is_prescribed(wanted):
+        rows, names = self.states[0].rows, list(self.states[0].accelerations)
+        table = np.array([[row.coefficients[name] for name in names] for row in rows])
+        if wanted.dots and rows and holds(table, names.index(wanted.name)):  # motions and loops alone give it
             return self._closed([], wanted, known, titles)
         refusal = TooLarge(f"{wanted.name}: no set of balances about named points gives it; ask for numbers")
         for stated in self._tries(wanted):
@@ -72,12 +74,6 @@ class Search:
         else:
             more = smallest_set(wanted.name, self.states, self.subject.points, known_motion=True, in_letters=True).equations
             yield stated + (from_search(self.subject, list(more)) or [])
-
-    def _is_prescribed(self, wanted: Sym) -> bool:
-        """Whether motions and loops alone give an acceleration."""
-        rows = self.states[0].rows
-        names = list(self.states[0].accelerations)
-        return bool(rows) and holds(np.array([[row.coefficients[n] for n in names] for row in rows]), names.index(wanted.name))
 
     def _closed(self, stated: Sequence[Stated], wanted: Sym, known: Mapping[Sym, Tree], titles: Collection[str]) -> SufficientSet:
         """With the rows that it takes, and without what it does not take."""

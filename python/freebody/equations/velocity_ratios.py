@@ -71,10 +71,16 @@ def ratios(subject: SymbolicState, put: Put, free: str) -> Ratios:
     rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest))
             for row in subject.rows if row.kind != "motion"]  # fmt: skip
     while unknown := [name for name in names if name not in found.rates]:
-        block, of = _block(rows, unknown, subject.values)
-        _stated(found, subject, block, of)
-    _sum_up(found, subject, put, names)
-    _drive(found, subject, put)
+        _tell(found, subject, *_block(rows, unknown, subject.values))
+    _sum_up(found, subject, put)
+    for row in subject.rows:
+        if row.kind == "motion":  # what it takes: J z̈ less the other loads
+            [factor] = row.linear.coefficients.values()
+            found.prescribed = negative(over(put(row.linear.rest), put(factor)))
+            force = next(Sym(load.symbol) for load in subject.free.loads if load.kind == "motion" and load.unknown)
+            [[own], rest] = coefficients(found.load, [force])
+            whole = add(mul(found.inertia, Sym(free, 2)), negative(rest))
+            found.driving = {force: whole if own == ONE else over(whole, own)}
     return found
 
 
@@ -84,18 +90,6 @@ def driven(subject: SymbolicState) -> str | None:
     if len(motions) > 1 or any(len(row.linear.coefficients) != 1 for row in motions):
         raise TooLarge("motions prescribe more than one coordinate; ask for numbers")
     return next(iter(motions[0].linear.coefficients)).name if motions else None
-
-
-def _drive(found: Ratios, subject: SymbolicState, put: Put) -> None:
-    """What the motion takes: J z̈ less the other loads."""
-    for row in subject.rows:
-        if row.kind == "motion":
-            [factor] = row.linear.coefficients.values()
-            found.prescribed = negative(over(put(row.linear.rest), put(factor)))
-            force = next(Sym(load.symbol) for load in subject.free.loads if load.kind == "motion" and load.unknown)
-            [[own], rest] = coefficients(found.load, [force])
-            whole = add(mul(found.inertia, Sym(found.free, 2)), negative(rest))
-            found.driving = {force: whole if own == ONE else over(whole, own)}
 
 
 def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, float]) -> tuple[list[Linear], list[str]]:
@@ -109,25 +103,20 @@ def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, 
     raise TooLarge("loops leave more than one coordinate free; put numbers by set, or ask for numbers")
 
 
-def _stated(found: Ratios, subject: SymbolicState, block: Sequence[Linear], of: Sequence[str]) -> None:
+def _tell(found: Ratios, subject: SymbolicState, block: Sequence[Linear], of: Sequence[str]) -> None:
+    """Some coordinates by those before: k_ψ and c_ψ, or a longer stem if the model has such letters."""
     matrix = [[_plain(row.coefficients.get(Sym(name, 2), ZERO)) for name in of] for row in block]
-    for stem, stated, own in (("k", found.rates, False), ("c", found.rests, True)):
-        right = [negative(_plain(add(*_known(row, stated), *([found.moving(row.rest)] if own else [])))) for row in block]
+    for stem, stated in (("k", found.rates), ("c", found.rests)):
+        right = []
+        for row in block:
+            known = [mul(tree, stated[x.name]) for x, tree in row.coefficients.items() if x.name in stated]
+            right.append(negative(_plain(add(*known, *([found.moving(row.rest)] if stated is found.rests else [])))))
         for name, tree in zip(of, solve(matrix, right, subject.letters, patience=PATIENCE / 5), strict=True):
-            letter = _letter(subject, stem, name)
-            stated[name] = tree if operations(tree) <= _SHORT else letter
-            found.named |= {letter: tree} if stated[name] is letter else {}
-
-
-def _known(row: Linear, stated: Mapping[str, Tree]) -> list[Tree]:
-    return [mul(tree, stated[x.name]) for x, tree in row.coefficients.items() if x.name in stated]
-
-
-def _letter(subject: SymbolicState, stem: str, name: str) -> Sym:
-    """k_ψ or c_ψ, or a longer stem if the model has that."""
-    while (letter := f"{stem}_{name}") in subject.letters:
-        stem += stem
-    return Sym(letter)
+            word = stem
+            while (letter := f"{word}_{name}") in subject.letters:
+                word += word
+            stated[name] = tree if operations(tree) <= _SHORT else Sym(letter)
+            found.named |= {} if operations(tree) <= _SHORT else {Sym(letter): tree}
 
 
 def _plain(tree: Tree) -> Tree:
@@ -139,10 +128,11 @@ def _plain(tree: Tree) -> Tree:
     return measured(expression.xreplace({f: f.evalf(17) for f in constants})) if constants else tree
 
 
-def _sum_up(found: Ratios, subject: SymbolicState, put: Put, names: Sequence[str]) -> None:
+def _sum_up(found: Ratios, subject: SymbolicState, put: Put) -> None:
     """The inertia felt and the load."""
     from freebody.equations.topics.lagrange import equations
 
+    names = subject.names
     gone = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown and load.kind != "motion"}
     gone |= {Sym(name, 1): ZERO for name in names if subject.at_rest}
     accelerations = [Sym(name, 2) for name in names]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -67,48 +67,35 @@ class Impulsive(ABC):
 
     def absent(self, *group: str) -> list[str]:
         """In sentences, what has no impulse on a group of bodies (all by default), and why."""
-        chosen = set(group or self.free.bodies)
-        stated = [f"{', '.join(words)}: finite, so no impulse in a time that goes to 0"] if (words := self._weak(chosen)) else []
-        sides = {
-            each["name"]: {each["first"], each["second"]} for each in self.source.about["joints"] + self.source.about["limits"]
-        }
-        impulses, joints = self.change.impulses, self.source.spec["joints"]
-        spared = impulses.spared if impulses else ()
-        here = [name for name in spared if sides[name] & chosen]
-        idle = [name for name in self._idle() if name not in spared and sides[name] & chosen]
-        has_friction = [joint["name"] for joint in joints if joint.get("friction") and sides[joint["name"]] & chosen]
-        stated += [f"{name}, which lets go: its impulse would have to be negative" for name in here]
+        chosen, about = set(group or self.free.bodies), self.source.about
+        finite = (x for x in self.finite if not x.inside(chosen) and any(part.body in chosen for part in x.on))
+        names = list(dict.fromkeys(f"weight of {x.of[-1]}" if x.kind == "weight" else x.name for x in finite))
+        here = [each["name"] for each in about["joints"] + about["limits"] if {each["first"], each["second"]} & chosen]
+        spared = [name for name in (self.change.impulses.spared if self.change.impulses else ()) if name in here]
+        closed = {row["name"] for row in self.rows_before()} - {load.name for load in self.acting}
+        idle = [x["name"] for x in about["limits"] if x["name"] in closed and x["name"] in here and x["name"] not in spared]
+        has_friction = [x["name"] for x in self.source.spec["joints"] if x.get("friction") and x["name"] in here]
+        stated = [f"{', '.join(names)}: finite, so no impulse in a time that goes to 0"] if names else []
+        stated += [f"{name}, which lets go: its impulse would have to be negative" for name in spared]
         stated += [f"{name}: nothing drives it closed in the impact, so it has no impulse" for name in idle]
         return stated + [f"friction of {name}: left out, joints pass impulses on without it" for name in has_friction]
-
-    def _idle(self) -> list[str]:
-        """Contacts, strings and stops that were closed before and have no part in the impact."""
-        loaded = {load.name for load in self.acting}
-        closed = dict.fromkeys(row["name"] for row in self.rows_before())
-        return [each["name"] for each in self.source.about["limits"] if each["name"] in closed.keys() - loaded]
-
-    def _weak(self, group: Collection[str]) -> list[str]:
-        """The names of the finite loads on a group from outside."""
-        here = (x for x in self.finite if not x.inside(group) and any(part.body in group for part in x.on))
-        return list(dict.fromkeys(f"weight of {load.of[-1]}" if load.kind == "weight" else load.name for load in here))
 
     @cached_property
     def impulses(self) -> FreeBodies:
         """The impulse diagrams as data: loads are impulses, N·s and N·m·s; in place of accelerations stand the jumps of the
         velocities, so that for each body, and each group, impulses add up to m Δv at G and I Δω."""
-        bodies = {name: _jumped(body, self._jump(body)) for name, body in self.free.bodies.items()}
+        before, after = self.change.before, self.change.after
+        assert before is not None and after is not None
+        bodies = {}
+        for name, body in self.free.bodies.items():  # velocities are as linear in the rates as accelerations in theirs
+            parts = (np.array(by) * (after.u[c] - before.u[c]) for c, by in body.by_accelerations.items())
+            x, y, turn = sum(parts, np.zeros(3)).tolist()
+            bodies[name] = replace(body, a=(x, y), alpha=turn)
         loads, sizes = self.free.loads, self._sizes(bodies)
         stated = [replace(load, value=sizes[i]) for i, load in enumerate(loads) if self.grows(load)]
         place = {i: k for k, i in enumerate(i for i, load in enumerate(loads) if self.grows(load))}
         linked = (replace(x, follows=(place[x.follows[0]], x.follows[1])) if x.follows else x for x in stated)
         return FreeBodies(bodies, tuple(linked))
-
-    def _jump(self, body: Body) -> Array:
-        """Δv of the mass centre and Δω (3,): velocities are as linear in the rates as accelerations in theirs."""
-        before, after = self.change.before, self.change.after
-        assert before is not None and after is not None
-        parts = (np.array(by) * (after.u[name] - before.u[name]) for name, by in body.by_accelerations.items())
-        return sum(parts, np.zeros(3))
 
     def _sizes(self, bodies: dict[str, Body]) -> Array:
         """The impulse of every load, from the momentum of every body; NaN of one that this does not determine."""
@@ -200,8 +187,3 @@ def find(run: Run, number: int = 1, *, of: str | None = None, after: float | Non
         which = (f" of {of}" if of else "") + (f" from {after:g} s on" if after is not None else "")
         raise NoImpact(f"the run has {len(asked)} impacts{which}, none of number {number}; let it run longer, or start it otherwise")
     return asked[number - 1]
-
-
-def _jumped(body: Body, jump: Array) -> Body:
-    x, y, turn = (float(part) for part in jump)
-    return replace(body, a=(x, y), alpha=turn)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, FreeBodies, Load, MotionError, OutcomeKind, Row, State
+from freebody.core import Array, CompiledModel, FreeBodies, MotionError, OutcomeKind, State
 
 DEPENDENT = 1e-7
 """Part of a row or column that is left when those before it are taken out, below which it is a combination of them."""
@@ -41,10 +41,8 @@ def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
     there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have
     ``parameters``, one after the other, or come as near to these as they can."""
-    first = source.free_bodies(state)
-    coordinates = source.about["coordinates"]
-    in_order = {c["name"]: first.accelerations[c["name"]] for c in coordinates}
-    first = replace(first, accelerations=in_order)
+    first, coordinates = source.free_bodies(state), source.about["coordinates"]
+    first = replace(first, accelerations={c["name"]: first.accelerations[c["name"]] for c in coordinates})
     found = [first]
     rng = np.random.default_rng(SEED)
     steps = np.array([STEP["rad"] if c["dimension"] == "rad" else STEP["m"] * _size(first) for c in coordinates])
@@ -106,24 +104,25 @@ class Closing:
 
     def __init__(self, source: CompiledModel, state: State, first: FreeBodies) -> None:
         self.core, self.state = source, state
-        self.loose = _without_motions(source)
+        motions = [{**motion, "level": "acceleration"} for motion in source.spec.get("motions", [])]
+        self.loose = CompiledModel.of({**source.spec, "motions": motions}) if motions else source  # motions do not say where it is
         self.names = [c["name"] for c in source.about["coordinates"]]
-        limits = [limit["name"] for limit in source.about["limits"]]
-        held = [(row, load) for row, load in _in_pairs(first) if row.name in limits]
+        limits, held = [limit["name"] for limit in source.about["limits"]], []
+        for name in dict.fromkeys(row.name for row in first.rows if row.name in limits):
+            loads = [load for load in first.loads if load.name == name and load.unknown and not load.follows]
+            held += zip([row for row in first.rows if row.name == name], loads, strict=False)  # they come in the same order
         self.closed = [limits.index(row.name) for row, _ in held]
         self.normal = np.array([load.kind != "friction" for _, load in held], bool)
-        self.slopes = np.array([[row.coefficients[name] for name in self.names] for row, _ in held])
-        self.slopes = self.slopes.reshape(len(held), len(self.names))
+        self.slopes = self.rows(replace(first, rows=tuple(row for row, _ in held)))
         self.back = np.linalg.pinv(self.slopes, rcond=DEPENDENT) if held else np.zeros((len(self.names), 0))
         self.size = _size(first)
 
     def near(self, q: Array) -> FreeBodies | None:
         """The free bodies where loops and gaps are closed near ``q``; None where they do not close."""
         s, found = self.state, self.place(q)
-        if found is None:
-            return None
         try:
-            return self.core.free_bodies(replace(s, q=found, u=s.u - self.back @ (self.slopes @ s.u)))
+            u = s.u - self.back @ (self.slopes @ s.u)
+            return None if found is None else self.core.free_bodies(replace(s, q=found, u=u))
         except MotionError:
             return None
 
@@ -171,23 +170,6 @@ class Closing:
                 return None
             raise
         return np.array([stated[i].gap for i in self.closed]) * self.normal
-
-
-def _in_pairs(free: FreeBodies) -> Iterator[tuple[Row, Load]]:
-    """The rows with the loads that hold them, which come in the same order, those of each name."""
-    for name in dict.fromkeys(row.name for row in free.rows):
-        rows = [row for row in free.rows if row.name == name]
-        yield from zip(
-            rows, [load for load in free.loads if load.name == name and load.unknown and not load.follows], strict=False
-        )
-
-
-def _without_motions(source: CompiledModel) -> CompiledModel:
-    """The same mechanism, its motions holding accelerations only, so that they have no say in where it is."""
-    if not source.spec.get("motions"):
-        return source
-    motions = [{**motion, "level": "acceleration"} for motion in source.spec["motions"]]
-    return CompiledModel.of({**source.spec, "motions": motions})
 
 
 def _size(free: FreeBodies) -> float:

@@ -11,9 +11,9 @@ from freebody.document.document import Document
 from freebody.equations.derivation import conserved
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linear import linear_in
-from freebody.equations.solve import linear_system, solve
+from freebody.equations.solve import solve_equations
 from freebody.equations.topics.common import NotHere, brief, document, rate, subject_of
-from freebody.equations.topics.lagrange import Lagrange, equations
+from freebody.equations.topics.lagrange import equations
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.symbols import unicode_name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
@@ -42,11 +42,13 @@ def eliminated(subject: SymbolicState) -> Eliminated:
         raise NotHere("the coordinates depend on each other, so no momentum is that of one alone")
     kinetic, potential, found = equations(subject)
     where = symbols(kinetic, potential)
-    gone = [each for each in found if _is_ignorable(each, where)]
+    gone = [x for x in found if Sym(x.coordinate) not in where and is_zero(x.force) and not is_zero(x.momentum) and Sym("t") not in where]
     if not gone:
         raise NotHere("no momentum of a coordinate is conserved: every coordinate itself stands in the energies, or is driven")
     constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}
-    rates = _rates(subject, gone, constants)
+    rates = solve_equations(
+        [(each.momentum, constants[each.coordinate]) for each in gone], [Sym(name, 1) for name in constants], subject.letters
+    )
     kept = [each for each in found if each not in gone]
     names = subject.names
     second = {Sym(x.name, 2): rate(tree, [n for n in names if n not in constants]) for x, tree in rates.items()}
@@ -73,16 +75,6 @@ def elimination(mechanism: Builder, state: State) -> Document:
     return document(subject, "elimination by what is conserved", made, [*more, Letter("E", "constant", "J", "energy")])
 
 
-def _is_ignorable(each: Lagrange, where: set[Sym]) -> bool:
-    return Sym(each.coordinate) not in where and is_zero(each.force) and not is_zero(each.momentum) and Sym("t") not in where
-
-
-def _rates(subject: SymbolicState, gone: Sequence[Lagrange], constants: Mapping[str, Sym]) -> dict[Sym, Tree]:
-    unknowns = [Sym(each.coordinate, 1) for each in gone]
-    matrix, right = linear_system([(each.momentum, constants[each.coordinate]) for each in gone], unknowns)
-    return dict(zip(unknowns, solve(matrix, right, subject.letters), strict=True))
-
-
 def _put(subject: SymbolicState, tree: Tree, first: Mapping[Sym, Tree], second: Mapping[Sym, Tree]) -> Tree:
     for new in (second, first):
         tree = from_sympy(to_sympy(replace(tree, new)))
@@ -97,9 +89,8 @@ def _bare(subject: SymbolicState, tree: Tree) -> Tree:
         return tree
     fixed = set(subject.letters.of_kind("parameter", "constant"))
     above, _ = sympy.fraction(sympy.cancel(sympy.together(to_sympy(tree))))
-    kept = sympy.Mul(
-        *(factor**n for factor, n in sympy.factor_list(above)[1] if not {str(x) for x in factor.free_symbols} <= fixed)
-    )
+    factors = sympy.factor_list(above)[1]
+    kept = sympy.Mul(*(factor**n for factor, n in factors if not {str(x) for x in factor.free_symbols} <= fixed))
     moving = [Sym(name, 2) for name in subject.names]
     parts = linear_in(from_sympy(sympy.expand(kept)), moving)
     terms = [mul(brief(factor, subject.letters), x) for x, factor in parts.coefficients.items()]

@@ -56,7 +56,6 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
         places = place_of(subject_of(mechanism, first))
         chosen = replace(chosen, trees={name: tree for name, tree in chosen.trees.items() if name not in places})
     subject = subject_of(mechanism, rest, at_rest=True)
-    _require_stillness(subject)
     _require_regular(subject)
     made, found = _perturbations(subject, chosen)
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
@@ -79,21 +78,13 @@ def _rest(mechanism: Builder, state: State, touching: State) -> State:
     return found
 
 
-def _require_stillness(subject: SymbolicState) -> None:
-    """Raises ``NotHere`` for motions that are going on."""
+def _require_regular(subject: SymbolicState) -> None:
+    """Raises ``NotHere`` for motions that are going on, and where loops hold less than beside it."""
     for row in subject.rows:
         if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
             raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; set it to stand still")
-
-
-def _require_regular(subject: SymbolicState) -> None:
-    """Raises ``NotHere`` where loops hold less than beside it."""
-    names = subject.names
-    ranks = [
-        len(independent(np.array([[row.coefficients[name] for name in names] for row in free.rows])))
-        for free in nearby(subject.source, subject.state)
-        if free.rows
-    ]
+    states = [free.rows for free in nearby(subject.source, subject.state) if free.rows]
+    ranks = [len(independent(np.array([[row.coefficients[name] for name in subject.names] for row in rows]))) for rows in states]
     if ranks and ranks[0] < max(ranks):
         raise NotHere(
             "in this place loops lose their independence: more can move for an instant than elsewhere, and what moves there is not "
@@ -125,12 +116,9 @@ def _letters_of(subject: SymbolicState) -> dict[str, Letter]:
     if not subject.rows and all(map(is_natural, place_of(subject).values())):
         return {c["name"]: subject.letters[c["name"]] for c in coordinates}
     stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
-    return {
-        c["name"]: Letter(
-            f"{stem}{i}" if len(coordinates) > 1 else stem, "coordinate", c["dimension"] or "", f"perturbation of {c['name']}"
-        )
-        for i, c in enumerate(coordinates, 1)
-    }
+    names = [f"{stem}{i}" for i, _ in enumerate(coordinates, 1)] if len(coordinates) > 1 else [stem]
+    pairs = zip(names, coordinates, strict=False)
+    return {c["name"]: Letter(x, "coordinate", c["dimension"] or "", f"perturbation of {c['name']}") for x, c in pairs}
 
 
 def _equations(subject: SymbolicState, found: Linearised) -> list[Block]:
