@@ -134,19 +134,13 @@ def _reduced(condition: Any) -> Any:
     import sympy
 
     factored = sympy.factor(sympy.cancel(sympy.together(condition)))
-    parts = [f for part in sympy.fraction(factored) for f in sympy.Mul.make_args(sympy.factor(part))]
-    kept = [f for f in parts if not _is_positive(f)]
-    rest = sympy.Mul(*(sympy.sign(f) if f.is_number else _odd(f) for f in kept))
+    rest = sympy.S.One
+    for factor in (f for part in sympy.fraction(factored) for f in sympy.Mul.make_args(sympy.factor(part))):
+        if factor.is_number:
+            rest *= sympy.sign(factor)
+        elif not factor.is_positive:  # an odd power has the sign of its base
+            rest *= factor.base if factor.is_Pow and factor.exp.is_Integer and factor.exp % 2 else factor
     return None if rest.is_positive else rest
-
-
-def _is_positive(factor: Any) -> bool:
-    return bool(factor.is_positive)
-
-
-def _odd(factor: Any) -> Any:
-    """An odd power has the sign of its base."""
-    return factor.base if factor.is_Pow and factor.exp.is_Integer and factor.exp % 2 else factor
 
 
 def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> Any:

@@ -45,43 +45,35 @@ def _chosen(subject: SymbolicState, points: list[str], bodies: list[str]) -> tup
     if not pairs:
         raise NotHere(f"{points[0]} is a point of {bodies[0]} itself; take a point of another body, or another frame")
     stated = subject.ask([{"ask": "frame", "point": p, "body": b} for p, b in pairs])
-    ranked = sorted(zip(pairs, stated, strict=True), key=lambda found: _dull(found[1]))
-    (point, body), answer = ranked[0]
+
+    def dull(found: tuple[Any, Mapping[str, Any]]) -> tuple[bool, bool]:
+        """Without a Coriolis acceleration; in a frame that does not turn."""
+        return all(is_zero(read(part)) for part in found[1]["a_coriolis"]["xy"]), is_zero(read(found[1]["omega"]))
+
+    (point, body), answer = min(zip(pairs, stated, strict=True), key=dull)
     return point, body, answer
-
-
-def _dull(answer: Mapping[str, Any]) -> tuple[bool, bool]:
-    coriolis, omega = answer["a_coriolis"]["xy"], answer["omega"]
-    return all(is_zero(read(part)) for part in coriolis), is_zero(read(omega))
 
 
 def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, Any]) -> list[Block]:
     arrows = {word: Arrow.read(stated[word]) for word in _WORDS}
     place = place_of(subject, point)
     directions = preamble.directions(subject, [place, *arrows.values()])
-    made: list[Block] = [Heading("The frame")]
-    made.append(
-        Paragraph(["The frame moves with ", body, f"; {point} is watched from it. Its angular velocity and acceleration are"])
-    )
+    watched = f"The frame moves with {body}; {point} is watched from it. Its angular velocity and acceleration are"
+    made: list[Block] = [Heading("The frame"), Paragraph(watched)]
     made += [Equation(Sym("omega"), read(stated["omega"])), Equation(Sym("alpha"), read(stated["alpha"]))]
     made += [Paragraph(pair.sentence(directions.axes)) for pair in directions.pairs]
-
-    def component_equation(name: str, word: str, what: str) -> Equation:
-        return Equation(_vector(name), directions.vector(arrows[word]), what)
-
-    made += [
-        Heading("Velocity"),
-        component_equation(
-            "v_transport", "v_transport", f"Transport: of the place on {body} where {point} is, v of its origin + ω × r"
-        ),
-        component_equation("v_relative", "v_relative", f"Relative: as {body} sees {point} move"),
-        component_equation("v", "v", "Together, v = v_transport + v_relative"),
-        Heading("Acceleration"),
-        component_equation("a_transport", "a_transport", f"Transport: of that place on {body}, a of its origin + α × r − ω² r"),
-        component_equation("a_relative", "a_relative", f"Relative: as {body} sees it"),
-        component_equation("a_coriolis", "a_coriolis", "Coriolis: 2 ω × v_relative"),
-        component_equation("a", "a", "Together, a = a_transport + a_relative + a_coriolis"),
-    ]
+    parts = {
+        "v_transport": f"Transport: of the place on {body} where {point} is, v of its origin + ω × r",
+        "v_relative": f"Relative: as {body} sees {point} move",
+        "v": "Together, v = v_transport + v_relative",
+        "a_transport": f"Transport: of that place on {body}, a of its origin + α × r − ω² r",
+        "a_relative": f"Relative: as {body} sees it",
+        "a_coriolis": "Coriolis: 2 ω × v_relative",
+        "a": "Together, a = a_transport + a_relative + a_coriolis",
+    }
+    for heading, letter in (("Velocity", "v"), ("Acceleration", "a")):
+        made.append(Heading(heading))
+        made += [Equation(_vector(x), directions.vector(arrows[x]), what) for x, what in parts.items() if x[0] == letter]
     made += _prescribed(subject, directions, arrows)
     return made + _directly(subject, place, arrows, point)
 
@@ -89,30 +81,25 @@ def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, 
 def _prescribed(subject: SymbolicState, directions: Directions, arrows: Mapping[str, Arrow]) -> list[Block]:
     """Velocity and acceleration with the rates that motions prescribe, where they prescribe those of single coordinates."""
     rows = [row for row in subject.rows if row.kind == "motion"]
-    known = dict(
-        filter(None, (_given(tree, subject, dots) for row in rows for tree, dots in ((row.rate, 1), (row.acceleration, 2))))
-    )
+    known: dict[Sym, Tree] = {}
+    for tree, dots in ((tree, dots) for row in rows for tree, dots in ((row.rate, 1), (row.acceleration, 2)) if tree is not None):
+        unknown = [x for x in (Sym(name, dots) for name in subject.names) if x in symbols(tree)]
+        if len(unknown) == 1:  # a rate or acceleration that is all that stands in what vanishes
+            parts = linear_in(tree, unknown)
+            known[unknown[0]] = quotient(negative(parts.rest), parts.coefficients[unknown[0]])
     if not known:
         return []
+
+    def put(tree: Tree) -> Tree:
+        return presented(from_sympy(to_sympy(replace(tree, known))))
+
     made: list[Block] = [Heading("With what is prescribed")]
     made += [Equation(x, tree, "Motions give" if i == 0 else "") for i, (x, tree) in enumerate(known.items())]
-    stated = (("v", "So"), ("a", ""))
-    return made + [Equation(_vector(word), directions.vector(_with(arrows[word], known)), name) for word, name in stated]
-
-
-def _given(tree: Tree | None, subject: SymbolicState, dots: int) -> tuple[Sym, Tree] | None:
-    """A rate or acceleration that is all that stands in what vanishes, and what it is."""
-    unknown = [x for x in (Sym(name, dots) for name in subject.names) if tree is not None and x in symbols(tree)]
-    if tree is None or len(unknown) != 1:
-        return None
-    parts = linear_in(tree, unknown)
-    return unknown[0], quotient(negative(parts.rest), parts.coefficients[unknown[0]])
-
-
-def _with(arrow: Arrow, known: Mapping[Sym, Tree]) -> Arrow:
-    """A vector with some letters replaced."""
-    parts = (Direction(d.angle, _put(d.along, known), _put(d.across, known)) for d in arrow.parts)
-    return Arrow(tuple(parts), *(_put(tree, known) for tree in (arrow.i, arrow.j)), arrow.xy)
+    for word, name in (("v", "So"), ("a", "")):
+        arrow = arrows[word]
+        parts = tuple(Direction(d.angle, put(d.along), put(d.across)) for d in arrow.parts)
+        made.append(Equation(_vector(word), directions.vector(Arrow(parts, put(arrow.i), put(arrow.j), arrow.xy)), name))
+    return made
 
 
 def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow], point: str) -> list[Block]:
@@ -129,10 +116,6 @@ def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow],
         ]
     made.append(Paragraph("Both ways give the same, for all values of the symbols; it was checked at random ones."))
     return made
-
-
-def _put(tree: Tree, known: Mapping[Sym, Tree]) -> Tree:
-    return presented(from_sympy(to_sympy(replace(tree, known))))
 
 
 def _vector(name: str) -> Written:

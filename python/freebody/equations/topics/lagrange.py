@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,19 +19,17 @@ from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import joined
 from freebody.equations.linear import linear_in
-from freebody.equations.solve import Singular, TooLarge, solve
+from freebody.equations.solve import Singular, TooLarge, coefficients, solve
 from freebody.equations.topics.common import document, subject_of
 from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import typed
-from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
 
 if TYPE_CHECKING:
     from freebody.core import State
     from freebody.model.builder import Builder
 
-Coefficients: TypeAlias = Mapping[Sym, Tree]
 _MOST_SIGNS = 400
 """Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for symbolically."""
 _SAMPLES, _NOTHING = 3, 1e-8
@@ -73,7 +71,7 @@ def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequen
             continue
         if sum(1 for entry in (each.residual, *(x for row in inertia for x in row)) for _ in walk(entry)) > _MOST_SIGNS:
             return None
-        own = _coefficients(each.residual, accelerations)
+        own, _ = coefficients(each.residual, accelerations)
         try:
             made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.letters))
         except (TooLarge, Singular, ArithmeticError):
@@ -91,7 +89,16 @@ def _plain(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[S
     except ValueError:
         return None
     theirs = [balance.balance.linear.coefficients for balance in balances]
-    seen = np.array([_factors(own, theirs, accelerations, seed) for seed in range(_SAMPLES)])
+    letters = sorted(symbols(*own.values(), *(tree for row in theirs for tree in row.values())), key=str)
+
+    def factors(seed: int) -> Array:
+        """At random values of all letters."""
+        draw = random.Random(seed)
+        values = {letter: draw.uniform(0.3, 1.9) for letter in letters}
+        rows = [[evaluate(row.get(x, ZERO), values) for x in accelerations] for row in (own, *theirs)]
+        return np.linalg.lstsq(np.array(rows[1:], float).T, np.array(rows[0], float), rcond=None)[0]
+
+    seen = np.array(list(map(factors, range(_SAMPLES))))
     present = np.flatnonzero(np.abs(seen).max(axis=0) > _NOTHING)
     row = [Num(Fraction(round(x))) for x in seen[0]]
     if np.abs(seen - np.round(seen[0])).max() > _NOTHING:
@@ -103,15 +110,6 @@ def _plain(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[S
     return row if equal(each.residual, add(*sides)) else None
 
 
-def _factors(own: Coefficients, theirs: Sequence[Coefficients], accelerations: Sequence[Sym], seed: int) -> Array:
-    """The factors at random values of all letters."""
-    draw = random.Random(seed)
-    letters = sorted(symbols(*own.values(), *(tree for row in theirs for tree in row.values())), key=str)
-    values = {letter: draw.uniform(0.3, 1.9) for letter in letters}
-    rows = [[evaluate(row.get(x, ZERO), values) for x in accelerations] for row in (own, *theirs)]
-    return np.linalg.lstsq(np.array(rows[1:], float).T, np.array(rows[0], float), rcond=None)[0]
-
-
 def lagrange(mechanism: Builder, state: State) -> Document:
     """Energies, Lagrange's equations with generalized forces, and of which balance equations each is made."""
     subject = subject_of(mechanism, state)
@@ -120,10 +118,17 @@ def lagrange(mechanism: Builder, state: State) -> Document:
     made: list[Block] = [Heading("Energies"), Equation(left, kinetic), Equation(right, potential)]
     made += [Heading("Lagrange's equations"), Paragraph(_introduction(subject, left.text, right.text))]
     for each in found:
-        name = ["For ", Sym(each.coordinate)]
-        made.append(Equation(_momentum(left, subject.symbols.names[each.coordinate]), each.momentum, name))
-        made.append(Equation(each.left, each.force))
-    return document(subject, "Lagrange's equations", made + _equality(subject, found))
+        rate = subject.symbols.names[each.coordinate]
+        momentum = Written(f"∂{left.text}/∂{rate.unicode(1)}", typed("∂", left.formula, "/∂", rate.formula(1)))
+        made += [Equation(momentum, each.momentum, ["For ", Sym(each.coordinate)]), Equation(each.left, each.force)]
+    made.append(Heading("The same as the balance equations"))
+    balances = stated(subject)
+    if (factors := combination(subject, found, balances)) is None:
+        made.append(Paragraph(_at_state(subject, found)))
+    else:
+        made += [Paragraph(_sentence(each, row, balances)) for each, row in zip(found, factors, strict=True)]
+        made.append(Paragraph("This holds for all values of the symbols; it was checked at random ones."))
+    return document(subject, "Lagrange's equations", made)
 
 
 def _introduction(subject: SymbolicState, kinetic: str, potential: str) -> Words:
@@ -135,21 +140,6 @@ def _introduction(subject: SymbolicState, kinetic: str, potential: str) -> Words
         return f"{said} No reaction is in Q: none does work in any motion of the coordinates."
     holding = list(dict.fromkeys(row.name for row in subject.rows))
     return f"{said} The coordinates are not free: what {joined(holding)} exerts is in Q, and unknown."
-
-
-def _momentum(kinetic: Written, coordinate: Name) -> Written:
-    return Written(f"∂{kinetic.text}/∂{coordinate.unicode(1)}", typed("∂", kinetic.formula, "/∂", coordinate.formula(1)))
-
-
-def _equality(subject: SymbolicState, found: Sequence[Lagrange]) -> list[Block]:
-    balances = stated(subject)
-    factors = combination(subject, found, balances)
-    made: list[Block] = [Heading("The same as the balance equations")]
-    if factors is None:
-        return [*made, Paragraph(_at_state(subject, found))]
-    for each, row in zip(found, factors, strict=True):
-        made.append(Paragraph(_sentence(each, row, balances)))
-    return [*made, Paragraph("This holds for all values of the symbols; it was checked at random ones.")]
 
 
 def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated]) -> Words:
@@ -181,9 +171,3 @@ def _at_state(subject: SymbolicState, found: Sequence[Lagrange]) -> str:
         "How they are made of balance equations is too long to be given symbolically. The accelerations and loads of the balances "
         f"satisfy them at this state to {largest:.1e} N or N·m."
     )
-
-
-def _coefficients(tree: Tree, unknowns: Sequence[Sym]) -> list[Tree]:
-    from freebody.equations.solve import coefficients
-
-    return coefficients(tree, unknowns)[0]

@@ -8,7 +8,7 @@ import numpy as np
 
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.linearization import Linearised, Matrix, numbers
+from freebody.equations.linearization import Linearised, numbers
 from freebody.equations.modes import Modes, first_order, modes
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
@@ -31,7 +31,11 @@ def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, L
             Heading("Eigenvalues"),
             Equation(shown(_product(parts)), ZERO, ["The characteristic equation of the eigenvalues ", Sym("s")]),
         ]
-        made += _eigenvalues(matrix, subject, positive)
+        try:
+            found_ones = eigenvalues(matrix, subject.letters, positive=positive)
+            made += [Paragraph("The eigenvalues:"), Bullets(_paired(found_ones))]
+        except TooLarge as error:
+            made.append(Paragraph(f"{str(error).capitalize()}."))
         made += _stability(parts, subject, found, letters, positive)
     except (TooLarge, Singular) as error:
         made.append(Paragraph(f"No more is given symbolically: {error}."))
@@ -40,23 +44,12 @@ def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, L
 
 def _product(parts: Factors) -> Tree:
     """The factors as a person writes them, powers of s falling."""
-    made = [power(_sum(coefficients), count) for coefficients, count in parts]
+    made = []
+    for coefficients, count in parts:
+        terms = [mul(factor, power(Sym("s"), n)) for n, factor in enumerate(coefficients[::-1]) if not is_zero(factor)][::-1]
+        spread = [part for term in terms for part in (term.terms if isinstance(term, Add) else (term,))]
+        made.append(power(spread[0] if len(spread) == 1 else Add(tuple(spread)), count))
     return made[0] if len(made) == 1 else Mul(tuple(made))
-
-
-def _sum(coefficients: Sequence[Tree]) -> Tree:
-    order = len(coefficients) - 1
-    terms = [mul(factor, power(Sym("s"), order - i)) for i, factor in enumerate(coefficients) if not is_zero(factor)]
-    spread = [part for term in terms for part in (term.terms if isinstance(term, Add) else (term,))]
-    return spread[0] if len(spread) == 1 else Add(tuple(spread))
-
-
-def _eigenvalues(matrix: Matrix, subject: SymbolicState, positive: Sequence[str]) -> list[Block]:
-    try:
-        found = eigenvalues(matrix, subject.letters, positive=positive)
-    except TooLarge as error:
-        return [Paragraph(f"{str(error).capitalize()}.")]
-    return [Paragraph("The eigenvalues:"), Bullets(list(_paired(found)))]
 
 
 def _paired(found: Sequence[Eigenvalue]) -> list[Words]:
@@ -65,21 +58,15 @@ def _paired(found: Sequence[Eigenvalue]) -> list[Words]:
     while left:
         value = left.pop()
         for part, other in (("imaginary", "real"), ("real", "imaginary")):
-            size = getattr(value, part)
-            twin = next(
-                (v for v in left if _opposite(getattr(v, part), size) and equal(getattr(v, other), getattr(value, other))), None
-            )
-            if twin and not is_zero(size):
+            size, same = getattr(value, part), getattr(value, other)
+            twins = (v for v in left if equal(getattr(v, part), negative(size)) and equal(getattr(v, other), same))
+            if not is_zero(size) and (twin := next(twins, None)):
                 left.remove(twin)
                 made.append(_stated(value, "± ", part))
                 break
         else:
             made.append(_stated(value))
     return made[::-1]
-
-
-def _opposite(one: Tree, other: Tree) -> bool:
-    return equal(one, negative(other))
 
 
 def _stated(value: Eigenvalue, sign: str = "", signed: str = "") -> Words:
@@ -135,11 +122,9 @@ def _numbers(subject: SymbolicState, found: Linearised) -> list[Block]:
         roots = np.linalg.eigvals(first_order(*(numbers(subject, part) for part in (found.mass, found.damping, found.stiffness))))
     except np.linalg.LinAlgError:
         return []
-    stated = sorted({(round(float(r.real), 6), round(abs(float(r.imag)), 6)) for r in roots})
-    said = [_figures(a, b) for a, b in stated]
+    said = []
+    for real, imaginary in sorted({(round(float(r.real), 6), round(abs(float(r.imag)), 6)) for r in roots}):
+        front = f"{real:.5g} ".replace("-", "−") if real or not imaginary else ""
+        period = f"± {imaginary:.5g} i 1/s (period {2 * np.pi / imaginary:.5g} s)" if imaginary else "1/s"
+        said.append(front + period)
     return [Heading("In numbers"), Paragraph("With the parameters of the model the eigenvalues are"), Bullets(said)]
-
-
-def _figures(real: float, imaginary: float) -> str:
-    front = f"{real:.5g} ".replace("-", "−") if real or not imaginary else ""
-    return f"{front}± {imaginary:.5g} i 1/s (period {2 * np.pi / imaginary:.5g} s)" if imaginary else f"{front}1/s"
