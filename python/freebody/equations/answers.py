@@ -26,7 +26,6 @@ from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import nearby, others
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.letters import Letters
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.radicals import distances, with_plain_roots
 from freebody.symbolic.to_sympy import to_sympy

@@ -6,13 +6,13 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace as replaced
 from typing import Any
 
-from freebody.symbolic.algebra import equal
 import numpy as np
 
 from freebody.core import FreeBodies
 from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.substitutions import Substitutions
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
