@@ -19,11 +19,11 @@ MOST_OPERATIONS = 1500
 """Operations in all coefficients above which no answer symbolically is sought."""
 
 
-_UNDETERMINED = "the equations do not determine the unknowns, whatever the letters are"
+_UNDETERMINED = "the equations do not determine the unknowns, whatever the symbols are"
 
 
 class TooLarge(ValueError):
-    """a symbolic answer would be too long to read; the sentence says what to do instead."""
+    """A symbolic answer would be too long to read; the sentence says what to do instead."""
 
 
 class Singular(ValueError):
@@ -37,23 +37,20 @@ def solve(
 
     ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
     values of the letters is ``Singular``. The solution is held against the system at random values."""
-    _require_square(matrix, right)
     import sympy
+
+    if any(len(row) != len(right) for row in (matrix, *matrix)):
+        raise ValueError("A x = b needs as many equations as unknowns")
 
     a = sympy.Matrix([[to_sympy(entry) for entry in row] for row in matrix])
     b = sympy.Matrix([to_sympy(entry) for entry in right])
     numeric = is_measured(a) or is_measured(b)
     if len(right) > MOST_UNKNOWNS and not numeric:
-        raise TooLarge(
-            f"{len(right)} unknowns are too many for a symbolic answer (at most {MOST_UNKNOWNS}); "
-            "ask for numbers, or for a smaller set of equations"
-        )
+        many = f"{len(right)} unknowns are too many for a symbolic answer (at most {MOST_UNKNOWNS})"
+        raise TooLarge(f"{many}; ask for numbers, or for a smaller set of equations")
     found = _solved_measured(a, b) if numeric else [presented(entry, letters, patience=patience) for entry in _solved(a, b)]
-    for row, entry in zip(matrix, right, strict=True):
-        if not equal(add(*(mul(*pair) for pair in zip(row, found, strict=True))), entry):
-            raise ArithmeticError(
-                "the answer symbolically does not satisfy the equations at random values; take the numbers instead"
-            )
+    if not all(equal(add(*map(mul, row, found)), entry) for row, entry in zip(matrix, right, strict=True)):
+        raise ArithmeticError("the symbolic answer does not satisfy the equations at random values; take the numbers instead")
     return found
 
 
@@ -110,12 +107,6 @@ def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None =
     return presented(to_sympy(tree).subs(chosen, simultaneous=True), letters, patience=PATIENCE)
 
 
-def _require_square(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> None:
-    n = len(right)
-    if len(matrix) != n or any(len(row) != n for row in matrix):
-        raise ValueError("A x = b needs as many equations as unknowns")
-
-
 def _solved(a: Any, b: Any) -> list[Any]:
     """By exact elimination over the rational functions of the letters, sines and cosines."""
     from sympy.polys.matrices import DomainMatrix
@@ -154,10 +145,8 @@ def _plain(*matrices: Any) -> tuple[dict, list[Any]]:
     """Functions and roots replaced by letters of their own, so that the entries are rational."""
     import sympy
 
-    found = set()
-    for matrix in matrices:
-        found |= matrix.atoms(sympy.Function)
-        found |= {power for power in matrix.atoms(sympy.Pow) if not power.exp.is_Integer}
+    atoms = {atom for matrix in matrices for atom in matrix.atoms(sympy.Function, sympy.Pow)}
+    found = {atom for atom in atoms if not (atom.is_Pow and atom.exp.is_Integer)}
     outer = sorted(found, key=lambda f: (-f.count_ops(), str(f)))
     shared = {function: sympy.Symbol(f"_{place}") for place, function in enumerate(outer)}
     return shared, [matrix.xreplace(shared) for matrix in matrices]

@@ -99,33 +99,28 @@ def stability(
         raise TooLarge(f"symbolic stability conditions are for polynomials of order 1 to {MOST_ROWS}, not {order}")
     a = [to_sympy(factor, positive=positive, real=True) for factor in coefficients]
     even = order % 2 == 0 and all(is_zero(factor) for factor in coefficients[1::2])
-    left = _oscillates(a)[: 2 if symmetric else 3] if even else _hurwitz(a)
+    left = _conditions(a, even)[: 2 if even and symmetric else None]
     kept = [found for condition in left if (found := _reduced(condition)) is not None]
     never = any(condition.is_nonpositive for condition in kept)
     shown = tuple(dict.fromkeys(presented(condition, letters, patience=PATIENCE) for condition in kept))
     return Stability("oscillates" if even else "decays", shown, never)
 
 
-def _hurwitz(a: Sequence[Any]) -> list[Any]:
+def _conditions(a: Sequence[Any], even: bool) -> list[Any]:
+    """Hurwitz's; of a polynomial in z = s² with all roots real, negative and distinct where it has only ``even`` powers."""
     match a:
         case [a1, a0]:
             return [a1 * a0]
+        case [a2, _, a0] if even:
+            return [a0 / a2]
         case [a2, a1, a0]:
             return [a1 / a2, a0 / a2]
         case [a3, a2, a1, a0]:
             return [a2 / a3, a0 / a3, (a2 * a1 - a3 * a0) / a3**2]
+        case [a4, _, a2, _, a0] if even:
+            return [a2 / a4, a0 / a4, (a2**2 - 4 * a4 * a0) / a4**2]
         case [a4, a3, a2, a1, a0]:
             return [a3 / a4, a0 / a4, (a3 * a2 - a4 * a1) / a4**2, (a1 * (a3 * a2 - a4 * a1) - a3**2 * a0) / a4**3]
-    raise AssertionError("the order was checked")
-
-
-def _oscillates(a: Sequence[Any]) -> list[Any]:
-    """Of z = s²: all roots real, negative and distinct."""
-    match a:
-        case [a2, _, a0]:
-            return [a0 / a2]
-        case [a4, _, a2, _, a0]:
-            return [a2 / a4, a0 / a4, (a2**2 - 4 * a4 * a0) / a4**2]
     raise AssertionError("the order was checked")
 
 

@@ -68,11 +68,15 @@ class AppliedImpulse(Impulsive):
         q = dict(zip(names, map(float, self.state.q), strict=True))
         small = _ROUND_OFF * abs(self.size) / (sum(body.mass for body in self.free.bodies.values()) or 1.0)
         jumps = {name: u if abs(u) > small else 0.0 for name, u in self.free.accelerations.items()}
-        loaded = {load.name for load in self.free.loads}
-        spared = tuple(name for name in self._closed() if name not in loaded)
-        stated = Impulses({}, {}, spared=spared)
+        loaded, limits = {load.name for load in self.free.loads}, {each["name"] for each in self.source.about["limits"]}
+        closed = dict.fromkeys(row["name"] for row in self.rows_before() if row["name"] in limits)
+        stated = Impulses({}, {}, spared=tuple(name for name in closed if name not in loaded))
+        energy = 0.0  # what it gives, J: half of every momentum by its rate
+        for body in self.free.bodies.values():
+            x, y, turn = sum((np.array(by) * jumps[name] for name, by in body.by_accelerations.items()), np.zeros(3))
+            energy += float(body.mass * (x * x + y * y) + body.inertia * turn * turn) / 2
         before, after = Snapshot(q, dict.fromkeys(names, 0.0)), Snapshot(q, {name: jumps[name] for name in names})
-        return Change(self.state.t, "struck", (), -self._energy(jumps), impulses=stated, before=before, after=after)
+        return Change(self.state.t, "struck", (), -energy, impulses=stated, before=before, after=after)
 
     def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it symbolically."""
@@ -81,18 +85,6 @@ class AppliedImpulse(Impulsive):
     def rows_before(self) -> list[Any]:
         """What holds the model at rest, symbolically."""
         return self.whole.letters(self.before, [{"ask": "rows"}]).answers[0]
-
-    def _closed(self) -> list[str]:
-        limits = {each["name"] for each in self.source.about["limits"]}
-        return list(dict.fromkeys(row["name"] for row in self.rows_before() if row["name"] in limits))
-
-    def _energy(self, jumps: Mapping[str, float]) -> float:
-        """What it gives, J: half of every momentum by its rate."""
-        total = 0.0
-        for body in self.free.bodies.values():
-            x, y, turn = sum((np.array(by) * jumps[name] for name, by in body.by_accelerations.items()), np.zeros(3))
-            total += body.mass * (x * x + y * y) + body.inertia * turn * turn
-        return float(total / 2)
 
 
 def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, impulse: Any = 1.0, frame: str = "fixed") -> AppliedImpulse:

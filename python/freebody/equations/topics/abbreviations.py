@@ -39,7 +39,7 @@ class Names:
 
     def spelt(self, tree: Tree) -> Tree:
         """With the entries themselves; angles keep their letters."""
-        return replace(tree, self._entries)
+        return replace(tree, {name: entry for name, entry in self.made.items() if name.name.startswith(_ENTRY)})
 
     def plain_angles(self, tree: Tree) -> Tree:
         """Where a letter of an angle is one of several terms of another angle, what it stands for: cos(ψ₁ − θ) is cos α."""
@@ -74,7 +74,3 @@ class Names:
         name = Sym(next(each for each in free if each not in self.taken and Sym(each) not in self.made))
         self.made[name] = tree
         return name
-
-    @property
-    def _entries(self) -> Mapping[Sym, Tree]:
-        return {name: tree for name, tree in self.made.items() if name.name.startswith(_ENTRY)}

@@ -60,9 +60,9 @@ class Rows:
         def number(tree: Tree) -> float:
             return float(evaluate(tree, values, tables))
 
-        mass = np.array([[number(entry) for entry in row] for row in self.mass]).reshape(n, n)
-        gives = np.array([[number(entry) for entry in row] for row, _ in self.gives]).reshape(n, m)
-        held = np.array([[number(entry) for entry in row] for _, (row, _) in self.conditions]).reshape(-1, n)
+        rows = (self.mass, [row for row, _ in self.gives], [row for _, (row, _) in self.conditions])
+        shapes = zip(rows, (n, m, n), strict=True)
+        mass, gives, held = (np.array([[number(x) for x in row] for row in of]).reshape(len(of), k) for of, k in shapes)
         rest = [number(rest) for _, rest in self.gives]
         back = [-number(mul(each.back, each.rate)) - number(rest) for each, (_, rest) in self.conditions]
         a = np.block([[mass, -gives], [held, np.zeros((len(held), m))]])

@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from freebody.core import State
     from freebody.model.builder import Builder
 
-Pair = tuple[Tree, Tree]
-
-
 def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies: Sequence[str] | str = ()) -> Document:
     """Moments about a fixed or a moving point: by accelerations, by dH/dt, and what a moving point adds, v × L.
 
@@ -30,36 +27,26 @@ def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies
     if about is not None:
         known(about, subject.points, "point")
     point = about or _first_moving(subject)
-    return document(subject, f"moments about {point}", _blocks(subject, group_of(subject, bodies), point))
+    group, names = group_of(subject, bodies), subject.names
+    questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
+    of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])
+    v, changing = rates(of.place.xy, names), rate(of.momentum, names)
+    extra = cross(v, (along_x.momentum, along_y.momentum))
+    if not equal(of.right, add(changing, extra)):
+        raise ArithmeticError("the rate of angular momentum is not what the accelerations give")
+    acting = Equation(_written("Σ M", point, typed("∑M")), of.left, f"Moments about {point} on {' + '.join(group or subject.free.bodies)}")
+    made = _fixed(of, point) if all(map(is_zero, v)) else _moving(of, point, changing, spread(extra))
+    return document(subject, f"moments about {point}", [Heading("What acts"), acting, *made])
 
 
 def _first_moving(subject: SymbolicState) -> str:
-    names = subject.names
     for name, (body, _, _) in subject.points.items():
-        if body != GROUND and not all(is_zero(part) for part in rates(place_of(subject, name).xy, names)):
+        if body != GROUND and not all(map(is_zero, rates(place_of(subject, name).xy, subject.names))):
             return name
     raise NotHere("no named point moves; give one")
 
 
-def _blocks(subject: SymbolicState, group: list[str], point: str) -> list[Block]:
-    names = subject.names
-    questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
-    of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])
-    v = rates(of.place.xy, names)
-    momentum = (along_x.momentum, along_y.momentum)
-    changing = rate(of.momentum, names)
-    whole = " + ".join(group or subject.free.bodies)
-    made: list[Block] = [
-        Heading("What acts"),
-        Equation(_written("Σ M", point, typed("∑M")), of.left, f"Moments about {point} on {whole}"),
-    ]
-    if all(is_zero(part) for part in v):
-        return [*made, *_fixed(of, point, changing)]
-    return [*made, *_moving(of, point, changing, (v, momentum))]
-
-
-def _fixed(of: Balance, point: str, changing: Tree) -> list[Block]:
-    _agree(of.right, changing)
+def _fixed(of: Balance, point: str) -> list[Block]:
     return [
         Heading(f"{point} is fixed"),
         Equation(_written("H", point, typed("H")), of.momentum, "The angular momentum, Σ r × m v + I ω"),
@@ -68,12 +55,15 @@ def _fixed(of: Balance, point: str, changing: Tree) -> list[Block]:
     ]
 
 
-def _moving(of: Balance, point: str, changing: Tree, moves: tuple[Pair, Pair]) -> list[Block]:
-    v, momentum = moves
-    extra = cross(v, momentum)
-    _agree(of.right, add(changing, extra))
-    relative = spread(extra)
-    made: list[Block] = [
+def _moving(of: Balance, point: str, changing: Tree, extra: Tree) -> list[Block]:
+    verdict = (
+        "Σ M = dH/dt + v × L, for all values of the symbols (checked at random ones). To write Σ M = dH/dt about the moving point "
+        f"would be wrong by v × L; about the fixed point where {point} is at the instant H has the same value, but its rate is "
+        "dH/dt + v × L."
+    )
+    if is_zero(extra):
+        verdict = f"Σ M = dH/dt + v × L. Here {point} moves along with the momentum, so that v × L = 0 and Σ M = dH/dt holds."
+    return [
         Heading(f"By accelerations, about {point} or the fixed point where it is at the instant"),
         Paragraph("Forces and accelerations are those of the instant, so it does not matter whether the point moves: "
                   f"r is from where {point} is now to the mass centres, a are their accelerations in the fixed frame."),
@@ -82,24 +72,9 @@ def _moving(of: Balance, point: str, changing: Tree, moves: tuple[Pair, Pair]) -
         Heading(f"By the angular momentum about {point}, which moves"),
         Equation(_written("H", point, typed("H")), spread(of.momentum), f"Σ r × m v + I ω with r from {point}, v in the fixed frame"),
         Equation(Written("dH/dt", typed(word("d"), "H/", word("d"), "t")), spread(changing), "Its derivative, r changing also because the point moves"),
-        Equation(Written("v × L", typed(bold("v"), "×", bold("L"))), relative, f"v of {point} × L, the momentum of the bodies"),
+        Equation(Written("v × L", typed(bold("v"), "×", bold("L"))), extra, f"v of {point} × L, the momentum of the bodies"),
+        Paragraph(verdict),
     ]  # fmt: skip
-    return made + [Paragraph(_verdict(point, relative))]
-
-
-def _verdict(point: str, extra: Tree) -> str:
-    if is_zero(extra):
-        return f"Σ M = dH/dt + v × L. Here {point} moves along with the momentum, so that v × L = 0 and Σ M = dH/dt holds."
-    return (
-        "Σ M = dH/dt + v × L, for all values of the symbols (checked at random ones). To write Σ M = dH/dt about the moving point "
-        f"would be wrong by v × L; about the fixed point where {point} is at the instant H has the same value, but its rate is "
-        "dH/dt + v × L."
-    )
-
-
-def _agree(one: Tree, other: Tree) -> None:
-    if not equal(one, other):
-        raise ArithmeticError("the rate of angular momentum is not what the accelerations give")
 
 
 def _written(stem: str, point: str, shown: Formula) -> Written:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Vector, Words
 from freebody.document.document import Document
-from freebody.equations.derivation.data import Arrow, Balance, SymbolicState
+from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
 from freebody.solve.symbols import load_words
 from freebody.symbolic.letters import Letter
@@ -59,12 +59,10 @@ def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance
     made: list[Block] = [Heading(f"Along e_r and e_φ about {about}")]
     made.append(Paragraph([Sym(r), f" is the distance of {body} from {about}, ", Sym(phi), " the angle of that line from i; "
                            "e_r points outward along it, e_φ a right angle further."]))  # fmt: skip
-    letters = [
-        Letter(r, "coordinate", "m", f"distance from {about}"),
-        Letter(phi, "coordinate", "rad", "angle of that line from i"),
-    ]
-    if turned := _turned(motion.r, place):
-        length, angle = turned
+    letters = [Letter(r, "coordinate", "m", f"distance from {about}"), Letter(phi, "coordinate", "rad", "angle of that line from i")]
+    along = motion.r.parts[0] if len(motion.r.parts) == 1 else None
+    if along and is_zero(along.across) and (motion.r.i, motion.r.j) == place:  # along one direction that turns
+        length, angle = along.along, along.angle
         made += [Equation(Sym(r), length, "Here"), Equation(Sym(phi), angle)]
         unit = (Fn("cos", (angle,)), Fn("sin", (angle,)))
     elif isinstance(x, Sym) and isinstance(y, Sym):
@@ -82,13 +80,6 @@ def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance
     made.append(Equation(mul(m, outward), brief(radial, subject.letters), "Σ F·e_r = m (r̈ − r φ̇²)"))
     made.append(Equation(mul(m, around), brief(across, subject.letters), "Σ F·e_φ = m (r φ̈ + 2 ṙ φ̇)"))
     return made, letters
-
-
-def _turned(r: Arrow, place: tuple[Tree, Tree]) -> tuple[Tree, Tree] | None:
-    """Length and angle, where the position from the place is along one direction that turns."""
-    if len(r.parts) != 1 or not is_zero(r.parts[0].across) or (r.i, r.j) != place:
-        return None
-    return r.parts[0].along, r.parts[0].angle
 
 
 def _replaced(x: Sym, y: Sym, place: tuple[Tree, Tree], r: str, phi: str) -> dict[Sym, Tree]:
