@@ -3,9 +3,9 @@ and which spellings are one symbol: θ, theta and \\theta; m1, m_1, m₁ and m_{
 
 from __future__ import annotations
 
+import itertools
 import re
 import unicodedata
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -63,7 +63,9 @@ class Name:
 
     def formula(self, dots: int = 0, *, bold: bool = False) -> Formula:
         """Set in type: θ̈₁, N with ``track`` below it; a ``bold`` stem is a vector."""
-        stem, below = self._letter_below()
+        a, b = self.stem if len(self.stem) == 2 and self.stem not in GREEK else ("", "")
+        # Of mA the second letter is below.
+        stem, below = (a, (b, *self.below)) if a.isupper() != b.isupper() else (self.stem, self.below)
         letter = (Atom(GREEK.get(stem, stem), "bold") if bold else _letter(stem, "word"),)
         shown = [*((_letter(part, "label"),) for part in below if part), *([(Atom(self.owner, "word"),)] if self.owner else [])]
         return (Script(dotted(letter, dots), joined(shown, _COMMA)),) if shown else dotted(letter, dots)
@@ -71,11 +73,6 @@ class Name:
     def latex(self, dots: int = 0, *, bold: bool = False) -> str:
         r"""``\ddot\theta_1``, ``N_{\text{track}}``; for mathtext as well."""
         return latex(self.formula(dots, bold=bold))
-
-    def _letter_below(self) -> tuple[str, tuple[str, ...]]:
-        """Stem and what is below it; of ``mA`` the second letter is."""
-        a, b = self.stem if len(self.stem) == 2 and self.stem not in GREEK else ("", "")
-        return (a, (b, *self.below)) if a.isupper() != b.isupper() else (self.stem, self.below)
 
 
 def unicode_name(text: str, dots: int = 0) -> str:
@@ -176,27 +173,20 @@ class Taken:
         """The first of some names that reads like none before, or the last of them numbered, for ``what`` it shall mean.
 
         What asks again by the same ``key``, which is ``what`` by default, gets the same."""
-        key = key or what
-        name = next(name for name in _variants(wanted) if self._key(name) in ("", key))
+        key, last = key or what, wanted[-1]
+        numbered = (replace(last, below=(*last.below, str(number))) for number in itertools.count(2))
+        name = next(name for name in itertools.chain(wanted, numbered) if self._held(name)[0] in ("", key))
         if name != wanted[0]:
             self.renamed[key] = Renamed(wanted[0], self.owner(wanted[0]), what, name)
         self.owners |= dict.fromkeys(_spellings(name), (key, what))
         return name
 
-    def _key(self, name: Name) -> str:
-        return next((self.owners[each][0] for each in _spellings(name) if each in self.owners), "")
-
     def owner(self, name: Name) -> str:
         """What a name means already; empty where nothing reads like it."""
-        return next((self.owners[each][1] for each in _spellings(name) if each in self.owners), "")
+        return self._held(name)[1]
 
-
-def _variants(names: Sequence[Name]) -> Iterator[Name]:
-    yield from names
-    number = 2
-    while True:
-        yield replace(names[-1], below=(*names[-1].below, str(number)))
-        number += 1
+    def _held(self, name: Name) -> tuple[str, str]:
+        return next((self.owners[each] for each in _spellings(name) if each in self.owners), ("", ""))
 
 
 def _spellings(name: Name) -> set[str]:

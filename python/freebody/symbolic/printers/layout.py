@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -40,28 +41,18 @@ def is_bare(tree: Tree) -> bool:
     return isinstance(node, Fn) and node.name in SIMPLE_FUNCTIONS and _is_plain(node.args[0])
 
 
-def is_function(tree: Tree) -> bool:
-    """Whether a factor is a function, or a power of one."""
-    return isinstance(tree.base if isinstance(tree, Pow) else tree, Fn)
-
-
 def product(tree: Tree, letters: Letters) -> Product:
     """The tree as one product."""
     factors = _factors(tree)
-    numbers = [factor.value for factor in factors if isinstance(factor, Num)]
-    size = math.prod(numbers, start=Fraction(1))
-    rest = [factor for factor in factors if not isinstance(factor, Num)]
+    whole = math.prod((factor.value for factor in factors if isinstance(factor, Num)), start=Fraction(1))
+    size, rest = abs(whole), [factor for factor in factors if not isinstance(factor, Num)]
     below = [power(f.base, -f.exponent) for f in rest if isinstance(f, Pow) and f.exponent < 0]
     above = _sorted((f for f in rest if not (isinstance(f, Pow) and f.exponent < 0)), letters)
     head = tuple(factor for factor in above if _class(factor, letters) == _PARAMETERS)
-    return Product(size < 0, _as_measured(abs(size)), head, tuple(above[len(head) :]), tuple(_sorted(below, letters)))
-
-
-def _as_measured(size: Fraction | float) -> Fraction | float:
-    """A fraction that nobody calculates with, 9/20000, as the decimal that it is."""
-    if not isinstance(size, Fraction) or size.denominator <= _TENTHS or size.denominator % 5:
-        return size
-    return float(size) if Fraction(f"{float(size):.10g}") == size else size
+    # A fraction that nobody calculates with, 9/20000, stands as the decimal number that it is.
+    odd = isinstance(size, Fraction) and size.denominator > _TENTHS and size.denominator % 5 == 0
+    size = float(size) if odd and Fraction(f"{float(size):.10g}") == size else size
+    return Product(whole < 0, size, head, tuple(above[len(head) :]), tuple(_sorted(below, letters)))
 
 
 def stands_apart(laid: Product, letters: Letters) -> bool:
@@ -99,8 +90,13 @@ def _is_plain(tree: Tree) -> bool:
     return isinstance(tree, Sym)
 
 
-def _sorted(factors, letters: Letters) -> list[Tree]:
-    return sorted(factors, key=lambda factor: (_class(factor, letters), *_factor_rank(factor, letters)))
+def _sorted(factors: Iterable[Tree], letters: Letters) -> list[Tree]:
+    def place(factor: Tree) -> tuple:
+        found = [x for x in symbols(factor) if letters.kind(x.name) == "indeterminate"] or symbols(factor)
+        first = min(((letter.dots, *letters.rank(letter)) for letter in found), default=())
+        return _class(factor, letters), first, isinstance(factor, Add)
+
+    return sorted(factors, key=place)
 
 
 def _class(factor: Tree, letters: Letters) -> int:
@@ -115,26 +111,14 @@ def _class(factor: Tree, letters: Letters) -> int:
     return _PARAMETERS if still else _COORDINATES
 
 
-def _factor_rank(factor: Tree, letters: Letters) -> tuple:
-    found = [x for x in symbols(factor) if letters.kind(x.name) == "indeterminate"] or symbols(factor)
-    ranks = sorted((letter.dots, *letters.rank(letter)) for letter in found)
-    return (ranks[0] if ranks else (), isinstance(factor, Add))
-
-
 def _term_rank(term: Tree, letters: Letters) -> tuple:
     found, dots = symbols(term), _dots(term)
+    powers = (f if isinstance(f, Pow) else Pow(f, Fraction(1)) for f in _factors(term))
+    degree = sum(f.exponent for f in powers if isinstance(f.base, Sym) and letters.kind(f.base.name) == "indeterminate")
     moves = any(letters.kind(letter.name) not in ("parameter", "constant") for letter in found)
     leading = sorted(letters.place(letter.name) for letter in found if letter.dots == dots)
     rest = sorted(letters.place(letter.name) for letter in found if letter.dots != dots)
-    return -_degree(term, letters), -dots, dots == 0 and moves, leading, rest
-
-
-def _degree(term: Tree, letters: Letters) -> Fraction:
-    """The power of an indeterminate in a term of a polynomial."""
-    powers = (f if isinstance(f, Pow) else Pow(f, Fraction(1)) for f in _factors(term))
-    return sum(
-        (f.exponent for f in powers if isinstance(f.base, Sym) and letters.kind(f.base.name) == "indeterminate"), Fraction(0)
-    )
+    return -degree, -dots, dots == 0 and moves, leading, rest
 
 
 def _dots(term: Tree) -> int:

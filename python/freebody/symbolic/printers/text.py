@@ -14,7 +14,7 @@ from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
-from freebody.symbolic.tree import Fn, Num, Sym, Tree
+from freebody.symbolic.tree import Fn, Num, Pow, Sym, Tree
 
 WIDTH = 100
 _VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}
@@ -113,7 +113,7 @@ class TextPrinter(Printer[str]):
         vulgar = "" if list(factors) == [Sym("pi")] else self._vulgar(number)
         if vulgar or not factors:
             return self.juxtapose([vulgar or str(number), *map(self._factor, factors)])
-        if any(layout.is_function(factor) for factor in factors):
+        if any(isinstance(factor.base if isinstance(factor, Pow) else factor, Fn) for factor in factors):
             return self.juxtapose([self.bracket(str(number)), *map(self._factor, factors)])
         ends_bare = layout.is_bare(factors[-1])
         return self.fraction(self._factors(number.numerator, factors), str(number.denominator), ends_bare, False)
