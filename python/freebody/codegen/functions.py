@@ -8,7 +8,6 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from freebody.codegen.languages import LANGUAGES
 from freebody.codegen.source import Language, Writer
@@ -28,19 +27,6 @@ _HELP = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Argument:
-    """A letter's place among the arguments of generated functions: ``q[1]``, or ``t``."""
-
-    array: str
-    index: int
-
-    @property
-    def code(self) -> str:
-        """As it is written."""
-        return "t" if self.array == "t" else f"{self.array}[{self.index}]"
-
-
 def generate(functions: Mapping[str, Entries], letters: Letters, language: str = "python") -> str:
     """Source code with one function for every name.
 
@@ -55,11 +41,20 @@ def generate(functions: Mapping[str, Entries], letters: Letters, language: str =
         if not re.fullmatch(r"[A-Za-z_]\w*", name) or name in _RESERVED:
             raise ValueError(f"{name!r} cannot be the name of a function; letters, digits and underscores can")
     flat = {name: _flatten(entries) for name, entries in functions.items()}
-    used = symbols(*(tree for trees, _ in flat.values() for tree in trees))
-    places = _places(letters, used)
-    arrays = ["q", "u", "p", "t", *(x for x in "ar" if any(places[letter].array == x for letter in used if letter in places))]
+    used, given = symbols(*(tree for trees, _ in flat.values() for tree in trees)), _arguments(letters)
+    places = {letter: "t" if x == "t" else f"{x}[{i}]" for x, members in given.items() for i, letter in enumerate(members)}
+    for letter in sorted(used - places.keys() - {Sym(PI)}, key=str):
+        raise ValueError(f"{letter.name!r} differentiated {letter.dots} times is no argument; say what it is in the letters")
+    arrays = [x for x, members in given.items() if x in "qupt" or used & set(members)]
     made = [_function(name, trees, shape, places, arrays, spelling) for name, (trees, shape) in flat.items()]
     return spelling.file(_header(letters, arrays), made)
+
+
+def _arguments(letters: Letters) -> dict[str, list[Sym]]:
+    """The letters that stand in each array, in their order."""
+    q, p, t, r = (letters.of_kind(*kinds) for kinds in (("coordinate",), ("parameter", "constant"), ("time",), ("unknown",)))
+    names = {"q": (q, 0), "u": (q, 1), "p": ([name for name in p if name != PI], 0), "t": (t, 0), "a": (q, 2), "r": (r, 0)}
+    return {array: [Sym(name, dots) for name in held] for array, (held, dots) in names.items()}
 
 
 def _flatten(entries: Entries) -> tuple[list[Tree], tuple[int, ...]]:
@@ -73,49 +68,31 @@ def _flatten(entries: Entries) -> tuple[list[Tree], tuple[int, ...]]:
     return [tree for trees, _ in parts for tree in trees], (len(parts), *parts[0][1])
 
 
-def _places(letters: Letters, used: set[Sym]) -> dict[Sym, Argument]:
-    coordinates = letters.of_kind("coordinate")
-    places = {Sym(name, dots): Argument(array, i) for dots, array in enumerate("qua") for i, name in enumerate(coordinates)}
-    places |= {Sym(name): Argument("p", i) for i, name in enumerate(_parameters(letters))}
-    places |= {Sym(name): Argument("r", i) for i, name in enumerate(letters.of_kind("unknown"))}
-    places |= {Sym(name): Argument("t", 0) for name in letters.of_kind("time")}
-    for letter in sorted(used - set(places) - {Sym(PI)}, key=str):
-        raise ValueError(f"{letter.name!r} differentiated {letter.dots} times is no argument; say what it is in the letters")
-    return places
-
-
-def _parameters(letters: Letters) -> list[str]:
-    return [name for name in letters.of_kind("parameter", "constant") if name != PI]
-
-
 def _header(letters: Letters, arrays: Sequence[str]) -> list[str]:
-    members = {"q": letters.of_kind("coordinate"), "p": _parameters(letters), "r": letters.of_kind("unknown")}
-    lines = []
+    given, lines = _arguments(letters), []
     for array in arrays:
         lines.append(f"{array}: {_HELP[array]}")
-        for place, name in enumerate(members.get(array, ())):
-            letter = letters[name]
+        for place, symbol in enumerate(given[array] if array in "qpr" else ()):
+            letter = letters[symbol.name]
             unit = f" [{letter.unit}]" if letter.unit else ""
-            lines.append(f"    {array}[{place}] {name}{unit}{f': {letter.doc}' if letter.doc else ''}")
-    lines += (str(said) for name, said in letters.renamed.items() if name in letters)
-    return lines
+            lines.append(f"    {array}[{place}] {letter.name}{unit}{f': {letter.doc}' if letter.doc else ''}")
+    return lines + [str(said) for name, said in letters.renamed.items() if name in letters]
 
 
 def _function(
     name: str,
     trees: Sequence[Tree],
     shape: tuple[int, ...],
-    places: Mapping[Sym, Argument],
+    places: Mapping[Sym, str],
     arrays: Sequence[str],
     spelling: Language,
 ) -> str:
-    used = sorted((s for s in symbols(*trees) if s in places), key=lambda s: (arrays.index(places[s].array), places[s].index))
-    named: dict[Sym, str] = {}
-    for letter in used:
-        named[letter] = "t" if places[letter].array == "t" else _identifier(letter, set(named.values()))
+    used, named = symbols(*trees), dict[Sym, str]()
+    for letter in (each for each in places if each in used):
+        named[letter] = "t" if places[letter] == "t" else _identifier(letter, set(named.values()))
     writer = Writer(spelling, named)
     results = writer.write(trees)
-    loaded = [(named[s], places[s].code) for s in used if named[s] != places[s].code]
+    loaded = [(name, places[letter]) for letter, name in named.items() if name != places[letter]]
     return spelling.function(name, arrays, loaded + writer.steps, results, shape)
 
 

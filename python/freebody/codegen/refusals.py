@@ -33,7 +33,10 @@ def check(source: CompiledModel, free: FreeBodies) -> None:
             )
     here = {**spec, **{section: [item for item in spec[section] if item.get("engaged", True)] for section in _LAWS}}
     for joint in here["joints"]:
-        _check_joint(joint)
+        if joint.get("friction") not in (None, 0, 0.0):
+            raise CannotGenerate(f"joints.{joint['name']} has friction, which sticks or slides; leave `friction` out")
+        if any(row.flank for row in cards.joints()[joint["type"]].rows):
+            raise CannotGenerate(f"joints.{joint['name']} pushes with one flank or the other; a coupling has one formula")
     _check_laws(here)
     lost = [load.symbol for load in free.loads if load.unknown and not load.determinate]
     if lost:
@@ -41,13 +44,6 @@ def check(source: CompiledModel, free: FreeBodies) -> None:
             f"the balances do not determine {', '.join(lost)} at this state: the joints hold more than they need to; "
             "release one of them, or start elsewhere"
         )
-
-
-def _check_joint(joint: Mapping[str, Any]) -> None:
-    if "friction" in joint and joint["friction"] not in (None, 0, 0.0):
-        raise CannotGenerate(f"joints.{joint['name']} has friction, which sticks or slides; leave `friction` out")
-    if any(row.flank for row in cards.joints()[joint["type"]].rows):
-        raise CannotGenerate(f"joints.{joint['name']} pushes with one flank or the other; a coupling has one formula")
 
 
 def _check_laws(spec: Mapping[str, Any]) -> None:
