@@ -27,7 +27,7 @@ from freebody.equations import (
     letters_table,
     read,
 )
-from freebody.symbolic.printers.text import columns
+from freebody.symbolic.alphabet import columns
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import MINUS_ONE, ZERO, add, mul
 

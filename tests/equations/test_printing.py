@@ -9,7 +9,7 @@ import pytest
 from material import LETTERS, anything, cos, half, product, sin, square, sym, values
 
 from freebody.equations import Fn, Num, Sym, equation_latex, equation_text, evaluate, latex, text
-from freebody.symbolic.printers.text import columns
+from freebody.symbolic.alphabet import columns
 from freebody.symbolic.tree import ZERO, add, minus, mul, negative, number, over, power
 
 TH1, TH2, THETA, X = sym("theta1"), sym("theta2"), sym("theta"), sym("x")

@@ -1,4 +1,6 @@
-"""Alphabets: Greek letters by their names, the signs that people write for letters, and LaTeX commands that are letters."""
+"""Alphabets: Greek letters by their names, signs that people write for letters, LaTeX commands that are letters; how wide text is."""
+
+import unicodedata
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -20,3 +22,8 @@ LATEX_WORDS: dict[str, str] = {
     **{"ell": "l", "imath": "i", "jmath": "j", "sum": "sum", "prime": "'"},
 }
 """LaTeX commands that are letters."""
+
+
+def columns(line: str) -> int:
+    """How many columns a line takes; marks that combine with a letter take none."""
+    return sum(not unicodedata.combining(sign) for sign in line)

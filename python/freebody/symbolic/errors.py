@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from freebody.symbolic.alphabet import columns
+
 Span = tuple[int, int]
 """Start and end in the text of the statement, in characters."""
 
@@ -30,12 +32,5 @@ def shown(text: str, span: Span) -> list[str]:
         return []
     start = text.rfind("\n", 0, span[0]) + 1
     line = text[start:].split("\n", 1)[0]
-    width = max(1, _columns(line[span[0] - start : span[1] - start]))
-    return ["    " + line, "    " + " " * _columns(line[: span[0] - start]) + "^" * width]
-
-
-def _columns(text: str) -> int:
-    """How wide the text stands: marks that combine with a letter take no room."""
-    import unicodedata
-
-    return sum(not unicodedata.combining(c) for c in text)
+    width = max(1, columns(line[span[0] - start : span[1] - start]))
+    return ["    " + line, "    " + " " * columns(line[: span[0] - start]) + "^" * width]

@@ -124,10 +124,16 @@ def walk(formula: Formula) -> Iterator[Part]:
                 yield from walk((*above, *below))
 
 
-def turn(part: Part) -> int:
+def bracket(part: Part) -> Atom:
+    """What may be a bracket: the part itself, or what it raises."""
+    last = part.base[-1] if isinstance(part, Script) else part
+    return last if isinstance(last, Atom) else GAP
+
+
+def turn(part: Part, kinds: Sequence[str] = ("open", "opening", "close", "closing")) -> int:
     """1 where brackets open, −1 where they close."""
-    kind = part.base[-1].kind if isinstance(part, Script) and isinstance(part.base[-1], Atom) else getattr(part, "kind", "")
-    return (kind in ("open", "opening")) - (kind in ("close", "closing"))
+    kind = bracket(part).kind
+    return (kind in kinds) * (1 if kind.startswith("open") else -1)
 
 
 def split(formula: Sequence[Part], depth: int, kinds: Sequence[str] = ("infix",)) -> Iterator[list[Part]]:

@@ -20,9 +20,10 @@ from freebody.document.blocks import (
     listed,
     pieces,
 )
+from freebody.symbolic.alphabet import columns
 from freebody.symbolic.formula import EQUALS, joined
 from freebody.symbolic.letters import Letter, Letters
-from freebody.symbolic.printers.text import columns, text
+from freebody.symbolic.printers.text import text
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Sym, Tree, is_zero
 
@@ -48,7 +49,7 @@ def fitted(block: Equation | MatrixEquation, letters: Letters, room: int) -> tup
         sides = named.side(left), named.side(right)
         known = Letters({**letters, **named.letters})
         if _across(*sides, known) <= room:
-            stated = [Equation(letter, tree) for tree, letter in named.found.values()]
+            stated = [Equation(name, tree) for (_, tree), name in named.found.items()]
             return [replace(whole, left=sides[0], right=sides[1]), *stated], known
     return [Paragraph(_absent(whole)), *_entries(left), *_entries(right)], letters
 
@@ -61,14 +62,14 @@ class Named:
 
     def news(self, blocks: Sequence[Block]) -> list[Block]:
         """The blocks without those that say again what a name means."""
-        return [block for block in blocks if not self._is_known(block)]
-
-    def _is_known(self, block: Block) -> bool:
-        if not isinstance(block, Equation) or not isinstance(block.left, Sym) or block.name:
-            return False
-        known = self.meanings.get(block.left) == block.right
-        self.meanings[block.left] = block.right
-        return known
+        kept = []
+        for block in blocks:
+            names = isinstance(block, Equation) and isinstance(block.left, Sym) and not block.name
+            if not names or self.meanings.get(block.left) != block.right:
+                kept.append(block)
+            if names:
+                self.meanings[block.left] = block.right
+        return kept
 
 
 def has_matrices(block: Block) -> bool:
@@ -82,11 +83,12 @@ class _Named:
 
     longest: int
     known: Letters
-    found: dict[tuple[str, Tree], tuple[Tree, Sym]]
+    found: dict[tuple[str, Tree], Sym]
 
     @property
     def letters(self) -> dict[str, Letter]:
-        return {letter.name: _letter(letter) for _, letter in self.found.values()}
+        parts = ((name.name, *name.name.split(".")) for name in self.found.values())
+        return {name: Letter(name, "constant", written=Name(stem, ("".join(place),))) for name, stem, *place in parts}
 
     def side(self, side: Side) -> Side:
         return Matrices(tuple(map(self._matrix, side.factors))) if isinstance(side, Matrices) else side
@@ -95,16 +97,16 @@ class _Named:
         if not matrix.letter:
             return matrix
         letter = matrix.letter * (1 + any(re.fullmatch(rf"{matrix.letter}_?\d+", name) for name in self.known))
-        places = [[self._entry(letter, place, tree, matrix) for place, tree in row] for row in _placed(matrix)]
-        return Matrix(places, letter)
+        counted = max(len(matrix.rows), len(matrix.rows[0])) > _DIGITS
+        return Matrix(
+            [[self._entry(letter, () if counted else place, tree) for place, tree in row] for row in _placed(matrix)], letter
+        )
 
-    def _entry(self, letter: str, place: Place, tree: Tree, matrix: Matrix) -> Tree:
+    def _entry(self, letter: str, place: Place, tree: Tree) -> Tree:
         if is_zero(tree) or (self.longest and columns(text(tree, self.known)) <= self.longest):
             return tree
-        if max(len(matrix.rows), len(matrix.rows[0])) > _DIGITS:
-            place = (1 + sum(1 for owner, _ in self.found if owner == letter),)
-        name = Sym(".".join([letter, *map(str, place)]))
-        return self.found.setdefault((letter, tree), (tree, name))[1]
+        place = place or (1 + sum(owner == letter for owner, _ in self.found),)
+        return self.found.setdefault((letter, tree), Sym(".".join([letter, *map(str, place)])))
 
 
 def _placed(matrix: Matrix) -> list[list[tuple[Place, Tree]]]:
@@ -117,23 +119,13 @@ def _entries(side: Side) -> list[Equation]:
     """The entries that are not 0, equal ones together."""
     found: dict[Tree, list[Name]] = {}
     for matrix in side.factors if isinstance(side, Matrices) else ():
-        for place, tree in (entry for row in _placed(matrix) for entry in row if matrix.letter):
-            if not is_zero(tree):
-                found.setdefault(tree, []).append(_name(matrix.letter, place))
+        for place, tree in (entry for row in _placed(matrix) for entry in row if matrix.letter and not is_zero(entry[1])):
+            below = ("" if max(place) <= _DIGITS else ",").join(map(str, place))
+            found.setdefault(tree, []).append(Name(matrix.letter, (below,)))
     return [
         Equation(Written(" = ".join(n.unicode() for n in each), joined((n.formula() for n in each), (EQUALS,))), tree)
         for tree, each in found.items()
     ]
-
-
-def _name(letter: str, place: Sequence[object]) -> Name:
-    places = list(map(str, place))
-    return Name(letter, ("".join(places) if all(len(each) == 1 for each in places) else ",".join(places),))
-
-
-def _letter(symbol: Sym) -> Letter:
-    stem, *places = symbol.name.split(".")
-    return Letter(symbol.name, "constant", written=Name(stem, ("".join(places),)))
 
 
 def _sides(block: Equation | MatrixEquation) -> tuple[Side, Side]:
@@ -145,12 +137,11 @@ def _sides(block: Equation | MatrixEquation) -> tuple[Side, Side]:
 
 def _across(left: Side, right: Side, letters: Letters) -> int:
     """Columns of the line; a single letter stands on the left where there is no matrix."""
-    return sum(_wide(matrix, letters) for side in (left, right) if isinstance(side, Matrices) for matrix in side.factors) + 4
-
-
-def _wide(matrix: Matrix, letters: Letters) -> int:
-    shown = [[columns(text(tree, letters)) for tree in row] for row in matrix.rows]
-    return sum(max(column) + _GAP for column in zip(*shown, strict=True)) - _GAP + _EDGES
+    across = 4
+    for matrix in (matrix for side in (left, right) if isinstance(side, Matrices) for matrix in side.factors):
+        shown = [[columns(text(tree, letters)) for tree in row] for row in matrix.rows]
+        across += sum(max(column) + _GAP for column in zip(*shown, strict=True)) - _GAP + _EDGES
+    return across
 
 
 def _absent(block: Equation) -> Words:

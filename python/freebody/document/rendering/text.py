@@ -11,9 +11,10 @@ from freebody.document.blocks import Block, Equation, Figure, Matrices, Side, Ve
 from freebody.document.rendering.format import Format
 from freebody.document.rendering.markup import Markup
 from freebody.document.rendering.matrices import has_matrices
+from freebody.symbolic.alphabet import columns
 from freebody.symbolic.formula import Formula
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.printers.text import columns, equation_text, folded, printer, text
+from freebody.symbolic.printers.text import equation_text, folded, printer, text
 
 _INDENT = "    "
 _TIE = "\u00a0"

@@ -7,7 +7,23 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from freebody.symbolic.formula import EQUALS, GAP, QUAD, Accent, Atom, Formula, Fraction, Grid, Part, Root, Script, split, walk
+from freebody.symbolic.formula import (
+    EQUALS,
+    GAP,
+    QUAD,
+    Accent,
+    Atom,
+    Formula,
+    Fraction,
+    Grid,
+    Part,
+    Root,
+    Script,
+    bracket,
+    split,
+    turn,
+    walk,
+)
 
 ROOM = 30.0
 """Width of a line of an article with a number beside it."""
@@ -18,6 +34,7 @@ _WIDTHS = {
     "sin": 1.5, "cos": 1.55, "tan": 1.65, "ln": 1.1, "exp": 1.75, " ": 0.0, "\u2009": 0.17, "\u2003": 1.0,
 }  # fmt: skip
 _BRACKETS = {"open": 0.39, "close": 0.39, "opening": 0.5, "closing": 0.5} | dict.fromkeys(("bigl", "bigr", "Bigl", "Bigr"), 0.49)
+_GROWING = ("opening", "closing")
 _BAR = 0.24
 """What a fraction takes beyond what stands in it."""
 _ROOT = 0.85
@@ -60,29 +77,15 @@ def lines(formula: Formula, room: float = ROOM) -> list[Formula]:
         left -= needed
     # Brackets that grow cannot be broken.
     size = "Big" if any(isinstance(part, Fraction) and not part.small for part in walk(formula)) else "big"
-    torn = any(sum(_growth(part) for part in line) for line in made)
+    torn = any(sum(turn(part, _GROWING) for part in line) for line in made)
     return [tuple(_sized(part, size) for part in line) if torn else tuple(line) for line in made]
-
-
-def _growth(part: Part) -> int:
-    """1 for a bracket that grows and opens, −1 for one that closes."""
-    kind = _bracket(part).kind
-    return (kind == "opening") - (kind == "closing")
 
 
 def _sized(part: Part, size: str) -> Part:
     """A bracket that grows in a size of its own."""
-    growth = _growth(part)
-    if not growth:
-        return part
-    bracket = Atom(_bracket(part).text, size + ("l" if growth > 0 else "r"))
-    return replace(part, base=(*part.base[:-1], bracket)) if isinstance(part, Script) else bracket
-
-
-def _bracket(part: Part) -> Atom:
-    """The part, or what it raises, if that is a bracket."""
-    last = part.base[-1] if isinstance(part, Script) else part
-    return last if isinstance(last, Atom) else GAP
+    growth = turn(part, _GROWING)
+    sized = Atom(bracket(part).text, size + ("l" if growth > 0 else "r"))
+    return part if not growth else replace(part, base=(*part.base[:-1], sized)) if isinstance(part, Script) else sized
 
 
 def _unstacked(formula: Formula, room: float) -> Iterator[Part]:

@@ -16,14 +16,6 @@ Made = TypeVar("Made", bound=Sequence)
 
 
 @dataclass(frozen=True)
-class Term(Generic[Made]):
-    """One term of a printed sum: its sign and what follows it."""
-
-    negative: bool
-    shown: Made
-
-
-@dataclass(frozen=True)
 class Printer(ABC, Generic[Made]):
     """Walks over trees and makes of them a text, or a formula; the letters say in what order a person writes them."""
 
@@ -38,35 +30,31 @@ class Printer(ABC, Generic[Made]):
 
     def expression(self, tree: Tree) -> Made:
         """The tree as one line."""
-        return self.join(self.terms(tree))
-
-    def terms(self, tree: Tree) -> list[Term[Made]]:
-        """The terms of the tree in the order of writing."""
-        return [self._term(term) for term in layout.terms(tree, self.letters)]
-
-    def join(self, terms: Sequence[Term[Made]]) -> Made:
-        """The terms as a sum: a leading plus is left out."""
-        first, *more = terms
-        made = self.negative + first.shown if first.negative else first.shown
-        for term in more:
-            made += (self.minus if term.negative else self.plus) + term.shown
-        return made
+        return self._sum([self._term(term) for term in layout.terms(tree, self.letters)])
 
     def vector(self, components: Sequence[tuple[Tree, str]]) -> Made:
         """A vector by its components along unit directions."""
         terms = [self._component(tree, self.direction(name)) for tree, name in components if not is_zero(tree)]
-        return self.join(terms) if terms else self.number(0)
+        return self._sum(terms) if terms else self.number(0)
 
-    def _component(self, tree: Tree, unit: Made) -> Term[Made]:
+    def _component(self, tree: Tree, unit: Made) -> tuple[bool, Made]:
         shown = self.expression(tree)
         if isinstance(tree, Add) or self.ends_below(shown):
-            return Term(False, self.juxtapose([self.bracket(shown), unit]))
-        term = self._term(tree)
-        return Term(term.negative, unit if term.shown == self.number(1) else self.juxtapose([term.shown, unit]))
+            return False, self.juxtapose([self.bracket(shown), unit])
+        negative, shown = self._term(tree)
+        return negative, unit if shown == self.number(1) else self.juxtapose([shown, unit])
 
-    def _term(self, tree: Tree) -> Term[Made]:
+    def _sum(self, terms: Sequence[tuple[bool, Made]]) -> Made:
+        """Terms behind their signs, whether they are negative; a leading plus is left out."""
+        (negative, made), *more = terms
+        made = self.negative + made if negative else made
+        for negative, shown in more:
+            made += (self.minus if negative else self.plus) + shown
+        return made
+
+    def _term(self, tree: Tree) -> tuple[bool, Made]:
         laid = layout.product(tree, self.letters)
-        return Term(laid.negative, self._fraction(laid) if laid.below else self.product(laid.size, laid.above))
+        return laid.negative, self._fraction(laid) if laid.below else self.product(laid.size, laid.above)
 
     def _fraction(self, laid: layout.Product) -> Made:
         above, below = laid.size.as_integer_ratio() if isinstance(laid.size, Fraction) else (laid.size, 1)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
+from freebody.symbolic.alphabet import columns
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.printer import Printer
@@ -46,11 +46,6 @@ def folded(lead: str, line: str, width: int = WIDTH) -> str:
         else:
             made.append(piece.lstrip())
     return lead + f"\n{indent}".join(made)
-
-
-def columns(line: str) -> int:
-    """How many columns a line takes; combining dots take none."""
-    return sum(not unicodedata.combining(sign) for sign in line)
 
 
 def _pieces(line: str, room: int, depth: int) -> Iterator[str]:

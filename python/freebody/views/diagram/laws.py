@@ -9,9 +9,9 @@ from functools import cached_property
 from typing import Any, TypeAlias
 
 from freebody.core import CompiledModel, FreeBodies, Load, State
+from freebody.symbolic.alphabet import columns
 from freebody.symbolic.printers import line_breaking
 from freebody.symbolic.printers.latex import latex
-from freebody.symbolic.printers.text import columns
 from freebody.symbolic.printers.typeset import formula
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action

@@ -7,7 +7,8 @@ from typing import ClassVar
 
 from freebody.core import Load
 from freebody.solve.symbols import Naming
-from freebody.symbolic.printers.text import columns, text
+from freebody.symbolic.alphabet import columns
+from freebody.symbolic.printers.text import text
 from freebody.symbolic.printers.typeset import latex
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Sym, Tree, is_zero, symbols
