@@ -89,7 +89,7 @@ def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[
 
 def _distance(one: Array, other: Array, gap: float) -> float:
     """Between two arrows, from places close enough to see what comes within a gap; of a long one not too many."""
-    steps = (max(gap / 2, float(np.hypot(*np.diff(arrow, axis=0).T).sum()) / 200) for arrow in (one, other))
+    steps = (max(gap / 2, shapes.length(arrow) / 200) for arrow in (one, other))
     mine, its = (shapes.dense([arrow], step) for arrow, step in zip((one, other), steps, strict=True))
     return float(np.hypot(*(mine[:, None] - its).transpose(2, 0, 1)).min())
 

@@ -204,6 +204,8 @@ LAYERS: dict[str, Callable[[_Drawing], None]] = {
 
 def _draw_axes_and_gravity(sheet: _Drawing) -> None:
     """The fixed axes in the lower left corner, the direction of gravity in the lower right one."""
+    from matplotlib.transforms import Affine2D, ScaledTranslation
+
     ax, gravity = sheet.ax, sheet.sketch.spec.get("gravity")
     g = np.array([sheet.sketch.number(x) for x in gravity]) if gravity else np.zeros(2)
     ax.apply_aspect()
@@ -215,15 +217,8 @@ def _draw_axes_and_gravity(sheet: _Drawing) -> None:
         corner = (1, 0) if start[0] < 0 else (0, 0)
         look = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
         end = (start[0] + way[0], start[1] + way[1])
-        transform = _offset(ax, corner)
+        transform = Affine2D().scale(ax.figure.dpi / 72) + ScaledTranslation(*corner, ax.transAxes)  # points from the corner
         sheet.lines.append(ax.transData.inverted().transform(transform.transform([start, np.array(start) + 1.3 * np.array(way)])))
         ax.annotate("", end, start, xycoords=transform, textcoords=transform, arrowprops=look, annotation_clip=False)
         beyond = np.array(end) + 8 * np.array(way) / np.hypot(*way)
         ax.annotate(text, tuple(beyond), xycoords=transform, color=tone, ha="center", va="center", fontsize=9.5, style="italic")
-
-
-def _offset(ax: Axes, corner: tuple[float, float]) -> Any:
-    """Points (1/72 inch) from a corner of the axes."""
-    from matplotlib.transforms import Affine2D, ScaledTranslation
-
-    return Affine2D().scale(ax.figure.dpi / 72) + ScaledTranslation(*corner, ax.transAxes)

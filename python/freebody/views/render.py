@@ -53,7 +53,9 @@ def patch(style: str, points: Any, tint: str, closed: bool = True) -> Any:
 def _look(style: str, tint: str) -> dict[str, Any]:
     """Fill, line and width of a style."""
     if style in ("body", "block"):
-        return {"facecolor": _pale(tint), "edgecolor": tint, "lw": 1.5}
+        from matplotlib.colors import to_rgb
+
+        return {"facecolor": tuple(0.78 + 0.22 * channel for channel in to_rgb(tint)), "edgecolor": tint, "lw": 1.5}
     if style == "mass":
         return {"facecolor": tint, "edgecolor": tint, "lw": 1}
     if style == "weld":
@@ -63,13 +65,6 @@ def _look(style: str, tint: str) -> dict[str, Any]:
     width = {"band": 4.0, "mark": 1.5, "rail": 1.6, "hatch": 0.8, "dash": 1.2}[style]
     tone = GROUND if style in ("hatch", "rail") else tint
     return {"fill": False, "edgecolor": tone, "lw": width, "ls": (0, (5, 3)) if style == "dash" else "-"}
-
-
-def _pale(tint: str) -> Any:
-    """A light version of a colour."""
-    from matplotlib.colors import to_rgb
-
-    return tuple(0.78 + 0.22 * channel for channel in to_rgb(tint))
 
 
 def frame_axes(scene: Scene, ax: Axes, margin: float = 2.0) -> None:

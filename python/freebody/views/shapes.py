@@ -19,6 +19,19 @@ def turn(points: Array, angle: float, at: ArrayLike = (0.0, 0.0)) -> Array:
     return turned
 
 
+def length(line: Array) -> float:
+    """That of a polyline."""
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
+
+
+def inside(outline: Array, places: Array) -> Array:
+    """Which of some places (k, 2) are within an outline, (k,)."""
+    from matplotlib.path import Path
+
+    within: Array = Path(outline).contains_points(places)
+    return within
+
+
 def arc(centre: ArrayLike, radius: float, start: float, end: float) -> Array:
     """An arc from one angle to another (rad)."""
     angles = np.linspace(start, end, max(2, int(np.ceil(abs(end - start) / _ARC_STEP)) + 1))
@@ -47,14 +60,13 @@ def convex_hull(points: Array) -> Array:
 def _chain(ordered: Array) -> list[Array]:
     chain: list[Array] = []
     for point in ordered:
-        while len(chain) > 1 and _left(chain[-2], chain[-1], point) <= 1e-12:
+        while len(chain) > 1:
+            (ax, ay), (bx, by) = chain[-1] - chain[-2], point - chain[-2]
+            if ax * by - ay * bx > 1e-12:
+                break
             chain.pop()
         chain.append(point)
     return chain
-
-
-def _left(a: Array, b: Array, c: Array) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
 def rounded_hull(points: Array, radius: float) -> Array:

@@ -64,16 +64,12 @@ def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels:
     beyond = {load.symbol: load for load in near.on(*group)}
     for load in free.on(*group):
         if not load.unknown and all(part.idle for part in load.on):
-            load = _going(load, beyond.get(load.symbol, load))
+            # Now it is 0: its directions are those that it has a little further on.
+            now, then = {part.body: part.point for part in load.on}, beyond.get(load.symbol, load).on
+            load = replace(load, on=tuple(replace(part, point=now.get(part.body, part.point)) for part in then))
         for part in load.on:
             if part.body in group:
                 yield from _positive(load, part, labels.of(load), sketch)
-
-
-def _going(load: Load, beyond: Load) -> Load:
-    """A load that is 0 in the directions that it has a little further on."""
-    at = {part.body: part.point for part in load.on}
-    return replace(load, on=tuple(replace(part, point=at.get(part.body, part.point)) for part in beyond.on))
 
 
 def _positive(load: Load, part: Part, sign: Sign, sketch: Sketch) -> Iterator[Action]:
@@ -88,15 +84,11 @@ def _positive(load: Load, part: Part, sign: Sign, sketch: Sketch) -> Iterator[Ac
 def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketch: Sketch) -> Action:
     at = attached(load, part, sketch)
     bound = load.kind in ("joint", "friction", "motion", "lock") or not np.array_equal(at, part.point)
-    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), _pulls(load, part, force), bound)
-
-
-def _pulls(load: Load, part: Part, force: Array) -> bool:
-    """Whether a string, a link or a spring between two points pulls."""
-    if load.card.pulls:
-        return bool(force @ part.force > 0)
     others = [other.point for other in load.on if other is not part]
-    return load.kind == "force" and len(others) == 1 and bool(force @ np.subtract(others[0], part.point) > 0)
+    pulls = load.card.pulls and force @ part.force > 0  # a string or a link; else a spring between two points
+    if not load.card.pulls and load.kind == "force" and len(others) == 1:
+        pulls = force @ np.subtract(others[0], part.point) > 0
+    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), bool(pulls), bound)
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
@@ -163,12 +155,11 @@ def _acting(loads: Collection[Load], group: Collection[str], labels: Labels, ske
             for one in (replace(new, couple=0.0), replace(new, force=np.zeros(2))):
                 key = (f"{load.path} {one.label} {i * (load.kind == 'string')}", one.turns, one.body)
                 if one.force.any() or one.couple:
-                    found[key] = _together(found[key], one) if key in found else one
+                    if first := found.get(key):
+                        forces, loads = first.force + one.force, first.loads + one.loads
+                        one = replace(first, force=forces, couple=first.couple + one.couple, loads=loads)
+                    found[key] = one
     return found.values()
-
-
-def _together(first: Action, second: Action) -> Action:
-    return replace(first, force=first.force + second.force, couple=first.couple + second.couple, loads=first.loads + second.loads)
 
 
 def _with_value(action: Action, labels: Labels) -> Action:

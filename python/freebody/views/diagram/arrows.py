@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -103,14 +103,6 @@ def _choices(action: Action, scenery: Scenery, per_newton: float | None) -> list
     return choices
 
 
-def _moved(action: Action, scenery: Scenery, aside: Array) -> float:
-    """What it costs to draw a force beside its line."""
-    if scenery.slides(action):
-        return float(np.hypot(*aside))
-    pinned = not (action.pulls or action.kind == "force")
-    return _MOVED * float(np.hypot(*aside)) + _OFF_ITS_POINT * (pinned and bool(aside.any()))
-
-
 def shared(one: Arrow, other: Arrow) -> float:
     """How far, in pt, two arrows lie on each other."""
     way = (one.head - one.tail) / one.length
@@ -123,10 +115,12 @@ def shared(one: Arrow, other: Arrow) -> float:
 def _alone(arrow: Arrow, scenery: Scenery) -> float:
     """What an arrow hides of the bodies, and how far it is from where one expects it."""
     shaft = dense([arrow.line])
-    inside = sum(int(_within(shaft, solid).sum()) for solid in scenery.solids)
+    inside = sum(int(shapes.inside(solid, shaft).sum()) for solid in scenery.solids)
     drawn = _near(_beyond(arrow, shaft), scenery.obstacles, 2.5)
     reverse = 3.0 * np.array_equal(arrow.head, arrow.at)
-    aside = _moved(arrow.action, scenery, arrow.at - scenery.place(arrow.action.at))
+    action, moved = arrow.action, float(np.hypot(*(arrow.at - scenery.place(arrow.action.at))))
+    pinned = not (action.pulls or action.kind == "force")
+    aside = moved if scenery.slides(action) else _MOVED * moved + _OFF_ITS_POINT * (pinned and moved > 0)
     return 1.5 * inside + 1.0 * drawn + 0.6 * arrow.length + reverse + aside
 
 
@@ -155,13 +149,6 @@ def _near(places: Array, obstacles: Array, distance: float) -> int:
     return int((squares.min(axis=1) < distance**2).sum())
 
 
-def _within(places: Array, outline: Array) -> Array:
-    from matplotlib.path import Path
-
-    inside: Array = Path(outline).contains_points(places)
-    return inside
-
-
 def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow:
     """A couple may stand anywhere on its body: that of a joint at it, that of its motor near it; else its own point comes first,
     then the mass centre."""
@@ -188,8 +175,3 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow
                     best = cost, CoupleArrow(action, place, line)
     assert best is not None
     return best[1]
-
-
-def lines(marks: Iterable[Mark]) -> list[Array]:
-    """The lines of all arrows."""
-    return [mark.line for mark in marks]

@@ -10,7 +10,7 @@ import numpy as np
 
 from freebody.run.records import Array
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.arrows import Arrow, Mark, lines
+from freebody.views.diagram.arrows import Arrow, Mark
 from freebody.views.diagram.scenery import Scenery
 from freebody.views.labels import Label, Obstacles, Placed, mathtext, placed
 from freebody.views.shapes import dense
@@ -57,10 +57,10 @@ class Panel:
 
     @cached_property
     def _arrows(self) -> Array:
-        return dense(lines(self.marks), 1.5)
+        return dense([mark.line for mark in self.marks], 1.5)
 
     def _inside(self) -> list[Array]:
-        return [self.scenery.obstacles, *lines(self.marks), *_corners(self.labels)]
+        return [self.scenery.obstacles, *(mark.line for mark in self.marks), *_corners(self.labels)]
 
 
 def _letters(marks: Sequence[Mark]) -> Iterator[Label]:

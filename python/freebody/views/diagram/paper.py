@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.run.records import Array
+from freebody.views import shapes
 from freebody.views.diagram.arrows import CoupleArrow
 from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone
 from freebody.views.diagram.rows import LINE, MARGIN, NOTE, TITLE, Laid, Row, laid
@@ -86,7 +87,7 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
     for dimension in scenery.dimensions:
         for guide in dimension.guides:
             ax.plot(*(guide + shift).T, color=MEASURE, lw=0.7, ls=(0, (4, 3)) if dimension.angle else "-", zorder=3)
-        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, float(np.clip(0.8 * _length(dimension.arrow), 4.0, 7.0)))
+        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, float(np.clip(0.8 * shapes.length(dimension.arrow), 4.0, 7.0)))
     for pin in scenery.pins:
         ax.plot(*(pin + shift), "o", ms=2 * _PIN, mfc=PAPER, mec=INK, mew=1.0, zorder=4)
     for tag in scenery.points:
@@ -106,10 +107,6 @@ def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> Non
     if len(line) > 2:
         ax.plot(*line[:-1].T, color=colour, lw=width, zorder=5, solid_capstyle="butt")
     ax.annotate("", line[-1], line[-2], arrowprops=look, zorder=5)
-
-
-def _length(line: Array) -> float:
-    return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
 def _axes(ax: Axes, corner: Array) -> None:

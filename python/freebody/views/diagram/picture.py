@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
 from html import escape
@@ -21,20 +20,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Picture(ABC):
-    """Rows on one sheet, one below the other."""
+class Picture:
+    """Rows on one sheet, one below the other, with a name and a description in words."""
 
     name: str
-
-    @property
-    @abstractmethod
-    def rows(self) -> Sequence[Row]:
-        """What is drawn."""
-
-    @property
-    @abstractmethod
-    def description(self) -> str:
-        """In words, what is shown."""
+    rows: Sequence[Row]
+    description: str
 
     @cached_property
     def figure(self) -> Figure:

@@ -88,7 +88,8 @@ def _beside(row: Row) -> Laid:
     boxes = [panel.box() for panel in row.panels]
     top, bottom = max(high[1] for _, high in boxes), min(low[1] for low, _ in boxes)
     shifts, signs, x, y = [], [], 0.0, -row.head - top
-    level = y + _middle(row.panels[0])
+    heights = np.concatenate([stroke.points[:, 1] for stroke in row.panels[0].scenery.strokes] or [np.zeros(1)])
+    level = y + float((heights.min() + heights.max()) / 2)  # of the middle of the bodies
     for i, (low, high) in enumerate(boxes):
         if i:
             signs.append(np.array([x + BETWEEN / 2, level]))
@@ -123,12 +124,6 @@ def _with(above: Laid, panel: Panel) -> Laid:
     y = -above.size[1] - LINE
     size = np.array([max(above.size[0], high[0] - low[0]), high[1] - low[1] - y])
     return Laid([*above.panels, (panel, np.array([-low[0], y - high[1]]))], above.signs, size)
-
-
-def _middle(panel: Panel) -> float:
-    """Height of the middle of what is drawn of the bodies."""
-    heights = np.concatenate([stroke.points[:, 1] for stroke in panel.scenery.strokes] or [np.zeros(1)])
-    return float((heights.min() + heights.max()) / 2)
 
 
 def _lines(text: str, column: float, letter: float) -> list[str]:

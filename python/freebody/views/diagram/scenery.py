@@ -110,7 +110,7 @@ class Scenery:
 
     def within(self, places: Array) -> bool:
         """Whether any of some places (k, 2) is on a body."""
-        return any(_contains(outline, places) for outline in self.solids)
+        return any(shapes.inside(outline, places).any() for outline in self.solids)
 
     @cached_property
     def obstacles(self) -> Array:
@@ -129,13 +129,6 @@ def closed(stroke: Drawn) -> Array:
     return np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
 
 
-def _contains(outline: Array, places: Array) -> bool:
-    """Whether any of some places (k, 2) is within an outline."""
-    from matplotlib.path import Path
-
-    return bool(Path(outline).contains_points(places).any())
-
-
 def scenery(
     source: CompiledModel, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0
 ) -> Scenery:
@@ -146,7 +139,7 @@ def scenery(
     strokes = _strokes(scene, group, scale)
     strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
-    inner = [scale * line for line in _inner(scene, free, group)]
+    inner = [scale * line for line in _joining(scene, {load.name for load in free.inside(*group)})]
     pins = scale * _pins(sketch, free, group)
     points = _points(sketch, group, centres, scale)
     across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
@@ -210,18 +203,13 @@ def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collect
         own = [stroke for stroke in strokes if stroke.body == part.body and stroke.style not in _LOOSE]
         solid = [stroke for stroke in own if stroke.style in _SOLID]
         at, seen = scale * attached(load, part, sketch), shapes.dense([closed(stroke) for stroke in own])
-        if not solid or any(_contains(stroke.points, at[None]) for stroke in solid):
+        if not solid or any(shapes.inside(stroke.points, at[None]) for stroke in solid):
             continue
         gaps = np.hypot(*(seen - at).T)
         if gaps.min() > _BESIDE:
             outline = shapes.rounded_hull(np.array([seen[gaps.argmin()], at]), 0.6 * SYMBOL)
             arms.append(Drawn("body", outline, solid[0].tint, True, part.body))
     return arms
-
-
-def _inner(scene: Scene, free: FreeBodies, group: Collection[str]) -> list[Array]:
-    """Springs, links and strings that are not cut."""
-    return _joining(scene, {load.name for load in free.inside(*group)})
 
 
 def _joining(scene: Scene, among: Collection[str] | None = None) -> list[Array]:
@@ -270,7 +258,7 @@ def _dimensions(
             continue
         value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
         arrow, guides = scale * measure.arrow, [scale * guide for guide in measure.guides]
-        length = float(np.hypot(*np.diff(arrow, axis=0).T).sum())
+        length = shapes.length(arrow)
         aside = scale * measure.place - guides[0][0]
         if measure.angle and measure.first not in group and np.hypot(*aside) > 1.0:
             # The vertex is not on these bodies: the same angle at what they are held by.
@@ -290,7 +278,7 @@ def _axis(body: str, guide: Array, strokes: Sequence[Drawn]) -> Tag | None:
     """The name of a body's x axis at the end of a guide that runs along it, unless the body lies there."""
     own = [stroke for stroke in strokes if stroke.body == body]
     seen = shapes.dense([closed(stroke) for stroke in own])
-    lies = any(_contains(stroke.points, guide[1:]) for stroke in own if stroke.style in _SOLID)
+    lies = any(shapes.inside(stroke.points, guide[1:]) for stroke in own if stroke.style in _SOLID)
     if not own or lies or np.hypot(*(seen - guide[1]).T).min() < SYMBOL:
         return None
     return Tag(letter(f"x_{body}"), guide[1])
