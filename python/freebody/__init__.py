@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .core import ExpressionError, Indeterminate, ModelError, MotionError
     from .model import Mechanism, ModelFileError
-    from .run.compare import compare
     from .run.simulation import Run
     from .solve.instant import Instant
+    from .views.compare import compare
 
 _HOMES = {
     "ExpressionError": "core",
@@ -25,7 +25,7 @@ _HOMES = {
     "ModelFileError": "model",
     "MotionError": "core",
     "Run": "run.simulation",
-    "compare": "run.compare",
+    "compare": "views.compare",
 }
 
 __all__ = [

@@ -15,6 +15,7 @@ MAY_USE = {
     "document": {"symbolic"},
     "solve": CORE,
     "impact": CORE | {"model", "solve"},
+    "run": CORE | {"model", "solve"},
     "views": SOLVED | {"document"},
     "codegen": CORE | {"model", "solve", "equations"},
     "equations": SOLVED | {"document", "views", "codegen"},

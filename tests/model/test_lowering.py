@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from freebody.core import CompiledModel, ModelError
+from freebody.core import CompiledModel, ModelError, ReportItem
 from freebody.model import lower, reading, syntax
 from freebody.model.errors import ModelFileError
 from freebody.model.mechanism import Mechanism
-from freebody.run.records import ReportItem
 
 
 def lowered(text: str, file: str | None = None) -> lower.Lowered:

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from freebody.core import Indeterminate
-from freebody.run.compare import compare
-from freebody.run.records import ReportItem, Window, integral, maximum, plain, quote, unit_of
+from freebody.core import Indeterminate, ReportItem
+from freebody.run.records import Window, integral, maximum, plain, quote, unit_of
 from freebody.run.simulation import output_times
 from freebody.solve.instant import Instant
+from freebody.views.compare import compare
 
 from .models import run_double_pendulum
 

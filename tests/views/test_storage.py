@@ -5,8 +5,8 @@ import sys
 import numpy as np
 import pytest
 
-from freebody.run.compare import compare
 from freebody.run.simulation import Run
+from freebody.views.compare import compare
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".csv"])

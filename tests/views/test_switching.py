@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from freebody.model import Mechanism
-from freebody.run.compare import compare
 from freebody.run.simulation import Run
 from freebody.views import plots
 from freebody.views.animate import animate
+from freebody.views.compare import compare
 from freebody.views.contact_glyphs import way
 from freebody.views.impact_markers import LASTING
 from freebody.views.peaks import peak_reactions

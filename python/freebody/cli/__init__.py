@@ -161,7 +161,7 @@ def compare(
 ) -> None:
     """How far two runs lie apart, column by column."""
     from freebody.cli import show
-    from freebody.run.compare import compare as compared
+    from freebody.views.compare import compare as compared
 
     show.comparison(compared(obtained(a), obtained(b)), as_json)
 

@@ -19,9 +19,9 @@ from freebody.views.peaks import peak_reactions
 
 if TYPE_CHECKING:
     from freebody.core import Change
-    from freebody.run.compare import Comparison
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant, Reaction
+    from freebody.views.compare import Comparison
 
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3

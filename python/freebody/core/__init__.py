@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from freebody._core import parse
 
-from .compiled import CompiledModel, Settings, Spec, quote
+from .compiled import BEFORE, CompiledModel, ReportItem, Settings, Spec, quote
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .limits import Limit
@@ -16,6 +16,7 @@ from .solution import Rank, Solution, SymbolicAnswers
 from .state import Array, State
 
 __all__ = [
+    "BEFORE",
     "GROUND",
     "Array",
     "Body",
@@ -36,6 +37,7 @@ __all__ = [
     "Pair",
     "Part",
     "Rank",
+    "ReportItem",
     "Row",
     "Settings",
     "Snapshot",

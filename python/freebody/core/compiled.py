@@ -18,6 +18,8 @@ from .state import Array, State
 
 Spec = dict[str, Any]
 """A model as the core reads it; crates/freebody/src/spec/ says what stands in it."""
+BEFORE = "before "
+"""In front of an event's name: the moment just before it."""
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
 
 
@@ -42,6 +44,22 @@ class Settings:
     painleve: str = "stop"
 
 
+@dataclass(frozen=True)
+class ReportItem:
+    """A quantity that the model asks for.
+
+    ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an
+    event's name, ``before`` and an event's name, or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI.
+    """
+
+    label: str
+    value: str
+    how: str = "at"
+    at: str | float = "end"
+    over: tuple[float, float] | None = None
+    unit: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class CompiledModel:
     """A mechanism without numbers, with the ``spec`` that it was compiled from; beside it the ``model`` as its file says it, what to
@@ -52,7 +70,7 @@ class CompiledModel:
     mechanism: _core.Mechanism
     spec: Spec
     model: Mapping[str, Any] = field(default_factory=dict)
-    report: tuple[Any, ...] = ()
+    report: tuple[ReportItem, ...] = ()
     notes: tuple[str, ...] = ()
 
     @classmethod

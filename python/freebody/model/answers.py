@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from freebody.core import cards
-from freebody.run.records import BEFORE, ReportItem
+from freebody.core import BEFORE, ReportItem, cards
 from freebody.symbolic.dimensions import Dimension
 
 from . import start, units

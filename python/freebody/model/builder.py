@@ -8,8 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from freebody.core import CompiledModel
-from freebody.run.records import ReportItem
+from freebody.core import CompiledModel, ReportItem
 
 from . import file, reading, schema
 from .answers import Run

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import Array, cards, quote
+from freebody.core import Array, ReportItem, cards, quote
 from freebody.symbolic.alphabet import GREEK
 from freebody.symbolic.symbols import Name
 
@@ -18,8 +18,6 @@ Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt
 
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
 """Of columns, in their order."""
-BEFORE = "before "
-"""In front of an event's name: the moment just before it."""
 ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
@@ -84,22 +82,6 @@ class Energy:
     def works(self) -> dict[str, Array]:
         """Work (nt,) since the start of every force and motion that has no potential."""
         return {name: self[name] for name in self.names if name not in ("kinetic", "potential", "balance")}
-
-
-@dataclass(frozen=True)
-class ReportItem:
-    """A quantity that the model asks for.
-
-    ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an
-    event's name, ``before`` and an event's name, or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI.
-    """
-
-    label: str
-    value: str
-    how: str = "at"
-    at: str | float = "end"
-    over: tuple[float, float] | None = None
-    unit: str = ""
 
 
 @dataclass(frozen=True)

@@ -11,17 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Change, CompiledModel, Event, Motion, Outcome, Settings, State, Trajectory
+from freebody.core import BEFORE, Change, CompiledModel, Event, Motion, Outcome, ReportItem, Settings, State, Trajectory
 from freebody.run import storage
 from freebody.run.records import (
-    BEFORE,
     ENTRIES,
     KINDS,
     Array,
     Column,
     Energy,
     Reported,
-    ReportItem,
     Window,
     columns_of,
     quote,

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, Motion, Settings, State
+from freebody.core import Array, CompiledModel, Motion, ReportItem, Settings, State
 from freebody.formats import Formats
-from freebody.run.records import KINDS, Column, Reported, ReportItem
+from freebody.run.records import KINDS, Column, Reported
 
 if TYPE_CHECKING:
     import pandas

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import GROUND
-from freebody.run.records import Array
+from freebody.core import GROUND, Array
 from freebody.views import shapes
 from freebody.views.glyphs import points_of_curve
 from freebody.views.sketch import Sketch, named_points

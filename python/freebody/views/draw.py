@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import GROUND, State
-from freebody.run.records import Array, plain
+from freebody.core import GROUND, Array, State
+from freebody.run.records import plain
 from freebody.views import shapes
 from freebody.views.contact_glyphs import string_label
 from freebody.views.dimension_lines import digits, dimension_lines, place_of

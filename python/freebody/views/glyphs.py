@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import GROUND
+from freebody.core import GROUND, Array
 from freebody.core.cards import joints
-from freebody.run.records import Array
 from freebody.views import shapes
 from freebody.views.sketch import Sketch, Stroke
 

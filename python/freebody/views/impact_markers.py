@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.impact.impacts import Impact, impacts
-from freebody.run.records import Array
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import quote
-from freebody.run.records import Array, Signal, Window, refined
+from freebody.core import Array, quote
+from freebody.run.records import Signal, Window, refined
 
 if TYPE_CHECKING:
     from freebody.core import Motion

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import GROUND, State
-from freebody.run.records import Array
+from freebody.core import GROUND, Array, State
 from freebody.views import shapes
 from freebody.views.contact_glyphs import draw_contacts, draw_strings
 from freebody.views.glyphs import draw_forces, draw_joints

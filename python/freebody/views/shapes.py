@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from freebody.run.records import Array
+from freebody.core import Array
 
 _ARC_STEP = np.pi / 60
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.core import Body, FreeBodies, Load, Part
-from freebody.run.records import Array
+from freebody.core import Array, Body, FreeBodies, Load, Part
 from freebody.views.diagram.names import Labels, Sign
 from freebody.views.dimension_lines import digits, place_of
 from freebody.views.sketch import Sketch

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.run.records import Array
+from freebody.core import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.scenery import Scenery

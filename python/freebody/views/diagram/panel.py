@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from freebody.run.records import Array
+from freebody.core import Array
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import Arrow, Mark
 from freebody.views.diagram.scenery import Scenery

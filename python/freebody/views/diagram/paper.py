@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.run.records import Array
+from freebody.core import Array
 from freebody.views import shapes
 from freebody.views.diagram.arrows import CoupleArrow
 from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone

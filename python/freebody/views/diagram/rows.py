@@ -9,7 +9,7 @@ from textwrap import wrap
 
 import numpy as np
 
-from freebody.run.records import Array
+from freebody.core import Array
 from freebody.views.diagram.panel import Panel
 from freebody.views.labels import extent
 

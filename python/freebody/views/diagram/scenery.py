@@ -9,9 +9,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from freebody.core import GROUND, CompiledModel, FreeBodies, State
+from freebody.core import GROUND, Array, CompiledModel, FreeBodies, State
 from freebody.core.cards import joints
-from freebody.run.records import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import quote
-from freebody.run.records import Array, plain
+from freebody.core import Array, quote
+from freebody.run.records import plain
 from freebody.symbolic.symbols import unicode_name
 from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.run.records import Array, Column
+from freebody.core import Array
+from freebody.run.records import Column
 from freebody.solve.rich_tables import captured, table
+from freebody.views.plots import overlay
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,8 +65,6 @@ class Comparison:
 
     def plot(self, *names: str, ax: Axes | None = None) -> Axes:
         """Columns of both runs over time: the first solid, the second dashed."""
-        from freebody.views.plots import overlay
-
         return overlay(self.a, self.b, names or (self.largest.name,), ax=ax)
 
     def __rich__(self) -> Any:
