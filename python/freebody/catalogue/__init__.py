@@ -13,7 +13,7 @@ from typing import Any
 
 from freebody.catalogue.answers import Answer, Asked, Question, ask
 from freebody.catalogue.case import Case
-from freebody.catalogue.checks import free_questions
+from freebody.catalogue.checks import FREE_QUESTIONS
 from freebody.catalogue.system import System
 
 __all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "run", "systems", "to_json"]
@@ -38,7 +38,7 @@ def find(identity: str) -> System:
 def run(system: System) -> Iterator[Asked]:
     """Each question of the system with its answers, one after another, then the checks that every system gets."""
     case = Case(system.folder)
-    for question in [*system.questions(), *free_questions()]:
+    for question in [*system.questions(), *FREE_QUESTIONS]:
         yield question.put_to(case)
 
 

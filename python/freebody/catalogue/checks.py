@@ -20,14 +20,6 @@ NOTHING = 1e-30
 """N and m/s²: what is less is no force and no acceleration in any of these systems."""
 
 
-def free_questions() -> list[Question]:
-    """Three routes, momentum balance, energy ledger."""
-    return [
-        Question("three routes to the same instant", _routes),
-        Question("energy ledger", _ledgers),
-    ]
-
-
 def _routes(case: Case) -> Iterator[Answer]:
     """Accelerations and determinate reactions by each route, and what is left of every body's balance."""
     if not case.runs and not case.instants:
@@ -39,7 +31,8 @@ def _routes(case: Case) -> Iterator[Answer]:
             residuals += [one.residual, *(other.residual for other in others)]
             for other in others:
                 force, acceleration = one.sizes
-                accelerations.append(_apart(_accelerations(one), _accelerations(other), acceleration))
+                mine, its = (np.array(list(each.accelerations.values())) for each in (one, other))
+                accelerations.append(_apart(mine, its, acceleration))
                 reactions.append(_apart(*_determined(one, other), force))
         against = "the other two routes"
         yield Answer(f"{name}: accelerations apart", max(accelerations), "", 0.0, against, 1e-10, 1.0)
@@ -68,10 +61,6 @@ def _states(case: Case) -> Iterator[tuple[str, list[Callable[[str], Instant]]]]:
         yield name, [partial(run.instant, float(t)) for t in np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)]
 
 
-def _accelerations(instant: Instant) -> np.ndarray:
-    return np.array(list(instant.accelerations.values()))
-
-
 def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
     pairs = [(one.reactions[name], other.reactions[name]) for name in one.reactions]
     known = [a.determined & b.determined for a, b in pairs]
@@ -83,3 +72,7 @@ def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
 def _apart(a: np.ndarray, b: np.ndarray, size: float) -> float:
     """Largest difference relative to the largest entry, or to the terms that cancel in it."""
     return float(np.abs(a - b).max(initial=0.0) / max(np.abs([a, b]).max(initial=0.0), size, NOTHING))
+
+
+FREE_QUESTIONS = (Question("three routes to the same instant", _routes), Question("energy ledger", _ledgers))
+"""Three routes, momentum balance, energy ledger."""

@@ -31,11 +31,7 @@ def event(rates: Rates, start: Sequence[float], when: Callable[[float, Array], f
     """Time and state of the first zero of ``when``, polished by secants on freshly integrated states."""
     from scipy.integrate import solve_ivp
 
-    def watch(t: float, y: Array) -> float:
-        return when(t, y)
-
-    watch.terminal = True  # type: ignore[attr-defined]
-    near = solve_ivp(rates, (0.0, before), start, method="DOP853", rtol=1e-10, atol=1e-12, events=watch)
+    near = solve_ivp(rates, (0.0, before), start, method="DOP853", rtol=1e-10, atol=1e-12, events=_ending(when))
     t = float(near.t_events[0][0])
     base = 0.9 * t
     anchor = motion(rates, start, [base])[0]
@@ -50,6 +46,16 @@ def event(rates: Rates, start: Sequence[float], when: Callable[[float, Array], f
             break
         old, f_old, t = t, f, t - f * (t - old) / (f - f_old)
     return _advance(rates, base, anchor, t)
+
+
+def _ending(when: Callable[[float, Array], float]) -> Callable[[float, Array], float]:
+    """An event of SciPy's that ends the integration."""
+
+    def event(t: float, y: Array) -> float:
+        return when(t, y)
+
+    event.terminal = True  # type: ignore[attr-defined]
+    return event
 
 
 def _advance(
@@ -69,11 +75,7 @@ def _advance(
     off = min(1e-6 * until, until - t)  # a step clear of the kink just met
     y, t = integrate(t + off).y[:, -1], t + off
 
-    def watch(time: float, state: Array) -> float:
-        return kink(time, state)
-
-    watch.terminal = True  # type: ignore[attr-defined]
-    solution = integrate(until, events=watch) if t < until else None
+    solution = integrate(until, events=_ending(kink)) if t < until else None
     return (float(solution.t[-1]), solution.y[:, -1]) if solution else (t, y)
 
 

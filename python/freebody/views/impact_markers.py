@@ -43,17 +43,14 @@ def impact_markers(run: Run) -> list[ImpactMarker]:
     """The impacts of a run worth a flash; none of a run from a file, which does not know where it was struck."""
     if run.recorded:
         return []
-    struck = [(impact, name, size) for impact in impacts(run) for name, size in _struck(impact).items()]
+    struck = []
+    for impact in impacts(run):
+        sizes = impact.change.impulses.sizes if impact.change.impulses else {}
+        struck += [(impact, name, size) for name, size in sizes.items() if name in impact.change.of]
     largest = max((size for _, _, size in struck), default=0.0)
     seen = [(impact, name, size) for impact, name, size in struck if size > _FAINT * largest]
     places = ((impact.change.t, _place(impact, name), size) for impact, name, size in seen)
     return [ImpactMarker(t, at, float(np.sqrt(size / largest))) for t, at, size in places if at is not None]
-
-
-def _struck(impact: Impact) -> dict[str, float]:
-    impulses = impact.change.impulses
-    assert impulses is not None
-    return {name: size for name, size in impulses.sizes.items() if name in impact.change.of}
 
 
 def _place(impact: Impact, name: str) -> tuple[float, float] | None:
