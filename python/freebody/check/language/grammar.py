@@ -41,6 +41,10 @@ class Line:
         self.at += 1
         return self.row[self.at - 1]
 
+    def accept(self, *kinds: str) -> Token | None:
+        """The token that stands here, if it is of one of these kinds."""
+        return self.take() if self.now.kind in kinds else None
+
     def expect(self, kind: str) -> Token:
         if self.now.kind == kind:
             return self.now if kind == "end" else self.take()
@@ -85,19 +89,17 @@ class Line:
 
     def term(self) -> Node:
         """A term with its sign."""
-        return self.signed(lambda: self.chain("·", Dot, lambda: self.chain("×", Cross, self.product)))
+        return self.signed(lambda: self.chain(("·", "."), Dot, lambda: self.chain(("×",), Cross, self.product)))
 
     def signed(self, inner: Callable[[], Node]) -> Node:
-        if self.now.kind not in _ADDS:
+        if not (sign := self.accept(*_ADDS)):
             return inner()
-        sign = self.take()
         of = self.signed(inner)
         return Negative(of, span=self.span(sign)) if sign.kind == "-" else of
 
-    def chain(self, sign: str, node: type[Dot] | type[Cross], inner: Callable[[], Node]) -> Node:
+    def chain(self, signs: Sequence[str], node: type[Dot] | type[Cross], inner: Callable[[], Node]) -> Node:
         left = inner()
-        while self.now.kind == sign or (sign == "·" and self.now.kind == "."):
-            self.take()
+        while self.accept(*signs):
             left = node(left, self.signed(inner), span=self.span(left))
         return left
 
@@ -107,13 +109,10 @@ class Line:
         while True:
             if unit := self.unit(factors[-1]):
                 factors.append(unit)
-            elif self.now.kind == "/":
-                self.take()
-                bottom = self.signed(self.factor)
-                top = _product(factors)
+            elif self.accept("/"):
+                top, bottom = _product(factors), self.signed(self.factor)
                 factors = [Quotient(top, bottom, span=self.span(top))]
-            elif self.now.kind == "*":
-                self.take()
+            elif self.accept("*"):
                 factors.append(self.signed(self.factor))
             elif self.now.kind in _BEGINS and not self.closes_bars():
                 if self.now.kind == "number":
@@ -150,37 +149,34 @@ class Line:
 
     def primary(self) -> Node:
         token = self.now
-        if token.kind == "number":
-            self.take()
-            return Num(float(token.text), token.text, span=token.span)
-        if token.kind == "letter":
-            self.take()
-            return self.letter(token)
-        if token.kind == "function":
-            return self.call()
-        if token.kind in ("(", "{"):
-            return self.group()
-        if token.kind in ("[", "matrix["):
-            return self.matrix()
-        if token.kind == "∂" or (token.kind == "frac" and self.row[self.at + 2].kind == "∂"):
-            return self.partial()
-        if token.kind == "frac":
-            self.take()
-            top, bottom = self.group(), self.group()
-            return Quotient(top, bottom, span=self.span(token))
-        if token.kind == "rate":
-            self.take()
-            return self.rate(self.factor(), token.dots, token)
-        if token.kind == "|":
-            self.take()
-            inside = self.sum()
-            self.expect("|")
-            return Fn("abs", (inside,), span=self.span(token))
         if token.kind == "end":
             raise StatementError("something is missing at the end", self.end(), "a number, a symbol or a bracket is expected")
         if token.kind in (*SIGNED, ")", "]", "}", ",", ";", "^"):
             raise StatementError(f"something is missing before `{token.text}`", token.span)
-        raise StatementError(f"`{token.text}` has no place in an equation", token.span)
+        if token.kind not in _BEGINS:
+            raise StatementError(f"`{token.text}` has no place in an equation", token.span)
+        if token.kind == "∂" or (token.kind == "frac" and self.row[self.at + 2].kind == "∂"):
+            return self.partial()
+        self.take()
+        match token.kind:
+            case "number":
+                return Num(float(token.text), token.text, span=token.span)
+            case "letter":
+                return self.letter(token)
+            case "function":
+                return self.call(token)
+            case "(" | "{":
+                return self.group(token)
+            case "[" | "matrix[":
+                return self.matrix(token)
+            case "rate":
+                return self.rate(self.factor(), token.dots, token)
+            case "frac":
+                top, bottom = self.group(self.take()), self.group(self.take())
+                return Quotient(top, bottom, span=self.span(token))
+        inside = self.sum()
+        self.expect("|")
+        return Fn("abs", (inside,), span=self.span(token))
 
     def letter(self, token: Token) -> Node:
         """A letter; written as a function of time, θ(t), it is the same."""
@@ -190,9 +186,8 @@ class Line:
             return Num(math.pi, "pi", span=token.span)
         return Sym(token.text, token.dots, span=self.span(token))
 
-    def group(self) -> Node:
+    def group(self, open_: Token) -> Node:
         """What is in brackets: an expression, or a column."""
-        open_ = self.take()
         items = self.items(",", ";")
         self.expect(CLOSES[open_.kind])
         return items[0] if len(items) == 1 else Column(items, span=self.span(open_))
@@ -200,20 +195,17 @@ class Line:
     def items(self, *commas: str) -> tuple[Node, ...]:
         """Expressions with commas between them."""
         found = [self.sum()]
-        while self.now.kind in commas:
-            self.take()
+        while self.accept(*commas):
             found.append(self.sum())
         return tuple(found)
 
-    def matrix(self) -> Node:
+    def matrix(self, open_: Token) -> Node:
         """[a, b; c, d], [[a, b], [c, d]], or an expression in square brackets."""
-        open_, start = self.take(), self.at
-        rows = self.nested()
+        start, rows = self.at, self.nested()
         if not rows:
             self.at, comma = start, "&" if open_.kind == "matrix[" else ","
             rows = [self.items(comma)]
-            while self.now.kind == ";":
-                self.take()
+            while self.accept(";"):
                 rows += [] if self.now.kind == "]" else [self.items(comma)]
         self.expect("]")
         span = self.span(open_)
@@ -228,20 +220,17 @@ class Line:
     def nested(self) -> list[tuple[Node, ...]]:
         """Rows that have brackets of their own; empty where they have none."""
         rows: list[tuple[Node, ...]] = []
-        while self.now.kind == "[":
-            self.take()
+        while self.accept("["):
             rows.append(self.items(","))
             if self.now.kind != "]" or self.row[self.at + 1].kind not in (",", ";", "]"):
                 return []
             self.take()
-            if self.now.kind in (",", ";"):
-                self.take()
+            self.accept(",", ";")
         return rows
 
     # --- functions -----------------------------------------------------------------------------
 
-    def call(self) -> Node:
-        token = self.take()
+    def call(self, token: Token) -> Node:
         power = self.exponent() if self.now.kind in ("raised", "^") else None  # the 2 of sin²θ
         if isinstance(power, Negative):
             hint = f"write `a{token.text}(…)` or `1/{token.text}(…)`"
@@ -260,8 +249,7 @@ class Line:
 
     def arguments(self, token: Token) -> tuple[Node, ...]:
         found: tuple[Node, ...]
-        if self.now.kind in ("(", "[", "{"):
-            open_ = self.take()
+        if open_ := self.accept("(", "[", "{"):
             found = self.items(",")
             self.expect(CLOSES[open_.kind])
         else:
@@ -274,7 +262,7 @@ class Line:
 
     def bare_argument(self, token: Token) -> Node:
         """One letter, a number before it and a ``t`` directly behind it."""
-        sign = self.take() if self.now.kind == "-" else None
+        sign = self.accept("-")
         if self.now.kind not in ("number", "letter", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
         factors = [self.primary()]
