@@ -46,6 +46,16 @@ def test_a_particle_is_held_by_its_weight(tmp_path: Path, mass: float) -> None:
     assert_allclose(run["'lock b.y'.force"], mass * G)
 
 
+def test_a_report_names_the_force_of_a_lock(tmp_path: Path) -> None:
+    """About the pivot the couple is the moment of the weight, M g l/2; the one along twice the angle is half of it."""
+    work = model(tmp_path, ROD + "report: {work: \"'lock theta'.work\"}\n").simulate().report["work"]
+    assert (work.value, work.unit) == (0, "J")
+    twice = ROD.replace("{unlock: theta}", "stop").replace("lock: theta", "lock: 2*theta")
+    half = model(tmp_path, twice + "report: {held: \"'lock 2*theta'.force\"}\n").simulate().report["held"]
+    assert_allclose(half.value, 3 * G / 2)
+    assert half.unit == "N*m"
+
+
 @pytest.mark.parametrize(("mass", "speed"), [(1.0, 2.0), (0.5, -3.0)])
 def test_the_impulse_of_a_lock_takes_the_momentum(tmp_path: Path, mass: float, speed: float) -> None:
     run = model(tmp_path, PARTICLE.format(mass=mass, speed=speed, when="0.3 s")).simulate()

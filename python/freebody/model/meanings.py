@@ -23,7 +23,7 @@ EVERY_BODY = ("origin", "G")
 class Meanings:
     """All names. ``values`` holds parameters, coordinates and gauges with their kind and dimension (None: not known).
 
-    ``owners`` are joints, forces, motions, contacts, strings and stops, whose ``readings`` are read as ``name.Fx``; ``several``
+    ``owners`` are joints, forces, motions, locks, contacts, strings and stops, whose ``readings`` are read as ``name.Fx``; ``several``
     holds those that are more than one item for the core. ``alias`` leads from points that only rename another to that one.
     """
 
@@ -140,6 +140,9 @@ class _Declaring:
             found.events.add(full(name))
             for weld, _, _ in event.welds(name):
                 self.owner(weld, "joint", ("events", name), cards.joints()["weld"].readings)
+            for text in event.locks():
+                lock = f"lock {self.full(text)}"
+                found.owners[lock], found.readings[lock] = "lock", cards.readings()["motion"]
 
     def ends(self, name: str, joint: elements.Element) -> None:
         """What the ends of a guide and the one side of a joint come to."""

@@ -215,6 +215,10 @@ class Event(Section):
         """The names of what it takes away."""
         return [name for deeds in self.actions() if isinstance(deeds, Deeds) for name in listed(deeds.release)]
 
+    def locks(self) -> list[str]:
+        """The expressions that it holds where they are."""
+        return [text for deeds in self.actions() if isinstance(deeds, Deeds) for text in listed(deeds.lock)]
+
     def welds(self, name: str) -> Iterator[tuple[str, str, str]]:
         """The joints that it makes when the event is called so: name and two bodies."""
         bodies = [listed(deeds.weld) for deeds in self.actions() if isinstance(deeds, Deeds) and deeds.weld]
