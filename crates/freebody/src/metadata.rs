@@ -1,7 +1,8 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
 use crate::bound_values::BoundValues;
-use crate::builder::readings::{phrases, units, units_of_force, units_of_joint, ACTING, FUNCTIONS, LIMIT, MOTION};
+use crate::builder::answers::{phrases, units, units_of_force, units_of_joint, ACTING, LIMIT, MOTION};
+use crate::builder::readings::FUNCTIONS;
 use crate::compile::coupling_card;
 use crate::dynamics::{Count, Source};
 use crate::joints::{Card, Joint as _, Kind};

@@ -1,5 +1,6 @@
 //! Where sums live: every canonical sum once, so that equal sums have equal handles.
 
+pub(crate) use super::atom::SumId;
 use super::atom::{Atom, AtomId, Factor, Function};
 use super::coefficient::Coefficient;
 use super::pretty::Known;
@@ -8,15 +9,6 @@ use crate::scalar::real;
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 use std::rc::Rc;
-
-/// The position of a sum in the arena.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct SumId(pub(crate) u32);
-
-impl SumId {
-    pub(crate) const ZERO: SumId = SumId(0);
-    pub(crate) const ONE: SumId = SumId(1);
-}
 
 /// The position of a product of atoms in the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

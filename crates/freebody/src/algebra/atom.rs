@@ -1,6 +1,5 @@
 //! What products are made of.
 
-use super::arena::SumId;
 use super::ratio::Ratio;
 use std::rc::Rc;
 
@@ -18,6 +17,15 @@ impl Variable {
     pub fn new(name: impl Into<String>, dots: u8) -> Self {
         Variable { name: name.into(), dots }
     }
+}
+
+/// The position of a sum in the arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SumId(pub(crate) u32);
+
+impl SumId {
+    pub(crate) const ZERO: SumId = SumId(0);
+    pub(crate) const ONE: SumId = SumId(1);
 }
 
 /// The position of an atom in the arena; the order in which atoms were first met.

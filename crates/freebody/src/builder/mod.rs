@@ -1,5 +1,6 @@
 //! A mechanism being built: what names mean, how expressions, numbers, places and fields of the model are read.
 
+pub mod answers;
 mod fields;
 mod names;
 mod places;

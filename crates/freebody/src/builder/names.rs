@@ -1,6 +1,6 @@
 //! What the names in a model mean.
 
-use super::readings::{of_joint, ACTING, FUNCTIONS, LIMIT, MOTION};
+use super::answers::{of_joint, ACTING, LIMIT, MOTION};
 use crate::error::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
 use crate::gauges::{ModelExpr, ModelVariable};
@@ -117,7 +117,7 @@ impl Scope<'_> {
         self.names.site(name)
     }
 
-    fn reading(&self, name: &str) -> Option<Result<ModelExpr, Message>> {
+    pub(super) fn reading(&self, name: &str) -> Option<Result<ModelExpr, Message>> {
         let (owner, part) = name.rsplit_once('.')?;
         let n = self.names;
         let (number, answers) = if let Some(&(joint, kind)) = n.joints.get(owner) {
@@ -196,83 +196,8 @@ impl Scope<'_> {
         let found = self.reading(&format!("{name}.tension")).unwrap_or_else(|| Err(self.nothing(name)));
         found.map_err(|m| m.at(&owner.span))
     }
-    fn nothing(&self, name: &str) -> Message {
+    pub(super) fn nothing(&self, name: &str) -> Message {
         unknown("name", name, self.known().map(str::to_string).collect::<Vec<_>>().iter())
-    }
-}
-
-impl expr::Scope<ModelVariable> for Scope<'_> {
-    fn name(&mut self, name: &str) -> Result<ModelExpr, Message> {
-        let n = self.names;
-        // A curve's own letter hides a parameter of that name.
-        if name == "s" && self.reach == Reach::Curve {
-            return Ok(ModelExpr::variable(ModelVariable::Local));
-        }
-        if let Some(&i) = n.parameters.get(name) {
-            return Ok(ModelExpr::variable(ModelVariable::Parameter(i)));
-        }
-        if self.reach >= Reach::Configuration {
-            if let Some(&(joint, k)) = n.coordinates.get(name) {
-                return Ok(ModelExpr::variable(ModelVariable::Coordinate(joint, k)));
-            }
-            if let Some(gauge) = n.gauges.get(name) {
-                return Ok(gauge.clone());
-            }
-        }
-        if name == "t" && self.reach >= Reach::Motion {
-            return Ok(ModelExpr::variable(ModelVariable::Time));
-        }
-        if let Some(reading) = self.reading(name) {
-            return reading;
-        }
-        if self.reach < Reach::Configuration && (n.coordinates.contains_key(name) || n.gauges.contains_key(name)) {
-            return Err(Message::new(
-                format!("`{name}` changes with the motion; here stands a number of the model"),
-                "use parameters only",
-            ));
-        }
-        Err(self.nothing(name))
-    }
-
-    fn call(&mut self, name: &str, arguments: &[Ast]) -> Option<Result<ModelExpr, ExprError>> {
-        let wanted = |count: &[usize]| {
-            (!count.contains(&arguments.len())).then(|| {
-                let span = arguments.first().map_or(0..0, |a| a.span.clone());
-                let numbers = count.iter().map(usize::to_string).collect::<Vec<_>>().join(" or ");
-                Message::new(format!("`{name}` takes {numbers} arguments, not {}", arguments.len()), "").at(&span)
-            })
-        };
-        let too_far = |reach: Reach| {
-            (self.reach < reach).then(|| {
-                let span = arguments.first().map_or(0..0, |a| a.span.clone());
-                Message::new(
-                    format!("`{name}(…)` cannot be read here"),
-                    "see which expressions may read what in docs/model_file.md",
-                )
-                .at(&span)
-            })
-        };
-        let function = FUNCTIONS.iter().find(|function| function.word == name)?;
-        let counts = [if function.optional { 0 } else { function.takes.len() }, function.takes.len()];
-        let counts = if function.optional { &counts[..] } else { &counts[1..] };
-        Some(match wanted(counts).or_else(|| too_far(function.reach)) {
-            Some(error) => Err(error),
-            None => (function.read)(self, arguments),
-        })
-    }
-
-    fn table(&self, name: &str) -> Option<usize> {
-        self.names.tables.get(name).copied()
-    }
-
-    fn functions(&self) -> Vec<String> {
-        let words = FUNCTIONS.iter().map(|function| function.word.to_string());
-        words.chain(self.names.tables.keys().cloned()).collect()
-    }
-
-    fn discontinuity(&mut self) -> usize {
-        *self.switches += 1;
-        *self.switches - 1
     }
 }
 

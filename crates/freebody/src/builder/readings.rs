@@ -1,11 +1,9 @@
-//! Everything that an expression can read of a mechanism: one entry each, with its word, its unit and what it stands for.
+//! What an expression can read of a mechanism: its names, and the functions, one entry each.
 
 use super::names::{distance, Reach, Scope};
-use crate::expr::{Ast, ExprError};
-use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
-use crate::joints::{Card, FieldKind};
+use crate::expr::{self, Ast, ExprError, Message};
+use crate::gauges::{Axis, ModelExpr, ModelVariable, Reading};
 use serde::Serialize;
-use serde_json::{json, Map, Value};
 
 type Found = Result<ModelExpr, ExprError>;
 
@@ -184,143 +182,77 @@ fn accel(place: ModelExpr) -> ModelExpr {
     place.accel().expect("a place has an acceleration")
 }
 
-/// The unit of what is read of a part of the model.
-#[derive(Clone, Copy)]
-pub enum Unit {
-    /// This one.
-    Is(&'static str),
-    /// That of the gauge on which the part acts.
-    Gauge,
-    /// That of a force along the gauge: N along a length, N·m along an angle.
-    Load,
-}
-
-impl Unit {
-    /// The unit, by that of the gauge; none where that is not known.
-    pub fn by(self, gauge: Option<&str>) -> Option<&'static str> {
-        match (self, gauge) {
-            (Unit::Is(unit), _) => Some(unit),
-            (Unit::Gauge, Some("m")) => Some("m"),
-            (Unit::Gauge, Some("rad")) => Some("rad"),
-            (Unit::Load, Some("m")) => Some("N"),
-            (Unit::Load, Some("rad")) => Some("N*m"),
-            _ => None,
+impl expr::Scope<ModelVariable> for Scope<'_> {
+    fn name(&mut self, name: &str) -> Result<ModelExpr, Message> {
+        let n = self.names;
+        // A curve's own letter hides a parameter of that name.
+        if name == "s" && self.reach == Reach::Curve {
+            return Ok(ModelExpr::variable(ModelVariable::Local));
         }
+        if let Some(&i) = n.parameters.get(name) {
+            return Ok(ModelExpr::variable(ModelVariable::Parameter(i)));
+        }
+        if self.reach >= Reach::Configuration {
+            if let Some(&(joint, k)) = n.coordinates.get(name) {
+                return Ok(ModelExpr::variable(ModelVariable::Coordinate(joint, k)));
+            }
+            if let Some(gauge) = n.gauges.get(name) {
+                return Ok(gauge.clone());
+            }
+        }
+        if name == "t" && self.reach >= Reach::Motion {
+            return Ok(ModelExpr::variable(ModelVariable::Time));
+        }
+        if let Some(reading) = self.reading(name) {
+            return reading;
+        }
+        if self.reach < Reach::Configuration && (n.coordinates.contains_key(name) || n.gauges.contains_key(name)) {
+            return Err(Message::new(
+                format!("`{name}` changes with the motion; here stands a number of the model"),
+                "use parameters only",
+            ));
+        }
+        Err(self.nothing(name))
     }
-}
 
-/// A word behind the name of a part of the model, like `pivot.Fx`.
-#[derive(Clone, Copy)]
-pub struct Answer {
-    /// Its word.
-    pub word: &'static str,
-    /// The unit of its value.
-    pub unit: Unit,
-    /// What it reads of the part of a number.
-    pub read: fn(usize) -> Reading,
-    /// One phrase.
-    pub doc: &'static str,
-}
+    fn call(&mut self, name: &str, arguments: &[Ast]) -> Option<Result<ModelExpr, ExprError>> {
+        let wanted = |count: &[usize]| {
+            (!count.contains(&arguments.len())).then(|| {
+                let span = arguments.first().map_or(0..0, |a| a.span.clone());
+                let numbers = count.iter().map(usize::to_string).collect::<Vec<_>>().join(" or ");
+                Message::new(format!("`{name}` takes {numbers} arguments, not {}", arguments.len()), "").at(&span)
+            })
+        };
+        let too_far = |reach: Reach| {
+            (self.reach < reach).then(|| {
+                let span = arguments.first().map_or(0..0, |a| a.span.clone());
+                Message::new(
+                    format!("`{name}(…)` cannot be read here"),
+                    "see which expressions may read what in docs/model_file.md",
+                )
+                .at(&span)
+            })
+        };
+        let function = FUNCTIONS.iter().find(|function| function.word == name)?;
+        let counts = [if function.optional { 0 } else { function.takes.len() }, function.takes.len()];
+        let counts = if function.optional { &counts[..] } else { &counts[1..] };
+        Some(match wanted(counts).or_else(|| too_far(function.reach)) {
+            Some(error) => Err(error),
+            None => (function.read)(self, arguments),
+        })
+    }
 
-const fn answer(word: &'static str, unit: Unit, read: fn(usize) -> Reading, doc: &'static str) -> Answer {
-    Answer { word, unit, read, doc }
-}
+    fn table(&self, name: &str) -> Option<usize> {
+        self.names.tables.get(name).copied()
+    }
 
-const FORCE: Unit = Unit::Is("N");
+    fn functions(&self) -> Vec<String> {
+        let words = FUNCTIONS.iter().map(|function| function.word.to_string());
+        words.chain(self.names.tables.keys().cloned()).collect()
+    }
 
-/// Of a joint, on its second body; beside those of its rows.
-const JOINT: &[Answer] = &[
-    answer("Fx", FORCE, |j| Reading::Reaction(j, Axis::X), "force on its second body along x"),
-    answer("Fy", FORCE, |j| Reading::Reaction(j, Axis::Y), "force on it along y"),
-    answer("M", Unit::Is("N*m"), |j| Reading::Reaction(j, Axis::Couple), "couple on it about the joint's point"),
-    answer("F", FORCE, |j| Reading::Reaction(j, Axis::Size), "size of the force"),
-    answer("Fs", FORCE, |j| Reading::Reaction(j, Axis::Along), "force along the first body's line"),
-    answer("Fn", FORCE, |j| Reading::Reaction(j, Axis::Across), "force across it, to its left"),
-];
-/// Of the rows of a joint, in order.
-const ROWS: [Answer; 2] = [
-    answer(
-        "F1",
-        Unit::Load,
-        |j| Reading::Reaction(j, Axis::Row(0)),
-        "force of the first constraint: of a roller, of teeth",
-    ),
-    answer("F2", Unit::Load, |j| Reading::Reaction(j, Axis::Row(1)), "force of the second constraint"),
-];
-const TENSION: Answer = answer("tension", FORCE, |j| Reading::Reaction(j, Axis::Tension), "tension, of what pulls");
-const FRICTION: Answer =
-    answer("friction", Unit::Load, Reading::JointFriction, "friction in the sense of the first coordinate");
-/// Of a prescribed motion or a coupling.
-pub const MOTION: &[Answer] = &[
-    answer("force", Unit::Load, Reading::Drive, "force or couple in the sense of its gauge"),
-    answer("F", Unit::Load, Reading::Drive, "the same"),
-    answer("power", Unit::Is("W"), Reading::DrivePower, "its power"),
-    answer("work", Unit::Is("J"), Reading::DriveWork, "its work since the start"),
-];
-/// Of a force of the model.
-pub const ACTING: &[Answer] = &[
-    answer("value", Unit::Load, Reading::Force, "its value"),
-    answer("power", Unit::Is("W"), Reading::ForcePower, "its power"),
-    answer("work", Unit::Is("J"), Reading::ForceWork, "its work since the start"),
-];
-/// Of a contact, stop or string.
-pub const LIMIT: &[Answer] = &[
-    answer(
-        "gap",
-        Unit::Gauge,
-        |g| Reading::Contact(g, ContactQuantity::Gap),
-        "least distance, or what is left of the way",
-    ),
-    answer("slack", Unit::Gauge, |g| Reading::Contact(g, ContactQuantity::Gap), "what is slack"),
-    answer("F", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Size)), "size of the force"),
-    answer("N", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force), "normal force, or force of the stop"),
-    answer("tension", Unit::Load, |g| Reading::Contact(g, ContactQuantity::Force), "tension"),
-    answer("T", FORCE, |g| Reading::Contact(g, ContactQuantity::Friction), "friction along the tangent"),
-    answer("Fx", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::X)), "force on the first body along x"),
-    answer("Fy", FORCE, |g| Reading::Contact(g, ContactQuantity::OnFirst(Axis::Y)), "force on the first body along y"),
-    answer(
-        "x",
-        Unit::Is("m"),
-        |g| Reading::Contact(g, ContactQuantity::Place(Axis::X)),
-        "x of where the normal forces act",
-    ),
-    answer("y", Unit::Is("m"), |g| Reading::Contact(g, ContactQuantity::Place(Axis::Y)), "y of that place"),
-    answer("slip", Unit::Is("m/s"), |g| Reading::Contact(g, ContactQuantity::Slip), "speed of sliding"),
-];
-
-/// What can be read of a joint, with the unit of what it acts along: those of every joint, one for each row, a tension where it pulls.
-pub fn of_joint(card: &Card) -> Vec<(Answer, Option<&'static str>)> {
-    let gauge = |turns: bool| Some(if turns { "rad" } else { "m" });
-    let mut found: Vec<_> = JOINT.iter().map(|&each| (each, None)).collect();
-    found.extend(ROWS.into_iter().zip(&card.rows).map(|(each, row)| (each, gauge(row.load.couple))));
-    found.extend(card.rows.iter().any(|row| row.load.pulls).then_some((TENSION, None)));
-    found.push((FRICTION, gauge(card.coordinates.first().is_some_and(|c| c.turn))));
-    found
-}
-
-/// The words by what they are read of, with a phrase each, as data.
-pub fn phrases() -> Value {
-    let joint = JOINT.iter().chain(&ROWS).chain([&TENSION, &FRICTION]);
-    let of = |answers: &mut dyn Iterator<Item = &Answer>| answers.map(|a| json!([a.word, a.doc])).collect::<Vec<_>>();
-    json!({
-        "joint": of(&mut joint.into_iter()), "motion": of(&mut MOTION.iter()), "force": of(&mut ACTING.iter()),
-        "limit": of(&mut LIMIT.iter()),
-    })
-}
-
-/// The words with their units, as data; null where the unit is not known.
-pub fn units(answers: &[Answer], gauge: Option<&str>) -> Value {
-    answers.iter().map(|a| (a.word.to_string(), json!(a.unit.by(gauge)))).collect::<Map<_, _>>().into()
-}
-
-/// Those of a joint.
-pub fn units_of_joint(card: &Card) -> Value {
-    of_joint(card).iter().map(|(a, gauge)| (a.word.to_string(), json!(a.unit.by(*gauge)))).collect::<Map<_, _>>().into()
-}
-
-/// Those of a force as far as its kind tells: what acts along any gauge has no unit of its own.
-pub fn units_of_force(card: &Card) -> Value {
-    let any = card.fields.iter().any(|field| matches!(field.kind, FieldKind::Gauge));
-    let gauge = if card.parts[0].couple { "rad" } else { "m" };
-    units(ACTING, (!any).then_some(gauge))
+    fn discontinuity(&mut self) -> usize {
+        *self.switches += 1;
+        *self.switches - 1
+    }
 }

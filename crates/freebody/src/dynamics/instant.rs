@@ -88,6 +88,7 @@ impl Workspace<'_> {
     /// As [`Workspace::solve`].
     pub fn instant(&mut self, route: Route) -> Result<Instant, DynamicsError> {
         self.solve_by(route)?;
+        self.check_finite()?;
         let mut accelerations = vec![0.0; self.m.freedom()];
         self.accelerations(&mut accelerations);
         let joints = self.joint_loads();

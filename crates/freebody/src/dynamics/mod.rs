@@ -280,6 +280,17 @@ impl<'m> Workspace<'m> {
         }
     }
 
+    /// Refuses a solution that is no motion.
+    ///
+    /// # Errors
+    /// `not_finite`.
+    pub fn check_finite(&self) -> Result<(), DynamicsError> {
+        match self.solved.nu_dot.iter().all(|a| a.is_finite()) {
+            true => Ok(()),
+            false => Err(DynamicsError::NoFiniteAcceleration),
+        }
+    }
+
     /// Whether anything but the tree constrains the motion.
     pub fn is_closed(&self) -> bool {
         !self.m.closures.is_empty() || !self.m.drives.is_empty() || self.m.is_hybrid()

@@ -16,9 +16,7 @@ const NO_COUPLE: f64 = 1e-12;
 /// `not_finite`; as [`Workspace::solve`].
 pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, DynamicsError> {
     workspace.solve()?;
-    if !workspace.solved().nu_dot.iter().all(|a| a.is_finite()) {
-        return Err(DynamicsError::NoFiniteAcceleration);
-    }
+    workspace.check_finite()?;
     let determinacy = workspace.determinacy();
     let sizes = LoadValues::of(workspace, &determinacy);
     let at = workspace.at();

@@ -1,6 +1,5 @@
 //! Switching functions: of events, of laws that are not smooth, and guards, which stay positive as long as the mode holds.
 
-use super::mode_resolution::{CLOSED_GAP, REST_SPEED};
 use super::HybridSystem;
 use crate::dynamics::{DynamicsError, Route, Source};
 use crate::mechanism::{Gap, Mechanism};
@@ -60,6 +59,10 @@ impl SwitchingFunction {
     }
 }
 
+/// Gap, over the characteristic length, below which a unilateral constraint is reached.
+pub(super) const CLOSED_GAP: f64 = 1e-10;
+/// Speed, over the mechanism's own, below which there is none.
+pub(super) const REST_SPEED: f64 = 1e-10;
 /// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
 const OCCLUDED: f64 = 2.0 * CLOSED_GAP;
 /// Speed, over the mechanism's own, from which a contact with partial friction slides: well above what counts as none.

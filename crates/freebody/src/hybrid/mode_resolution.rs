@@ -1,16 +1,12 @@
 //! From one mode to the next: what collides, holds, slides and lets go.
 
-use super::guards::ContactGuard;
+use super::guards::{ContactGuard, CLOSED_GAP, REST_SPEED};
 use super::impacts::{Rule, LEFT_OVER};
 use super::{HybridSystem, Start};
 use crate::dynamics::{ContactTolerances, DynamicsError};
 use crate::mode::{ContactMode, Mode};
 use crate::motion::{EventRecord, Kind, System};
 
-/// Gap, over the characteristic length, below which a unilateral constraint is reached.
-pub(super) const CLOSED_GAP: f64 = 1e-10;
-/// Speed, over the mechanism's own, below which there is none.
-pub(super) const REST_SPEED: f64 = 1e-10;
 /// Kinetic energy, over the mechanism's own, that it takes no round-off to gain.
 const GAIN: f64 = 1e-9;
 /// Impacts that one instant may hold, and those after which ever larger speeds count as none.

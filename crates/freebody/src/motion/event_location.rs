@@ -1,5 +1,6 @@
 //! What a run does about events: land on them, let them act, go on.
 
+use super::chatter::is_tie;
 use super::dense::Segment;
 use super::events::{Kind, Mark, Probe};
 use super::method::all_finite;
@@ -173,44 +174,4 @@ fn counts(system: &mut dyn System, mark: &Mark, y: &[f64]) -> Result<bool, Outco
 
 fn event_record(mark: &Mark, t: f64, y: &[f64]) -> EventRecord {
     EventRecord { t, y: y.to_vec(), index: mark.index, kind: mark.kind, direction: mark.direction }
-}
-
-/// Whether two times are one instant.
-fn is_tie(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-12 * (1.0 + b.abs())
-}
-
-/// How often one guard may act in one instant: an impact may call for others.
-const GUARDS: usize = 8;
-
-/// Guards against events that come ever more densely.
-pub(super) struct Chatter {
-    since: f64,
-    /// Indices of the events of this instant, and their time.
-    instant: (f64, Vec<usize>),
-    count: usize,
-}
-
-impl Chatter {
-    pub fn new(t: f64) -> Self {
-        Self { since: t, instant: (t, Vec::new()), count: 0 }
-    }
-
-    /// Refuses an event that happens twice in one instant, a guard that does so again and again, or too many in a short
-    /// time.
-    fn note(&mut self, index: usize, role: Role, t: f64) -> Result<(), Outcome> {
-        if !is_tie(t, self.instant.0) {
-            self.instant = (t, Vec::new());
-        }
-        if (t - self.since).abs() > 1e-9 {
-            (self.since, self.count) = (t, 0);
-        }
-        self.count += 1;
-        let before = self.instant.1.iter().filter(|&&i| i == index).count();
-        if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
-            return Err(Outcome::Chatter { index });
-        }
-        self.instant.1.push(index);
-        Ok(())
-    }
 }

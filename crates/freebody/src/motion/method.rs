@@ -1,9 +1,9 @@
-//! The list of methods and what each of them must be able to do.
+//! What a method must be able to do.
 
 use super::dense::Segment;
 use super::norm::Norm;
+pub(super) use super::system::Point;
 use super::system::{DynamicsError, System};
-use super::{dop853, gauss6, radau, rk4, tsit5};
 
 /// An integration method.
 pub struct Method {
@@ -24,28 +24,6 @@ pub struct Method {
     /// The fraction of a step farthest from where the rate is evaluated.
     pub(super) stage_gap: f64,
     pub(super) stepper: fn(usize) -> Box<dyn Stepper>,
-}
-
-/// All methods; the first one is the default.
-pub const METHODS: [&Method; 5] = [&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
-
-/// The method called `name`.
-pub fn method(name: &str) -> Option<&'static Method> {
-    METHODS.into_iter().find(|method| method.name == name)
-}
-
-/// A time, the state there and its rate.
-#[derive(Clone, Debug)]
-pub(super) struct Point {
-    pub t: f64,
-    pub y: Vec<f64>,
-    pub dy: Vec<f64>,
-}
-
-impl Point {
-    pub fn new(t: f64, y: &[f64]) -> Self {
-        Self { t, y: y.to_vec(), dy: vec![0.0; y.len()] }
-    }
 }
 
 /// Why a step could not be made.

@@ -3,6 +3,7 @@
 //! Knows no mechanics: it moves an abstract [`System`]. A method is a table and a citation, one
 //! entry of [`METHODS`] and one file. [`run()`] is the only way in.
 
+mod chatter;
 mod dense;
 mod dop853;
 mod event_location;
@@ -25,7 +26,15 @@ mod tsit5;
 
 pub use dense::{Segment, Trajectory};
 pub use events::Kind;
-pub use method::{method, Method, METHODS};
+pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options};
 pub use system::{After, Canonical, DynamicsError, EventSpec, Role, System};
+
+/// All methods; the first one is the default.
+pub const METHODS: [&Method; 5] = [&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
+
+/// The method called `name`.
+pub fn method(name: &str) -> Option<&'static Method> {
+    METHODS.into_iter().find(|method| method.name == name)
+}

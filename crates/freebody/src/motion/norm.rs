@@ -1,7 +1,6 @@
 //! How large an error is.
 
-use super::method::Point;
-use super::system::System;
+use super::system::{Point, System};
 use crate::scalar::real;
 
 /// The error norm: relative accuracy of every component, down to a physical floor.

@@ -1,7 +1,7 @@
 //! The run: step, project, look for events, act, go on.
 
+use super::chatter::Chatter;
 use super::dense::Segment;
-use super::event_location::Chatter;
 use super::events::{EventDetector, Kind};
 use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
 use super::norm::{first_step, Norm};

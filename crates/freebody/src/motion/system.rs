@@ -176,3 +176,17 @@ pub trait Canonical {
     /// A named failure.
     fn flow(&mut self, t: f64, z: &[f64], dz: &mut [f64]) -> Result<(), DynamicsError>;
 }
+
+/// A time, the state there and its rate.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub t: f64,
+    pub y: Vec<f64>,
+    pub dy: Vec<f64>,
+}
+
+impl Point {
+    pub fn new(t: f64, y: &[f64]) -> Self {
+        Self { t, y: y.to_vec(), dy: vec![0.0; y.len()] }
+    }
+}

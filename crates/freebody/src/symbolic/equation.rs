@@ -5,9 +5,9 @@
 
 use super::motion::acceleration;
 use super::query::{About, Along, Group, Parts};
-use super::vectors::{tree, tree_by};
+use super::vectors::{linear_in, tree, tree_by};
 use super::SymbolicState;
-use crate::algebra::{Symbol, Tree, Variable};
+use crate::algebra::Symbol;
 use crate::dynamics::{momentum, DynamicsError};
 use crate::free_bodies::{Load, Part, Size};
 use crate::plane::{vec2, Vec2, Wrench};
@@ -276,13 +276,4 @@ fn meeting(a: Wrench<Symbol>, b: Wrench<Symbol>) -> VirtualMotion {
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> DynamicsError {
     let entries = crate::builder::unknown(what, name, known);
     DynamicsError::UnknownName(format!("{}; {}", entries.what, entries.hint))
-}
-
-/// An expression as coefficients of unknowns in which it is linear, and the rest.
-pub(super) fn linear_in(of: Symbol, unknowns: &[Variable]) -> Value {
-    let (factors, rest) = of.linear_in(unknowns);
-    let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
-    let entries = |(l, c): (&Variable, Symbol)| json!({"letter": Tree::variable(&l.name, l.dots), "tree": tree(c)});
-    let coefficients: Vec<Value> = found.map(entries).collect();
-    json!({"coefficients": coefficients, "rest": tree(rest)})
 }

@@ -1,9 +1,8 @@
 //! The most brute force: three coordinates a body, and every joint a constraint.
 
-use super::equation::linear_in;
 use super::motion::acceleration;
 
-use super::vectors::tree_by;
+use super::vectors::{linear_in, tree_by};
 use super::{own_letter, sizes, SymbolicState};
 use crate::algebra::{Symbol, Tree, Variable};
 use crate::dynamics::{closing_rows, joint_rows, momentum, Row, Source};

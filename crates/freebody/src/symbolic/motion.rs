@@ -1,7 +1,6 @@
 //! Kinematics in variables: every mass centre, a point seen from a moving body, and what loops and motions ask.
 
-use super::equation::linear_in;
-use super::vectors::{presented, tree};
+use super::vectors::{linear_in, presented, tree};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
 use crate::dynamics::{closing_rows, DynamicsError, Row, Source};

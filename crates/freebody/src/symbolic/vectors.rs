@@ -69,3 +69,12 @@ pub fn tree(of: Symbol) -> Tree {
 pub fn tree_by(of: Symbol, unknowns: &[Variable]) -> Tree {
     of.tree_by(unknowns)
 }
+
+/// An expression as coefficients of unknowns in which it is linear, and the rest.
+pub(super) fn linear_in(of: Symbol, unknowns: &[Variable]) -> Value {
+    let (factors, rest) = of.linear_in(unknowns);
+    let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
+    let entries = |(l, c): (&Variable, Symbol)| json!({"letter": Tree::variable(&l.name, l.dots), "tree": tree(c)});
+    let coefficients: Vec<Value> = found.map(entries).collect();
+    json!({"coefficients": coefficients, "rest": tree(rest)})
+}

@@ -1,7 +1,6 @@
 //! Touches that influence each other, in units in which their numbers are of order one.
 
-use super::modes::Found;
-use super::{Answer, FrictionLaw};
+use super::{Answer, FrictionLaw, Status};
 use crate::solve::{Matrix, Orthogonal};
 
 /// A diagonal entry of G below this fraction of the largest is round-off: nothing moves there.
@@ -104,6 +103,14 @@ impl LcpBlock {
             answer.acceleration[k + contact] = found.acceleration[n + i] * self.acceleration_units[n + i];
         }
     }
+}
+
+/// What contacts do, all conditions satisfied, in the units of the block.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub status: Vec<Status>,
+    pub force: Vec<f64>,
+    pub acceleration: Vec<f64>,
 }
 
 /// The friction law with its coefficients times `ratio`, the unit of normal over that of tangential force.

@@ -181,7 +181,7 @@ fn resolve(
 }
 
 /// Writes what a group does into the answers: its first finding into all, the others into the first.
-fn combine(mut answers: Vec<Answer>, block: &LcpBlock, found: &[modes::Found]) -> Vec<Answer> {
+fn combine(mut answers: Vec<Answer>, block: &LcpBlock, found: &[lcp_block::Found]) -> Vec<Answer> {
     let base = answers[0].clone();
     answers.iter_mut().for_each(|a| block.write(&found[0], a));
     for other in &found[1..] {

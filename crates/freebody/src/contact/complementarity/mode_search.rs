@@ -1,8 +1,9 @@
 //! The decision on a block: pivoting, enumeration, and the order of static before kinetic friction.
 
 use super::form::{propose, Proposal};
+use super::lcp_block::Found;
 use super::lcp_block::{BlockFriction, LcpBlock};
-use super::modes::{admissible, basic, choices, evaluate, vertices, Found, Mode, Refusal, Tangent};
+use super::modes::{admissible, basic, choices, evaluate, vertices, Mode, Refusal, Tangent};
 use super::{FrictionLaw, Status};
 
 /// Up to this many coupled contacts all modes are tried, to see whether the answer is the only one.

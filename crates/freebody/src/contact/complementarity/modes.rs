@@ -1,6 +1,6 @@
 //! What contacts do under given modes, held against the conditions of contact; and all modes there are.
 
-use super::lcp_block::{BlockFriction, LcpBlock};
+use super::lcp_block::{BlockFriction, Found, LcpBlock};
 use super::{FrictionLaw, Status};
 use crate::solve::{keep_above, Lu, Matrix, Orthogonal};
 
@@ -32,14 +32,6 @@ pub(super) enum Tangent {
     PartialFriction,
     /// aT = 0 with λT = −μ s λN: held by other contacts, on the edge of the cone.
     Impending(f64),
-}
-
-/// What contacts do, all conditions satisfied, in the units of the block.
-#[derive(Clone, Debug)]
-pub(super) struct Found {
-    pub status: Vec<Status>,
-    pub force: Vec<f64>,
-    pub acceleration: Vec<f64>,
 }
 
 /// Why modes give no finding.

@@ -1,7 +1,7 @@
 //! Random problems: pivoting against enumeration, and what theory promises.
 
+use super::super::lcp_block::Found;
 use super::super::mode_search::{enumerate, pivot, Outcome};
-use super::super::modes::Found;
 use super::*;
 
 fn task(c: &Case) -> LcpBlock {

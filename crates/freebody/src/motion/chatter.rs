@@ -1,0 +1,44 @@
+//! Events that come ever more densely.
+
+use super::outcome::Outcome;
+use super::system::Role;
+
+/// Whether two times are one instant.
+pub(super) fn is_tie(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * (1.0 + b.abs())
+}
+
+/// How often one guard may act in one instant: an impact may call for others.
+const GUARDS: usize = 8;
+
+/// Guards against events that come ever more densely.
+pub(super) struct Chatter {
+    since: f64,
+    /// Indices of the events of this instant, and their time.
+    instant: (f64, Vec<usize>),
+    count: usize,
+}
+
+impl Chatter {
+    pub fn new(t: f64) -> Self {
+        Self { since: t, instant: (t, Vec::new()), count: 0 }
+    }
+
+    /// Refuses an event that happens twice in one instant, a guard that does so again and again, or too many in a short
+    /// time.
+    pub fn note(&mut self, index: usize, role: Role, t: f64) -> Result<(), Outcome> {
+        if !is_tie(t, self.instant.0) {
+            self.instant = (t, Vec::new());
+        }
+        if (t - self.since).abs() > 1e-9 {
+            (self.since, self.count) = (t, 0);
+        }
+        self.count += 1;
+        let before = self.instant.1.iter().filter(|&&i| i == index).count();
+        if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
+            return Err(Outcome::Chatter { index });
+        }
+        self.instant.1.push(index);
+        Ok(())
+    }
+}
