@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from freebody.symbolic.dimensions import LENGTH, MASS, Dimension
-from freebody.symbolic.evaluate import is_zero
 from freebody.symbolic.tree import (
     Add,
     Column,
@@ -25,6 +24,7 @@ from freebody.symbolic.tree import (
     Sym,
     children,
     exchange,
+    is_zero,
     substitute,
     walk,
 )

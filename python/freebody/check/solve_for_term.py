@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.symbolic.evaluate import Array, is_zero, sampled, spread
-from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient
+from freebody.symbolic.evaluate import Array, sampled, spread
+from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, is_zero
 
 from .language.statements import Equation
 

@@ -31,6 +31,7 @@ from freebody.symbolic.tree import (
     Quotient,
     Sym,
     Unit,
+    is_zero,
 )
 
 Array = NDArray[np.float64]
@@ -111,11 +112,6 @@ def value(
         case Matrix(rows):
             return np.stack([np.stack([_entry(item, of(item)) for item in row], axis=-1) for row in rows], axis=1)
     raise TypeError(f"{type(tree).__name__} has no value")
-
-
-def is_zero(tree: Node) -> bool:
-    """Whether it is a written 0, which fits numbers, vectors and matrices alike."""
-    return isinstance(tree, Num) and tree.value == 0
 
 
 def kind(value: Array) -> str:

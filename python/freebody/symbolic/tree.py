@@ -141,7 +141,7 @@ def number(value: str | float | Fraction) -> Num:
 def add(*terms: Tree) -> Tree:
     """The sum, flat, without zeros; not collected."""
     flat = [inner for term in terms for inner in (term.terms if isinstance(term, Add) else (term,))]
-    kept = tuple(term for term in flat if not _is(term, 0))
+    kept = tuple(term for term in flat if not is_zero(term))
     return Add(kept) if len(kept) > 1 else kept[0] if kept else ZERO
 
 
@@ -179,7 +179,7 @@ def over(above: Tree, below: Tree) -> Tree:
 
 def is_zero(tree: Tree) -> bool:
     """Whether the tree is the number 0 (not: whether it is identically zero)."""
-    return _is(tree, 0)
+    return isinstance(tree, Num) and tree.value == 0
 
 
 def is_negative(term: Tree) -> bool:
@@ -224,21 +224,15 @@ def walk(tree: Node) -> Iterator[Node]:
 
 
 def exchange(tree: N, old: Node, new: Node) -> N:
-    """The same with ``new`` in the place of ``old``: that very node, not others that read alike."""
+    """The same with ``new`` in the place of ``old``: that very node, not others that read alike. Rows of nodes are tuples."""
     if tree is old:
         return new  # type: ignore[return-value]
-    values = {name: getattr(tree, name) for name in _names(type(tree))}
-    changed = {name: after for name, value in values.items() if (after := _exchanged(value, old, new)) is not value}
+    if isinstance(tree, tuple):
+        after = tuple(exchange(part, old, new) for part in tree)
+        return after if any(x is not y for x, y in zip(after, tree, strict=True)) else tree
+    values = {name: getattr(tree, name) for name in _names(type(tree))} if isinstance(tree, Node) else {}
+    changed = {name: after for name, value in values.items() if (after := exchange(value, old, new)) is not value}
     return _with(tree, **changed) if changed else tree
-
-
-def _exchanged(value: object, old: Node, new: Node) -> object:
-    if isinstance(value, Node):
-        return exchange(value, old, new)
-    if isinstance(value, tuple):
-        after = tuple(_exchanged(v, old, new) for v in value)
-        return after if any(x is not y for x, y in zip(after, value, strict=True)) else value
-    return value
 
 
 def substitute(tree: N, expressions: Mapping[Sym, Node]) -> N:
@@ -365,10 +359,6 @@ def write(tree: Tree) -> dict[str, Any]:
             return {"pow": [write(base), str(exponent)]}
         case Fn(name, args):
             return {"fn": name, "args": [write(arg) for arg in args]}
-
-
-def _is(tree: Tree, value: int) -> bool:
-    return isinstance(tree, Num) and tree.value == value
 
 
 Entries: TypeAlias = Tree | Sequence["Entries"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from freebody.symbolic.evaluate import is_zero
 from freebody.symbolic.tree import (
     Add,
     Column,
@@ -20,6 +19,7 @@ from freebody.symbolic.tree import (
     Sym,
     addends,
     exchange,
+    is_zero,
     substitute,
     walk,
 )

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import markupsafe
 
-from freebody.document.blocks import Block, Equation, Figure, Heading
+from freebody.document.blocks import Block, Figure, Heading
 from freebody.document.rendering.format import Format
-from freebody.document.rendering.markup import Markup, side_formula
+from freebody.document.rendering.markup import TypesetMarkup
 from freebody.document.rendering.text import words_text
 from freebody.document.templates import template
-from freebody.symbolic.formula import EQUALS, Formula
+from freebody.symbolic.formula import Formula
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers.mathml import broken, mathml
 
 
-class Html(Markup):
+class Html(TypesetMarkup):
     """A fragment of a page."""
 
     kind = markupsafe.Markup
+    room = math.inf  # a browser breaks lines by itself
 
     @property
     def _blocks(self) -> Any:
@@ -31,10 +33,6 @@ class Html(Markup):
 
     def inline(self, formula: Formula) -> str:
         return self.kind(mathml(formula))
-
-    def equation(self, block: Equation) -> str:
-        left, right = (side_formula(side, self.letters) for side in (block.left, block.right))
-        return self.display([((), (*left, EQUALS, *right))], block.label)
 
     def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
         [(_, whole)] = rows

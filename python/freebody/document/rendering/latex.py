@@ -8,7 +8,7 @@ from unicodedata import normalize
 
 from freebody.document.blocks import Block, Figure, Paragraph, Words, pieces
 from freebody.document.rendering.format import Format
-from freebody.document.rendering.markup import Markup, side_formula
+from freebody.document.rendering.markup import TypesetMarkup, side_formula
 from freebody.symbolic.formula import QUAD, Formula, Grid
 from freebody.symbolic.printers.latex import ACCENTS, COMMANDS, ROW, aligned, beside, escaped, latex
 from freebody.symbolic.printers.line_breaking import ROOM, lines, width
@@ -24,7 +24,7 @@ _SIGNS = COMMANDS | {sign: f"_{digit}" for digit, sign in enumerate("₀₁₂�
 _MARKS = {"\u0307": ACCENTS["˙"], "\u0308": ACCENTS["¨"]}
 
 
-class Latex(Markup):
+class Latex(TypesetMarkup):
     """A fragment of an article."""
 
     def render(self, blocks: Sequence[Block]) -> str:
@@ -50,9 +50,6 @@ class Latex(Markup):
 
     def heading(self, title: str, level: int) -> str:
         return rf"\{_SECTIONS[min(level, 4) - 1]}*{{{title}}}"
-
-    def paragraph(self, words: str) -> str:
-        return words
 
     def item(self, words: Words) -> str:
         """A sentence of which a long formula stands below."""

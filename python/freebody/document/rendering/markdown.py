@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 from freebody.document.blocks import Figure
 from freebody.document.rendering.format import Format
-from freebody.document.rendering.markup import Markup
+from freebody.document.rendering.markup import TypesetMarkup
 from freebody.symbolic.formula import Formula
 from freebody.symbolic.printers.latex import aligned, latex
 
 
-class Markdown(Markup):
+class Markdown(TypesetMarkup):
     """Markdown with dollars."""
 
     def plain(self, text: str) -> str:
@@ -26,9 +26,6 @@ class Markdown(Markup):
 
     def heading(self, title: str, level: int) -> str:
         return f"{'#' * level} {title}"
-
-    def paragraph(self, words: str) -> str:
-        return words
 
     def bullets(self, items: Sequence[str]) -> str:
         return "\n".join(f"- {item}" for item in items)

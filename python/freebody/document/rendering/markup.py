@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -26,7 +27,7 @@ from freebody.document.blocks import (
 from freebody.document.rendering.matrices import Named, fitted, has_matrices
 from freebody.symbolic.formula import GAP, Formula, joined
 from freebody.symbolic.letters import Letters
-from freebody.symbolic.printers.line_breaking import equation
+from freebody.symbolic.printers.line_breaking import ROOM, equation
 from freebody.symbolic.printers.typeset import Typesetter, matrix
 
 
@@ -88,11 +89,6 @@ class Markup(ABC):
         parts = [self.paragraph(named) if named else "", self.equation(block), self.paragraph(note) if note else ""]
         return self.kind(self.gap).join(filter(None, parts))
 
-    def equation(self, block: Equation) -> str:
-        """An equation on lines of its own; one of matrices is not broken."""
-        left, right = (side_formula(side, self.letters) for side in (block.left, block.right))
-        return self.display(equation(left, right, *([float("inf")] if has_matrices(block) else [])), block.label)
-
     def words(self, words: Words) -> str:
         """A sentence with its mathematics."""
         return self.kind().join(self.plain(each) if isinstance(each, str) else self.math(each) for each in pieces(words))
@@ -101,29 +97,25 @@ class Markup(ABC):
         """A sentence of a list."""
         return self.words(words)
 
+    @abstractmethod
     def math(self, side: Side) -> str:
         """Mathematics in a sentence."""
-        return self.inline(side_formula(side, self.letters))
+
+    @abstractmethod
+    def equation(self, block: Equation) -> str:
+        """An equation on lines of its own."""
 
     @abstractmethod
     def plain(self, text: str) -> str:
         """Text with the signs of the markup escaped."""
 
     @abstractmethod
-    def inline(self, formula: Formula) -> str:
-        """A formula in a sentence."""
-
-    @abstractmethod
-    def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
-        """An equation on lines of its own, whose second parts stand below each other."""
-
-    @abstractmethod
     def heading(self, title: str, level: int) -> str:
         """A heading."""
 
-    @abstractmethod
     def paragraph(self, words: str) -> str:
         """A paragraph."""
+        return words
 
     @abstractmethod
     def bullets(self, items: Sequence[str]) -> str:
@@ -136,3 +128,25 @@ class Markup(ABC):
     @abstractmethod
     def figure(self, figure: Figure, caption: str) -> str:
         """A picture."""
+
+
+class TypesetMarkup(Markup):
+    """A format that spells formulas."""
+
+    room: ClassVar[float] = ROOM
+    """Width of a line in em."""
+
+    def math(self, side: Side) -> str:
+        return self.inline(side_formula(side, self.letters))
+
+    def equation(self, block: Equation) -> str:
+        left, right = (side_formula(side, self.letters) for side in (block.left, block.right))
+        return self.display(equation(left, right, math.inf if has_matrices(block) else self.room), block.label)
+
+    @abstractmethod
+    def inline(self, formula: Formula) -> str:
+        """A formula in a sentence."""
+
+    @abstractmethod
+    def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
+        """An equation on lines of its own, whose second parts stand below each other; one of matrices is not broken."""

@@ -12,7 +12,6 @@ from freebody.document.rendering.format import Format
 from freebody.document.rendering.markup import Markup
 from freebody.document.rendering.matrices import has_matrices
 from freebody.symbolic.alphabet import columns
-from freebody.symbolic.formula import Formula
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers.text import equation_text, folded, printer, text
 
@@ -126,11 +125,6 @@ class Text(Markup):
 
     def figure(self, figure: Figure, caption: str) -> str:
         return ""
-
-    def inline(self, formula: Formula) -> str:
-        raise NotImplementedError("text is printed from trees")
-
-    display = inline
 
 
 def _space(above: Block, below: Block) -> str:

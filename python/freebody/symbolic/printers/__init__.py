@@ -1,1 +1,1 @@
-"""Expressions written: text, LaTeX, MathML for a reader, NumPy and C for a machine."""
+"""Expressions written: on a line of text, and set in type: LaTeX, MathML."""
