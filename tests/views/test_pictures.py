@@ -12,7 +12,8 @@ from freebody.views import plots, shapes
 from freebody.views.animate import animate
 from freebody.views.diagram import diagram
 from freebody.views.draw import drawing
-from freebody.views.scene import of_run, of_state
+from freebody.views.scene import drawn, of_run
+from freebody.views.sketch import sketch_of_state
 
 from .models import run_double_pendulum
 from .zoo import zoo
@@ -91,13 +92,13 @@ def test_a_scene_is_data(four_bar):
 
 
 def test_a_scene_of_a_state_is_that_of_the_run(four_bar):
-    one, many = of_state(four_bar.source, four_bar.start), of_run(four_bar)
+    one, many = drawn(sketch_of_state(four_bar.source, four_bar.start)), of_run(four_bar)
     assert one.poses[0] == pytest.approx(many.poses[0]) and len(one.figures) == len(many.figures)
 
 
 def test_every_joint_symbol_can_be_drawn():
     source, state = zoo()
-    scene = of_state(source, state)
+    scene = drawn(sketch_of_state(source, state))
     styles = {stroke.style for figure in scene.figures for stroke in figure.strokes}
     assert {"body", "band", "mass", "mark", "slot", "pin", "weld", "rail", "hatch", "dash", "block"} <= styles
     assert {pair.kind for pair in scene.pairs} == {"spring", "damper", "link", "belt"}

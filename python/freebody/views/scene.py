@@ -17,10 +17,9 @@ from freebody.views import shapes
 from freebody.views.contact_glyphs import draw_contacts, draw_strings
 from freebody.views.glyphs import draw_forces, draw_joints
 from freebody.views.impact_markers import LASTING, ImpactMarker, impact_markers
-from freebody.views.sketch import Cord, Figure, Pair, Sketch, Stroke, named_points, sketch_of_state
+from freebody.views.sketch import Cord, Figure, Pair, Sketch, Stroke, named_points
 
 if TYPE_CHECKING:
-    from freebody.core import CompiledModel
     from freebody.run.simulation import Run
 
 _OWN_POINTS = ("origin", "G", "centre", "start")
@@ -40,10 +39,6 @@ class Scene:
     poses: Array
     traces: list[str]
     impact_markers: list[ImpactMarker] = field(default_factory=list)
-
-    def index(self, body: str) -> int:
-        """Place of a body's figure."""
-        return next(i for i, figure in enumerate(self.figures) if figure.name == body)
 
     def place(self, figure: int, points: Array, frame: int = 0) -> Array:
         """Points (k, 2) of a figure in the fixed axes."""
@@ -136,11 +131,6 @@ def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Seque
     return replace(scene, impact_markers=impact_markers(run))
 
 
-def of_state(source: CompiledModel, state: State, traces: Sequence[str] | None = None) -> Scene:
-    """The scene at one state."""
-    return drawn(sketch_of_state(source, state), traces)
-
-
 def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Scene:
     """Everything drawn; ``traces`` names the points to be traced (default: a few worth it)."""
     for body in sketch.spec["bodies"]:
@@ -171,12 +161,11 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         for points, style in shapes.piece_outlines(piece["shape"], sizes, corners, thickness):
             figure.add(shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), style, len(points) > 2)
     joined = {name for joint in sketch.spec["joints"] for name in named_points(joint["with"])}
-    own = [at for name, at in figure.points.items() if not name.endswith(".origin") or name in joined]
-    bare = not any(stroke.style in ("body", "band", "mass") for stroke in figure.strokes)
-    if bare:
-        figure.add(shapes.rounded_hull(np.array(own or [(0.0, 0.0)]), thickness), "body")
+    own = np.array([at for name, at in figure.points.items() if not name.endswith(".origin") or name in joined] or [(0.0, 0.0)])
+    if any(stroke.style in ("body", "band", "mass") for stroke in figure.strokes):
+        _reach_out(figure, own, thickness)
     else:
-        _reach_out(figure, np.array(own or [(0.0, 0.0)]), thickness)
+        figure.add(shapes.rounded_hull(own, thickness), "body")
 
 
 def _corner(sketch: Sketch, body: str, corner: str | Sequence[float | str]) -> Array:
@@ -206,6 +195,6 @@ def _worth_tracing(sketch: Sketch) -> list[str]:
         for name, (body, at) in sketch.at.items()
         if body != GROUND
         and name.rpartition(".")[2] not in _OWN_POINTS
-        and not any(body == other and np.allclose(at, place) for other, place in joined)
+        and not any(body == other and np.allclose(at, place, atol=1e-6 * sketch.size) for other, place in joined)
     ]
     return free[:3] or [name for name in sketch.at if name.endswith(".G")][-1:]
