@@ -162,13 +162,13 @@ def test_the_page_of_all_diagrams(tmp_path):
 
 
 @pytest.mark.long
-def test_the_page_shows_the_first_blow_of_every_kind(tmp_path):
+def test_the_page_shows_the_first_impact_of_every_kind(tmp_path):
     """A wheel of eight feet that fall one after another has one kind; a foot and a stop at one time are two."""
     page = tmp_path / "page.html"
     models = {"19.3.30": "systems/19.3.30/model.yaml", "GEN-STEP": "systems/GEN-STEP/floor.yaml"}
     write_gallery([(name, Mechanism.load(path)) for name, path in models.items()], page)
     text = page.read_text(encoding="utf-8")
-    assert re.findall(r"<h3>Blow (\d+) of the run, of ([^,]*),", text) == [("1", "foot[2]"), ("1", "other"), ("2", "foot")]
+    assert re.findall(r"<h3>Impact (\d+) of the run, of ([^,]*),", text) == [("1", "foot[2]"), ("1", "other"), ("2", "foot")]
     assert text.count("<title>impulse diagrams of ") == 1 + 2 * 2
     own = re.findall(r' id="([^"]*)"', text)
     assert len(own) == len(set(own))

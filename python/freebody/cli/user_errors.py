@@ -1,4 +1,4 @@
-"""What the user can mend is said in a line or two, never as a traceback."""
+"""What the user can correct is said in a line or two, never as a traceback."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from freebody.model.errors import Problem
 
 MISTAKEN, NOT_TRUE = 2, 3
-"""Exit codes: the user can mend it; what was asked has the answer that nobody wants: a bad end, an equation that is not true."""
+"""Exit codes: the user can correct it; what was asked has the answer that nobody wants: a bad end, an equation that is not true."""
 
 
 class UserError(Exception):
@@ -21,7 +21,7 @@ class UserError(Exception):
 
 
 class Guarded(TyperGroup):
-    """Commands whose errors, where the user can mend them, are told and end with code 2."""
+    """Commands whose errors, where the user can correct them, are printed and end with code 2."""
 
     def invoke(self, context: typer.Context) -> Any:
         try:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array
-from freebody.run.records import Column
 from freebody.solve.rich_tables import captured, table
 from freebody.views.plots import overlay
 
@@ -83,25 +82,24 @@ class Comparison:
 def compare(a: Run, b: Run) -> Comparison:
     """Columns that two runs share, at the times that both know."""
     t = common_times(a, b)
-    mine, others = {column.name: column for column in a.columns}, {column.name for column in b.columns}
-    shared = [column for name, column in mine.items() if name in others]
-    left, right = _by_name(a.at(t)), _by_name(b.at(t))
+    left, right = (
+        dict(zip((column.name for column in run.columns), np.hstack(list(run.blocks.values())).T, strict=True))
+        for run in (a.at(t), b.at(t))
+    )
+    shared = [column for column in a.columns if column.name in right]
     sizes: dict[tuple[str, str], float] = {}
     for column in shared:
         key, values = (column.kind, column.unit), np.abs([left[column.name], right[column.name]])
         sizes[key] = max(sizes.get(key, 0.0), float(np.nanmax(values, initial=0.0)))
-    return Comparison(
-        a=a,
-        b=b,
-        t=t,
-        differences=[_difference(c, sizes[c.kind, c.unit], t, left[c.name], right[c.name]) for c in shared],
-        only=sorted(others.symmetric_difference(mine)),
-    )
-
-
-def _by_name(run: Run) -> dict[str, Array]:
-    values = np.hstack(list(run.blocks.values()))
-    return {column.name: values[:, i] for i, column in enumerate(run.columns)}
+    differences = []
+    for column in shared:
+        one, other, size = left[column.name], right[column.name], sizes[column.kind, column.unit]
+        # Where a reaction is indeterminate in both runs there is nothing to compare.
+        gap = np.where(np.isnan(one) & np.isnan(other), 0.0, np.abs(one - other))
+        i, rms = int(np.argmax(gap)), float(np.sqrt(np.mean(gap**2)))
+        relative = float(gap[i] / size) if size else 0.0
+        differences.append(Difference(column.name, column.unit, float(gap[i]), float(t[i]), rms, relative))
+    return Comparison(a, b, t, differences, sorted(right.keys() ^ left.keys()))
 
 
 def common_times(a: Run, b: Run) -> Array:
@@ -120,11 +118,3 @@ def common_times(a: Run, b: Run) -> Array:
     if not len(times):
         raise ValueError("the two runs have no time in common; run.again() makes one of them known at all times")
     return times
-
-
-def _difference(column: Column, size: float, t: Array, a: Array, b: Array) -> Difference:
-    # Where a reaction is indeterminate in both runs there is nothing to compare.
-    gap = np.where(np.isnan(a) & np.isnan(b), 0.0, np.abs(a - b))
-    i = int(np.argmax(gap))
-    relative = float(gap[i] / size) if size else 0.0
-    return Difference(column.name, column.unit, float(gap[i]), float(t[i]), float(np.sqrt(np.mean(gap**2))), relative)

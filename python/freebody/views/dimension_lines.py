@@ -13,7 +13,7 @@ from freebody.views import shapes
 from freebody.views.glyphs import points_of_curve
 from freebody.views.sketch import Sketch, named_points
 
-_ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is told as 0
+_ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is shown as 0
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
 _LEVELS = 5  # places further and further out where an arrow may keep off others
 _APART = 1.6  # sizes of symbols between two arrows

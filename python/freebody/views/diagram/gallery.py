@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import MotionError
 from freebody.document.templates import template
-from freebody.impact.impacts import Impact, impacts
+from freebody.impact.impacts import impacts
 from freebody.model.errors import ModelFileError
 from freebody.views.diagram.impulses import impulse_diagram
 
@@ -43,24 +43,20 @@ def _pictures(mechanism: Mechanism, prefix: str) -> tuple[list[str], str]:
 
 
 def _impacts(mechanism: Mechanism, prefix: str) -> Iterator[dict[str, Any]]:
-    """The impulse diagrams of the run, one impact of each kind: its bodies, and all together where there are several."""
-    for k, (number, impact) in enumerate(_kinds(mechanism)):
-        bodies = tuple(impact.impulses.bodies)
-        groups = [None, [bodies]] if len(bodies) > 1 else [None]
-        pictures = [impulse_diagram(impact, group).inline(f"{prefix}{k}-{i}") for i, group in enumerate(groups)]
-        of = " and ".join(impact.change.of) or "what is engaged"
-        yield {"number": number, "of": of, "t": f"{impact.change.t:.4g}", "pictures": pictures}
-
-
-def _kinds(mechanism: Mechanism) -> Iterator[tuple[int, Impact]]:
-    """The first impact of every kind, and its number; parts that repeat are of one kind. Of a model that does not run there is none."""
+    """The impulse diagrams of the run, of the first impact of each kind: its bodies, and all together where there are several. Parts
+    that repeat are of one kind. Of a model that does not run there is none."""
     try:
-        run = mechanism.simulate()
+        found = impacts(mechanism.simulate())
     except (MotionError, ModelFileError):
         return
     seen = set()
-    for number, impact in enumerate(impacts(run), 1):
+    for number, impact in enumerate(found, 1):
         kind = tuple(re.sub(r"\[\d+\]", "", name) for name in impact.change.of)
-        if kind not in seen:
-            seen.add(kind)
-            yield number, impact
+        if kind in seen:
+            continue
+        bodies = tuple(impact.impulses.bodies)
+        groups = [None, [bodies]] if len(bodies) > 1 else [None]
+        pictures = [impulse_diagram(impact, group).inline(f"{prefix}{len(seen)}-{i}") for i, group in enumerate(groups)]
+        of = " and ".join(impact.change.of) or "what is engaged"
+        seen.add(kind)
+        yield {"number": number, "of": of, "t": f"{impact.change.t:.4g}", "pictures": pictures}

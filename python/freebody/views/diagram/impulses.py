@@ -45,12 +45,12 @@ class Impulses(Picture):
     """The impulse diagrams of every body during an impact, drawn when they are asked for."""
 
     name: str
-    blow: Impulsive
+    impact: Impulsive
 
     @cached_property
     def drawn(self) -> Diagram:
         """The diagrams."""
-        return impulse_diagram(self.blow)
+        return impulse_diagram(self.impact)
 
     @property
     def rows(self) -> list[Row]:

@@ -66,12 +66,10 @@ class Laws:
             lead = _EN * columns(f"where {action.sign.plain} = ")
             law = [latex(line) for line in line_breaking.lines(formula(size), max(_LEAST, room - lead))]
         if law and law[0] != action.label:
-            law[-1] += r",\ \mathrm{as\ it\ is\ here}" if self._has_cases(load.name) else ""
+            if any(force["cases"] for force in self.source.about["forces"] if force["name"] == load.name):
+                law[-1] += r",\ \mathrm{as\ it\ is\ here}"
             yield f"${action.label} = {_spaced(law[0])}$"
             yield from (rf"$\qquad {_spaced(line)}$" for line in law[1:])
-
-    def _has_cases(self, name: str) -> bool:
-        return any(force["cases"] for force in self.source.about["forces"] if force["name"] == name)
 
     @cached_property
     def _parts(self) -> Mapping[tuple[str, str], _Parts]:
@@ -99,7 +97,7 @@ class Laws:
         }
 
     def _of_length(self, load: Load) -> list[str]:
-        """That of a spring or damper between two points, in the distance of these; of what else pulls aslant nothing is told."""
+        """That of a spring or damper between two points, in the distance of these; nothing of what else pulls aslant."""
         spec = next(each for each in self.source.spec["forces"] if each["name"] == load.name)
         fields = spec["with"]
         stiffness, rest, damping = (_quantity(fields.get(word, 0)) for word in ("stiffness", "rest_length", "damping"))

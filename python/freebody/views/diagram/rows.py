@@ -78,8 +78,11 @@ def laid(row: Row) -> Laid:
     widths = [high[0] - low[0] for low, high in (panel.box() for panel in row.panels)]
     signs = len(widths) - 1 + 2 * row.vanishes
     made = (_beside if sum(widths) + BETWEEN * signs <= row.column - 2 * MARGIN else _below)(row)
-    if row.apart is not None:
-        made = _with(made, row.apart)
+    if row.apart is not None:  # one more panel below all
+        low, high = row.apart.box()
+        y = -made.size[1] - LINE
+        size = np.array([max(made.size[0], high[0] - low[0]), high[1] - low[1] - y])
+        made = Laid([*made.panels, (row.apart, np.array([-low[0], y - high[1]]))], made.signs, size)
     written = [*(extent(line, TITLE, True)[0] for line in row.heading), *(extent(line, NOTE)[0] for line in row.lines)]
     return Laid(made.panels, made.signs, np.array([max([made.size[0], *written]), made.size[1] + row.foot]))
 
@@ -116,14 +119,6 @@ def _below(row: Row) -> Laid:
         signs.append(np.array([BETWEEN, y - LINE / 2]))
         y -= LINE
     return Laid(list(zip(row.panels, shifts, strict=True)), signs, np.array([width, -y]))
-
-
-def _with(above: Laid, panel: Panel) -> Laid:
-    """One more panel below all."""
-    low, high = panel.box()
-    y = -above.size[1] - LINE
-    size = np.array([max(above.size[0], high[0] - low[0]), high[1] - low[1] - y])
-    return Laid([*above.panels, (panel, np.array([-low[0], y - high[1]]))], above.signs, size)
 
 
 def _lines(text: str, column: float, letter: float) -> list[str]:
