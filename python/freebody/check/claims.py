@@ -229,22 +229,15 @@ def _solve(given: Program, values: dict[str, Array]) -> None:
     known = [n for e in given.equations for n in letters(e) if n.key in values and values[n.key].ndim == 1]
     top = sorted(dict.fromkeys(known), key=lambda n: -n.dots)
 
-    def left() -> Array:
-        return np.concatenate([equation_sides(e, values).residual for e in given.equations], axis=1)
+    def left(changed: Mapping[str, Array]) -> Array:
+        return np.concatenate([equation_sides(e, {**values, **changed}).residual for e in given.equations], axis=1)
 
     for _ in range(20):
-        base = left()
-        unknown = top[: base.shape[1]]
-        columns = []
-        for letter in unknown:
-            old, step = values[letter.key], 1e-6 * (1 + np.abs(values[letter.key]))
-            values[letter.key] = old + step
-            columns.append((left() - base) / step[:, None])
-            values[letter.key] = old
-        slopes = np.stack(columns, axis=-1)
-        steps = np.einsum("kij,kj->ki", np.linalg.pinv(slopes), base)
-        for i, letter in enumerate(unknown):
-            values[letter.key] = values[letter.key] - steps[:, i]
+        base = left({})
+        steps = {n.key: 1e-6 * (1 + np.abs(values[n.key])) for n in top[: base.shape[1]]}
+        columns = [(left({key: values[key] + step}) - base) / step[:, None] for key, step in steps.items()]
+        corrections = np.einsum("kij,kj->ki", np.linalg.pinv(np.stack(columns, axis=-1)), base)
+        values |= {key: values[key] - corrections[:, i] for i, key in enumerate(steps)}
 
 
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")

@@ -33,22 +33,19 @@ from .language.spelling import spell
 from .language.statements import Equation
 from .vocabulary import Vocabulary
 
-_PLAIN = ("sign", "function", "symbol", "angle", "derivative", "factor", "power", "rates", "brackets", "unit vector")
 _LARGER = {
-    "extra factor": 1.1,
-    "missing factor": 1.1,
-    "extra term": 1.1,
-    "missing term": 1.2,
-    "convention": 1.1,
-    "other term": 2.0,
+    "extra factor": 0.1,
+    "missing factor": 0.1,
+    "extra term": 0.1,
+    "missing term": 0.2,
+    "convention": 0.1,
+    "other term": 1.0,
 }
-SIZES = {**dict.fromkeys(_PLAIN, 1.0), **_LARGER}
-"""How large each kind of edit is; those within ``correction.EQUAL`` are equally small."""
-
+"""By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
 _FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
 _OTHER = {"sin": "cos", "cos": "sin"}
-_SIZES = (LENGTH, MASS, Dimension(2, 1))
+_UNSIGNED = (LENGTH, MASS, Dimension(2, 1))
 """Dimensions of lengths, masses and moments of inertia, which have no sense."""
 _QUARTER = Quotient(Num(math.pi, "pi"), Num(2.0, "2"))
 
@@ -72,7 +69,7 @@ class Edit:
     @property
     def size(self) -> float:
         """How large it is, smaller first."""
-        return SIZES[self.kind] + self.extra
+        return 1.0 + _LARGER.get(self.kind, 0.0) + self.extra
 
 
 def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
@@ -216,7 +213,7 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         plain = Sym(name)
         if plain in vocabulary.angular and plain in vocabulary.coordinates:
             yield from _other_angles(equation, plain, vocabulary)
-        if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _SIZES:
+        if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _UNSIGNED:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
     pairs = [(n, o.name) for n in often for o in vocabulary.alike(Sym(n)) if n < o.name and o.name in often]
     given = [n for n in dict.fromkeys(found) if n in vocabulary.parameters]

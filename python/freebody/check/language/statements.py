@@ -133,15 +133,13 @@ def _entries(node: Node) -> list[Node] | None:
         case Matrix(rows=lines) if all(len(line) == 1 for line in lines):
             return [line[0] for line in lines]
         case Negative(of=of):
-            inside = _entries(of)
-            return None if inside is None else [Negative(item) for item in inside]
+            return [Negative(item) for item in inside] if (inside := _entries(of)) else None
         case Add(terms=terms):
             columns = [_entries(term) for term in terms if not is_zero(term)]
             alike = None not in columns and len(set(map(len, columns))) == 1  # type: ignore[arg-type]
             return [Add(parts) for parts in zip(*columns, strict=True)] if alike else None  # type: ignore[arg-type]
         case Quotient(top=top, bottom=bottom):
-            inside = _entries(top)
-            return None if inside is None else [Quotient(item, bottom) for item in inside]
+            return [Quotient(item, bottom) for item in inside] if (inside := _entries(top)) else None
         case Mul(factors=factors):
             return _products(factors)
         case Dot(left=left, right=right):
