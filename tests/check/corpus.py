@@ -21,7 +21,7 @@ from freebody.check import Checker, Kind
 from freebody.check.case import Case
 from freebody.check.correction import Correction, corrections
 from freebody.check.language.spelling import spell
-from freebody.check.language.statements import Equation, letters
+from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.verdict import judged
 from freebody.check.vocabulary import Vocabulary
 from freebody.model import Mechanism
@@ -87,12 +87,12 @@ class Bench:
         """Whether it holds at true states of another draw, evaluated by other code."""
         case = self._judge.case(spell(equation), self._said(equation))
         known = case.values()
-        return holds(equation, {n: known[n.key] for n in letters(equation)})
+        return holds(equation, {n: known[n.key] for n in symbols_in(equation)})
 
     def same(self, one: Equation, other: Equation, rng: np.random.Generator) -> bool:
         """Whether two say the same, by values of the model's own letters at places that are no true states."""
         plain = [substitute(equation, self._own) for equation in (one, other)]
-        found = dict.fromkeys(n for equation in plain for n in letters(equation))
+        found = dict.fromkeys(n for equation in plain for n in symbols_in(equation))
         return says_the_same(*plain, {n: rng.uniform(0.4, 1.6, _PLACES) for n in found})
 
     @cached_property
@@ -111,7 +111,7 @@ class Bench:
         return Outcome(self.name, "", text, text, verdict.kind, True, True, _told(verdict.mends), seconds)
 
     def _said(self, equation: Equation) -> dict[str, str]:
-        names = {n.name for n in letters(equation)}
+        names = {n.name for n in symbols_in(equation)}
         return {other.name: other.said for other in self.others if other.name in names}
 
     def mutated(self, rng: np.random.Generator) -> Outcome | None:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.check.language.statements import Equation, letters
+from freebody.check.language.statements import Equation, symbols_in
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ def holds(equation: Equation, at: Values) -> bool:
 def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
     """Whether ``other`` holds just where ``one`` does, at places that are no true states: ``one`` is made to hold there by one
     letter in which it is linear, one that does not make all its terms 0 where there is such."""
-    made = [values for letter in letters(one) if (values := _solved(one, letter, at)) is not None]
+    made = [values for letter in symbols_in(one) if (values := _solved(one, letter, at)) is not None]
     if not made:
         return False
     best = max(made, key=lambda values: float(np.min(sides(one, values)[1])))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from rearranged import number
 
-from freebody.check.language.statements import Equation, letters
+from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.vocabulary import Vocabulary
 from freebody.symbolic.dimensions import LENGTH, MASS
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, walk
@@ -123,7 +123,7 @@ def _lost_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation |
 
 
 def _extra_factor(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
-    sizes = [n for n in letters(e) if n in vocabulary.parameters and n not in vocabulary.angular]
+    sizes = [n for n in symbols_in(e) if n in vocabulary.parameters and n not in vocabulary.angular]
     return _at(rng, e, _places(e), lambda n: Mul((n, _pick(rng, sizes)))) if sizes else None  # type: ignore[arg-type]
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace as with_
 import numpy as np
 from other_letters import Other
 
-from freebody.check.language.statements import Equation, letters
+from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.vocabulary import Vocabulary
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, addends, exchange, substitute, walk
 
@@ -33,7 +33,7 @@ def rearranged(rng: Random, equations: list[Equation], vocabulary: Vocabulary, o
 
 def in_other_letters(rng: Random, equation: Equation, others: list[Other]) -> Equation:
     """With one of its letters in terms of another."""
-    found = set(letters(equation))
+    found = set(symbols_in(equation))
     fitting = [other for other in others if not found.isdisjoint(other.replaced)]
     return substitute(equation, fitting[int(rng.integers(len(fitting)))].replaced) if fitting else equation
 

@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 Declared = Mapping[str, str | Sequence[str | float]]
-"""Own letters, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
+"""Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
 
 class Checker:
     """Checks many statements about one model; its true motions are made once.
 
-    ``letters`` are own letters for all of them. ``seed`` makes the random motions reproducible.
+    ``letters`` are own symbols for all of them. ``seed`` makes the random motions reproducible.
     """
 
     def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0) -> None:
@@ -40,7 +40,7 @@ class Checker:
         self._runs: list[Any] = []  # the model's own, once it is asked for
 
     def letters(self, declared: Declared | None = None) -> Symbols:
-        """The letters of the model with own ones. Raises ``ModelProblem``."""
+        """The symbols of the model with own ones. Raises ``ModelProblem``."""
         return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity)
 
     def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:

@@ -20,7 +20,7 @@ from freebody.symbolic.tree import Fn, Sym, walk
 
 from .case import Case
 from .families import ALL, Family, NoMotion
-from .language.statements import Equation, letters, terms
+from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, figures, residual, rounding, unreached
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def _has_bare_angles(case: Case, equation: Equation) -> bool:
 
 def _angles(case: Case, equation: Equation) -> list[Sym]:
     known = case.meaning.vocabulary
-    plain = dict.fromkeys(Sym(n.name) for n in letters(equation))
+    plain = dict.fromkeys(Sym(n.name) for n in symbols_in(equation))
     return [n for n in plain if n in known.coordinates and n in known.angular]
 
 

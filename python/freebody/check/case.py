@@ -41,7 +41,7 @@ _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
 
 class StatementSymbols:
-    """What the letters of a program mean in a model. Raises ``StatementError`` at a letter without a meaning."""
+    """What the symbols of a program mean in a model. Raises ``StatementError`` at a symbol without a meaning."""
 
     def __init__(self, letters: Symbols, program: Program, sampler: MotionSampler) -> None:
         self.letters, self.sampler, self.figures = letters, sampler, False
@@ -49,11 +49,11 @@ class StatementSymbols:
         self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
 
     def texts(self, letter: Sym) -> tuple[str, ...]:
-        """The expressions of the model language that a letter stands for."""
+        """The expressions of the model language that a symbol stands for."""
         return self._one(letter).texts if letter.name in self.letters.meanings else ()
 
     def values(self, samples: Samples) -> Mapping[str, Array]:
-        """The value of every letter on true states, by ``Sym.key``; what is 0 on all of them but for round-off is 0."""
+        """The value of every symbol on true states, by ``Sym.key``; what is 0 on all of them but for round-off is 0."""
         found = self.letters.values(self._valued, samples)
         return {n.key: self._without_round_off(n, found[n.key]) for n in self._valued}
 
@@ -80,7 +80,7 @@ class StatementSymbols:
         return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
-        """What each letter with a value stands for, by ``Sym.key``: letters that only name one quantity twice agree in it."""
+        """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""
         return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}
 
     def given(self) -> frozenset[str]:
@@ -89,14 +89,14 @@ class StatementSymbols:
 
     @cached_property
     def _valued(self) -> list[Sym]:
-        """The letters of the statement and of the vocabulary, with their rates."""
+        """The symbols of the statement and of the vocabulary, with their rates."""
         known = self.vocabulary
         dotted = [Sym(n.name, dots) for n in known.coordinates for dots in range(3)]
         return list(dict.fromkeys([*self.required, *known.parameters, *dotted, *known.others, *known.vectors]))
 
     @cached_property
     def vocabulary(self) -> Vocabulary:
-        """The letters that a true equation may be written in: those of the statement, and what of the model it leaves out."""
+        """The symbols that a true equation may be written in: those of the statement, and what of the model it leaves out."""
         parameters = [n for n in self._parameters if not self._one(n).is_vector]
         coordinates = self._coordinates
         taken = {*parameters, *coordinates}
@@ -121,7 +121,7 @@ class StatementSymbols:
         return self.letters.meanings[letter.name]
 
     def _dimension(self, letter: Sym) -> Known:
-        """The dimension of a letter, radians aside; a parameter that is a bare number is one."""
+        """The dimension of a symbol, radians aside; a parameter that is a bare number is one."""
         dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
         if dimension is None:
             return NUMBER_ONLY if name in self.sampler.free_parameters else None
@@ -135,7 +135,7 @@ class StatementSymbols:
         return self._once([*made, *(n for n in own if n in self.used), *own])
 
     def _once(self, found: list[Sym]) -> list[Sym]:
-        """Without letters that only name again what another does."""
+        """Without symbols that only name again what another does."""
         first = {self._one(n).texts: n for n in reversed(found)}
         return [n for n in dict.fromkeys(found) if first[self._one(n).texts] == n]
 
@@ -183,7 +183,7 @@ class StatementSymbols:
 
 @dataclass
 class Case:
-    """A program of statements, what its letters mean, and true motions. ``hypothesis`` is the family of which it is said;
+    """A program of statements, what its symbols mean, and true motions. ``hypothesis`` is the family of which it is said;
     ``correcting``: whether corrections are wanted where it is wrong."""
 
     program: Program
@@ -203,7 +203,7 @@ class Case:
         return self.sampler.samples(family or self.hypothesis, count, fresh)
 
     def values(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Mapping[str, Array]:
-        """The letters on true states of a family. Raises ``NoMotion``."""
+        """The symbols on true states of a family. Raises ``NoMotion``."""
         key = (family or self.hypothesis, fresh, count)
         if key not in self.known:
             self.known[key] = self.meaning.values(self.samples(family, fresh, count))

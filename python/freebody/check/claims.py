@@ -21,7 +21,7 @@ from .case import Case
 from .families import Sample, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
-from .language.statements import Equation, Program, letters, terms
+from .language.statements import Equation, Program, symbols_in, terms
 from .residual import HOLDS, equation_sides, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 
@@ -225,8 +225,8 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 
 def _solve(given: Program, values: dict[str, Array]) -> None:
-    """Makes premises true by their letters with most dots, by Newton's method on every set of numbers at once."""
-    known = [n for e in given.equations for n in letters(e) if n.key in values and values[n.key].ndim == 1]
+    """Makes premises true by their symbols with most dots, by Newton's method on every set of numbers at once."""
+    known = [n for e in given.equations for n in symbols_in(e) if n.key in values and values[n.key].ndim == 1]
     top = sorted(dict.fromkeys(known), key=lambda n: -n.dots)
 
     def left(changed: Mapping[str, Array]) -> Array:

@@ -19,7 +19,7 @@ from freebody.symbolic.tree import Negative, Node, Num, Sym, exchange
 from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
-from .language.statements import Equation, letters, rows, without_ones
+from .language.statements import Equation, rows, symbols_in, without_ones
 from .residual import HOLDS, Residual, residual, unreached
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ Step = Callable[["_Search"], Iterator[_Found]]
 def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
     """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits make it true."""
     given, families = case.hypothesis, [(case.hypothesis, "")]
-    said = " ".join(text for letter in letters(equation) for text in case.meaning.texts(Sym(letter.name)))
+    said = " ".join(text for letter in symbols_in(equation) for text in case.meaning.texts(Sym(letter.name)))
     unsaid = case.sampler.free_parameters.keys() - set(re.findall(r"\w+", said)) if given.zeros else ()
     zeros = [name for name, value in case.sampler.free_parameters.items() if value == 0 and name in unsaid]
     for names in (*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())):
@@ -137,7 +137,7 @@ class _Search:
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
         self.fit = case.meaning.fits
-        self.said = {n.key for n in letters(equation)}
+        self.said = {n.key for n in symbols_in(equation)}
         self.given = case.meaning.given()
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self.fits = FittedEdits(self.values, self.vocabulary)
@@ -216,8 +216,8 @@ class _Search:
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
     def _is_vacuous(self, equation: Equation) -> bool:
-        """Whether it holds whatever the letters are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
-        kept = self.said & {n.key for n in letters(equation)}
+        """Whether it holds whatever the symbols are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
+        kept = self.said & {n.key for n in symbols_in(equation)}
         return bool(kept) and self._worst(equation, self.few | {key: self.free[key] for key in kept}) < HOLDS
 
     def _moves(self, node: Node) -> bool:
@@ -247,11 +247,11 @@ class _Search:
 
     def _mark(self, equation: Equation) -> tuple[float, ...] | None:
         """What an equation says, however it is arranged; None where it says nothing (a = a)."""
-        places = self.other if {n.key for n in letters(equation)} - self.given else self.free
+        places = self.other if {n.key for n in symbols_in(equation)} - self.given else self.free
         found = self._residual(equation, places)
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
-        left, known = found.sides.residual, {n.key for n in letters(equation)}
+        left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
         linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
         solved = next((each for each in linear if each is not None), None)
         if solved is None and left.shape[1] > 1:
@@ -263,15 +263,15 @@ class _Search:
 
     @cached_property
     def _pivots(self) -> list[str]:
-        """Letters in which the equation given is linear, accelerations first."""
+        """Symbols in which the equation given is linear, accelerations first."""
         if (found := self._residual(self.equation, self.other)) is None:
             return []
-        known = [n for n in letters(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
+        known = [n for n in symbols_in(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
         keys, left = [n.key for n in sorted(known, key=lambda n: -n.dots)], found.sides.residual
         return [key for key in keys if self._solved_for(key, self.equation, left, self.other) is not None]
 
     def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
-        """The equation solved for a letter in which it is linear."""
+        """The equation solved for a symbol in which it is linear."""
         once, twice = (self._residual(equation, {**places, key: places[key] + step}) for step in (1.0, 2.0))
         if base.shape[1] != 1 or once is None or twice is None:
             return None

@@ -170,7 +170,7 @@ def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, 
 
 
 def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
-    """Other angles: each letter, sums and differences of two, twice and half of what is there."""
+    """Other angles: each symbol, sums and differences of two, twice and half of what is there."""
     known = vocabulary.angles
     yield from (angle for angle in known if angle != argument)
     for i, a in enumerate(known):
@@ -197,13 +197,13 @@ def depth(node: Node) -> int:
     return sum(1 for _ in walk(node))
 
 
-# -- of the whole equation at once: what a letter measures, and in which sense
+# -- of the whole equation at once: what a symbol measures, and in which sense
 
 
 def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """Letters of the other sense, from another axis, relative for absolute, and two letters exchanged.
+    """Symbols of the other sense, from another axis, relative for absolute, and two symbols exchanged.
 
-    A letter that stands once is left to the edits of its place.
+    A symbol that stands once is left to the edits of its place.
     """
     yield from _products(equation)
     yield from _functions(equation)

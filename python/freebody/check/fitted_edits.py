@@ -17,7 +17,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .edits import Edit, depth
 from .language.dimensions import dimension
-from .language.statements import Equation, letters, terms
+from .language.statements import Equation, symbols_in, terms
 from .solve_for_term import RequiredTerm, required_terms
 from .vocabulary import Vocabulary
 
@@ -57,7 +57,7 @@ class FittedEdits:
                     yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
     def _letters(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
-        """Letters of another kind for a letter or a function, also squared, whatever their sign; for a parameter the sum or the
+        """Symbols of another kind for a symbol or a function, also squared, whatever their sign; for a parameter the sum or the
         difference of two, as an arm often is. With how far-fetched they are."""
         node, span, alike = (
             required.node,
@@ -85,7 +85,7 @@ class FittedEdits:
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
 
     def _factors(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A term that lacks a number, or a product of powers of letters."""
+        """A term that lacks a number, or a product of powers of symbols."""
         node, factor = required.node, required.factor
         if factor is None or not np.isfinite(factor).all():
             return
@@ -102,7 +102,7 @@ class FittedEdits:
             yield Edit.at(equation, "factor", node, new, own)
 
     def _monomial(self, factor: Array) -> tuple[float, dict[Sym, int]] | None:
-        """The number and the powers of letters of which a factor is the product."""
+        """The number and the powers of symbols of which a factor is the product."""
         known = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
         used = [n for n in known if _varies(self.values[n.key])]
         if not used or len(used) + 1 >= len(factor) or not (np.all(factor > 0) or np.all(factor < 0)):
@@ -125,8 +125,8 @@ class FittedEdits:
 
     def _far_fetched(self, term: Node, equation: Equation) -> bool:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
-        said = set(letters(equation))
-        new = [n for n in letters(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
+        said = set(symbols_in(equation))
+        new = [n for n in symbols_in(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
         first = term.of if isinstance(term, Negative) else term
         return bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
 
@@ -165,7 +165,7 @@ class FittedEdits:
         found = (dimension(term, self.vocabulary.dimensions) for term in terms(equation, expand=True))
         known = [each for each in found if each is not None]
         wanted: Known = max(known, key=known.count).times(less, -1) if known else None  # one of them may be wrong
-        moving = tuple(n for n in letters(equation) if n in self.vocabulary.others)
+        moving = tuple(n for n in symbols_in(equation) if n in self.vocabulary.others)
         angles = (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
         long = tuple(dict.fromkeys(n for n in angles if isinstance(n, Add) and len(n.terms) > 2))
         key = (wanted, moving, long)
@@ -264,7 +264,7 @@ def multiplied(node: Node, value: float) -> Node | None:
 
 
 def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None:
-    """A term times a number and powers of letters; factors that it has itself are taken off first."""
+    """A term times a number and powers of symbols; factors that it has itself are taken off first."""
     own, below = list(node.factors) if isinstance(node, Mul) else [node], []
     for letter, power in powers.items():
         own += [letter] * power

@@ -1,4 +1,4 @@
-"""The true equation that is nearest to a wrong one: the balance, or the closure of a loop, that holds the same letters."""
+"""The true equation that is nearest to a wrong one: the balance, or the closure of a loop, that holds the same symbols."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from freebody.equations.balances.virtual_motions import named_motions
 from freebody.symbolic.tree import ZERO, Sym
 
 from .families import NoMotion
-from .language.statements import Equation, letters
+from .language.statements import Equation, symbols_in
 
 if TYPE_CHECKING:
     from .case import Case
@@ -38,13 +38,13 @@ class _True:
     unknown: frozenset[Sym]
 
     def distance(self, said: frozenset[Sym], unknown: frozenset[Sym]) -> tuple[int, int, int]:
-        """How far its letters are from those of a statement: unknown ones, then all, then how many there are."""
+        """How far its symbols are from those of a statement: unknown ones, then all, then how many there are."""
         own = frozenset(symbols(self.left, self.right))
         return len(unknown ^ self.unknown), len(said ^ own), len(own)
 
 
 def nearest(case: Case, equation: Equation) -> str:
-    """The nearest true equation in the model's letters, with what it is; "" where none holds an unknown of the statement."""
+    """The nearest true equation in the model's symbols, with what it is; "" where none holds an unknown of the statement."""
     try:
         state = case.samples().samples[0].state
     except NoMotion:
@@ -98,9 +98,9 @@ def _rates(found: frozenset[Sym]) -> frozenset[Sym]:
 
 
 def _said(case: Case, equation: Equation, table: Mapping[str, Any]) -> frozenset[Sym]:
-    """The letters of the model that a statement holds."""
+    """The symbols of the model that a statement holds."""
     found = set()
-    for letter in letters(equation):
+    for letter in symbols_in(equation):
         for text in case.meaning.texts(Sym(letter.name)):
             dots = letter.dots + (2 if "accel(" in text else 1 if "rate(" in text else 0)
             words = [word for word in _WORD.findall(text) if word in table]

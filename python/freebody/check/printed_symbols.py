@@ -1,4 +1,4 @@
-"""The letters of printed equations that are not the model's own: ``N_track``, ``m_rod``, ``x_rod``, ``λ_rod``, ``E_k``."""
+"""The symbols of printed equations that are not the model's own: ``N_track``, ``m_rod``, ``x_rod``, ``λ_rod``, ``E_k``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the letters of a statement mean in a model."""
+"""What the symbols of a statement mean in a model."""
 
 from __future__ import annotations
 
@@ -45,21 +45,21 @@ _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
 
 class Symbols:
-    """All letters that a statement about a model may use.
+    """All symbols that a statement about a model may use.
 
     By themselves: parameters, coordinates and gauges (with dots: rates, accelerations), ``t``, ``g``, the unit vectors ``i j k``,
     and forces by the names of what makes them (``pivot.Fx`` or ``pivot_x``, ``floor.N``, ``motor.value``).
 
     ``declared`` adds own ones, each as
 
-    - an expression of the model language, earlier letters included: ``phi: theta - alpha``;
+    - an expression of the model language, earlier symbols included: ``phi: theta - alpha``;
     - components of a vector: ``[x(upper.G) - x(ground.O), y(upper.G) - y(ground.O)]``;
     - a phrase: ``position of P``, ``… from Q``; ``velocity of P relative to Q``, ``acceleration of …``;
       ``direction from P to Q`` (a unit vector), ``normal from P to Q`` (a quarter turn to its left); ``force of JOINT on BODY``,
       ``couple of JOINT on BODY``; ``force on BODY, …`` (all of them), ``moment on BODY, … about P``,
       ``angular momentum of BODY, … about P`` (``all`` bodies, too).
 
-    Rates of declared letters follow. ``gravity``: the parameter that stands for it, where it was made one.
+    Rates of declared symbols follow. ``gravity``: the parameter that stands for it, where it was made one.
     Raises ``ModelProblem`` for a declaration that means nothing.
     """
 
@@ -83,12 +83,12 @@ class Symbols:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All letters, for ``parse``."""
+        """All symbols, for ``parse``."""
         return tuple(self.meanings)
 
     @property
     def dimensions(self) -> dict[str, Dimension]:
-        """The dimension of each letter where it is known, for ``check_dimensions``."""
+        """The dimension of each symbol where it is known, for ``check_dimensions``."""
         return {name: m.dimension for name, m in self.meanings.items() if m.dimension is not None}
 
     def of_kind(self, *kinds: str) -> list[str]:
@@ -102,7 +102,7 @@ class Symbols:
 
     def read(self, text: str) -> Program:
         """The statement that a text is. What it asks of the model in the model's own words, ``ax(rod.G)``, ``energy()``,
-        ``accel(s)``, becomes a letter, too. Raises ``StatementError``."""
+        ``accel(s)``, becomes a symbol, too. Raises ``StatementError``."""
         for found in _READING.finditer(text):
             name = "".join(found[0].split())
             if name not in self.meanings:
@@ -132,14 +132,14 @@ class Symbols:
         return bool(new)
 
     def notes(self, program: Program) -> tuple[str, ...]:
-        """Of each letter of a program that usually means something else what that is called here."""
+        """Of each symbol of a program that usually means something else what that is called here."""
         used = {folded(n.name) for n in walk(program) if isinstance(n, Sym)}
         return tuple(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used)
 
     # --- values --------------------------------------------------------------------------------
 
     def require(self, program: Program) -> list[Sym]:
-        """The letters of a program that need values. Raises ``StatementError`` at one that has no meaning."""
+        """The symbols of a program that need values. Raises ``StatementError`` at one that has no meaning."""
         given = {line.name for line in program.assignments}
         found: dict[Sym, None] = {}
         for node in walk(program):
@@ -219,7 +219,7 @@ class Symbols:
         self.__dict__.pop("_spellings", None)
 
     def _measure(self, said: str) -> tuple[str, Dimension | None]:
-        """An expression in SI with its dimension; letters declared before, and Greek ones, are written out."""
+        """An expression in SI with its dimension; symbols declared before, and Greek ones, are written out."""
         return self.writer.measured(replace_names(said, self._written_out))
 
     def _measured(self, said: str) -> tuple[str, Dimension | None]:

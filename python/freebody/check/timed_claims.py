@@ -105,7 +105,7 @@ def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[
 
 
 def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:
-    """A statement with the values of its letters at a moment, and its time."""
+    """A statement with the values of its symbols at a moment, and its time."""
     case = checker.case(statement, declared)
     run, t = checker.moment(moment)
     return case, case.meaning.values(_OnRun(run, t, checker)), t

@@ -1,4 +1,4 @@
-"""What a declared letter means: an expression of the model language, components of a vector, or a phrase."""
+"""What a declared symbol means: an expression of the model language, components of a vector, or a phrase."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Masses = Callable[[], Mapping[str, tuple[Array, Array]]]
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a letter is. ``texts`` are one expression for a number, three for a vector along i, j, k.
+    """What a symbol is. ``texts`` are one expression for a number, three for a vector along i, j, k.
 
     ``kind`` is parameter, coordinate, gauge, time, gravity, direction, reaction or declared; ``dimension`` None fits any.
     """

@@ -18,7 +18,7 @@ from .case import Case
 from .correction import Correction, corrections
 from .families import ALL, NoMotion
 from .language.spelling import spell
-from .language.statements import Equation, letters, terms
+from .language.statements import Equation, symbols_in, terms
 from .nearest import nearest
 from .residual import FAILS, HOLDS, Residual, Sides, residual, unreached
 
@@ -56,7 +56,7 @@ _ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS
 
 @dataclass(frozen=True)
 class Evidence:
-    """A true state: the letters of the statement there (SI), the two sides, and how far apart they are beside all terms."""
+    """A true state: the symbols of the statement there (SI), the two sides, and how far apart they are beside all terms."""
 
     letters: dict[str, Any]
     left: Any
@@ -67,7 +67,7 @@ class Evidence:
     @classmethod
     def at(cls, sides: Sides, values: Mapping[str, Array], k: int, ratio: float, states: int) -> Evidence:
         """That of state ``k``."""
-        shown = {n.key: values[n.key][k].tolist() for n in letters(sides.equation) if n.key in values}
+        shown = {n.key: values[n.key][k].tolist() for n in symbols_in(sides.equation) if n.key in values}
         return cls(shown, sides.left[k].tolist(), sides.right[k].tolist(), ratio, states)
 
     def __str__(self) -> str:
@@ -139,7 +139,7 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
     except NoMotion as error:
         return Verdict(Kind.UNDECIDABLE, text, str(error))
     except StatementError as error:
-        if any(n.key not in case.values() for n in letters(equation)):
+        if any(n.key not in case.values() for n in symbols_in(equation)):
             raise error.within(case.program.text) from None
         return of_wrong_dimensions(case, [equation], text, error.what)
     if np.isnan(found.worst):
@@ -246,7 +246,7 @@ def _compared(case: Case, equation: Equation, found: Residual, text: str) -> Ver
 
 def _valueless(case: Case, equation: Equation) -> str:
     values = case.values()
-    lost = [n.key for n in letters(equation) if n.key in values and not np.isfinite(values[n.key]).all()]
+    lost = [n.key for n in symbols_in(equation) if n.key in values and not np.isfinite(values[n.key]).all()]
     if lost:
         return f"{', '.join(lost)} is not determined by the balances of this model (its parts can be pre-stressed)"
     return "it has no value at some motions: a division by 0, a root or a logarithm of something negative"
@@ -255,7 +255,9 @@ def _valueless(case: Case, equation: Equation) -> str:
 def _sufficiency(case: Case) -> str:
     """What a set of true equations is worth: how many are independent in their unknowns, accelerations and forces."""
     values = dict(case.values())
-    unknown = list(dict.fromkeys(n.key for e in case.equations for n in letters(e) if n.key in values and case.meaning.solved(n)))
+    unknown = list(
+        dict.fromkeys(n.key for e in case.equations for n in symbols_in(e) if n.key in values and case.meaning.solved(n))
+    )
     if not unknown:
         return f"all {len(case.equations)} true"
     base, columns = _stacked(case, values), []

@@ -1,4 +1,4 @@
-"""The letters that a true equation may be written in, and the terms that can be made of them."""
+"""The symbols that a true equation may be written in, and the terms that can be made of them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _BLIND_DEGREE = 3  # where dimensions do not thin them out
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """Letters by what they are, each with its dimension: ``parameters`` of the model, ``coordinates`` (without dots; their
+    """Symbols by what they are, each with its dimension: ``parameters`` of the model, ``coordinates`` (without dots; their
     rates and accelerations are the same with dots), ``others`` (forces, reactions); ``angles`` are those of no dimension."""
 
     parameters: Mapping[Sym, Known]
@@ -28,22 +28,22 @@ class Vocabulary:
 
     @cached_property
     def angles(self) -> list[Sym]:
-        """Letters that are angles, coordinates first."""
+        """Symbols that are angles, coordinates first."""
         return [n for n in (*self.coordinates, *self.parameters) if n in self.angular]
 
     @cached_property
     def dimensions(self) -> dict[str, Dimension]:
-        """The dimension of each letter, where it is known."""
+        """The dimension of each symbol, where it is known."""
         groups = (self.parameters, self.coordinates, self.others, self.vectors)
         return {n.name: dimension for group in groups for n, dimension in group.items() if dimension is not None}
 
     def dimension(self, letter: Sym) -> Known:
-        """The dimension of a letter with its dots; None where it is not known."""
+        """The dimension of a symbol with its dots; None where it is not known."""
         found = self.dimensions.get(letter.name)
         return None if found is None else found.times(TIME, -letter.dots)
 
     def alike(self, letter: Sym) -> list[Sym]:
-        """Other letters of the same kind that one may write by mistake."""
+        """Other symbols of the same kind that one may write by mistake."""
         plain, vectors = Sym(letter.name), {} if letter.dots else self.vectors
         groups = (vectors, self.coordinates, self.parameters, self.others)
         group = next((group for group in groups if plain in group), {})
@@ -53,7 +53,7 @@ class Vocabulary:
 
     @cached_property
     def single_factors(self) -> list[Node]:
-        """What a term can have as a factor: a sine or cosine, or a letter."""
+        """What a term can have as a factor: a sine or cosine, or a symbol."""
         differences = [Add((a, Negative(b))) for a, b in combinations(self.angles, 2)]
         sines: list[Node] = [Fn(name, (angle,)) for angle in (*self.angles, *differences) for name in ("sin", "cos")]
         sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]

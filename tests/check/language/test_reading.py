@@ -9,7 +9,7 @@ from typeset import latex
 
 from freebody.check.language.parser import parse, parse_expression
 from freebody.check.language.spelling import spell
-from freebody.check.language.statements import inlined, letters, terms
+from freebody.check.language.statements import inlined, symbols_in, terms
 from freebody.symbolic.tree import Add, Mul, Negative, Num, Sym, addends, exchange, walk
 
 KNOWN = known("eps m l g theta phi alpha x y t m1 m2 R I1 I2 T omega F i j k a_G r_G1/O pivot.Fx link[2].angle")
@@ -117,8 +117,8 @@ def test_x_is_a_cross_only_where_no_letter_is_called_so():
 
 
 def test_primes_belong_to_names_where_one_is_declared():
-    assert letters(parse("theta' = 0", ["theta"])) == [Sym("theta", 1)]
-    assert letters(parse("ÿ' = i'", ["y'", "i'"])) == [Sym("y'", 2), Sym("i'")]
+    assert symbols_in(parse("theta' = 0", ["theta"])) == [Sym("theta", 1)]
+    assert symbols_in(parse("ÿ' = i'", ["y'", "i'"])) == [Sym("y'", 2), Sym("i'")]
 
 
 @pytest.mark.parametrize("text", ["½ m l² a = 0", "(1/2) m l² a = 0", "½ m l^2 a = 0"])
@@ -135,16 +135,16 @@ def test_a_name_with_an_owner_takes_dots_and_primes(text):
 
 def test_names_with_blanks_stand_in_quotes_and_do_not_take_primes_away():
     program = parse("'crank drive'.Fx = m x''", ["'crank drive'.Fx", "m", "x"])
-    assert letters(program) == [Sym("'crank drive'.Fx"), Sym("m"), Sym("x", 2)]
+    assert symbols_in(program) == [Sym("'crank drive'.Fx"), Sym("m"), Sym("x", 2)]
 
 
 @pytest.mark.parametrize("text", ["dθ/dt = 0", "d θ/dt = 0", r"\frac{d\theta}{dt} = 0"])
 def test_a_parameter_d_does_not_hide_derivatives(text):
-    assert letters(parse(text, ["d", "t", "theta"])) == [Sym("theta", 1)]
+    assert symbols_in(parse(text, ["d", "t", "theta"])) == [Sym("theta", 1)]
 
 
 def test_a_declared_name_goes_before_its_reading_as_a_rate():
-    assert letters(parse("thetadot = 0", ["theta", "thetadot"])) == [Sym("thetadot")]
+    assert symbols_in(parse("thetadot = 0", ["theta", "thetadot"])) == [Sym("thetadot")]
 
 
 def test_assignments_are_written_out():

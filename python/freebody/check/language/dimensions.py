@@ -10,7 +10,7 @@ from freebody.symbolic.tree import Add, Fn, Node, Num, Pow, Sym, Unit, addends
 
 from ...model.units import unit
 from .spelling import spell
-from .statements import Program, inlined, letters, terms
+from .statements import Program, inlined, symbols_in, terms
 
 _DIRECTIONS = {"i", "j", "k"}
 
@@ -69,14 +69,14 @@ class _OfStatements(Rules):
         self.units, self.figures, self.strictly = units, figures, strictly
 
     def of(self, node: Node) -> Shape:
-        if self.figures and isinstance(node, Add) and any(not letters(term) for _, term in addends(node)):
+        if self.figures and isinstance(node, Add) and any(not symbols_in(term) for _, term in addends(node)):
             return None
         return super().of(node)
 
     def term(self, node: Node) -> Shape:
         """Figures alone, with or without directions, fit any."""
         found = self.of(node)
-        bare = all(letter.name in _DIRECTIONS and not letter.dots for letter in letters(node))
+        bare = all(letter.name in _DIRECTIONS and not letter.dots for letter in symbols_in(node))
         return None if bare and isinstance(found, Dimension) and found.is_number else found
 
     def leaf(self, node: Num | Sym | Unit) -> Known:

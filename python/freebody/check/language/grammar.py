@@ -179,7 +179,7 @@ class Line:
         return Fn("abs", (inside,), span=self.span(token))
 
     def letter(self, token: Token) -> Node:
-        """A letter; written as a function of time, θ(t), it is the same."""
+        """A symbol; written as a function of time, θ(t), it is the same."""
         if [t.text for t in self.row[self.at : self.at + 3]] == ["(", "t", ")"] and self.now.attached:
             self.at += 3
         if token.text == "pi" and not self.names.find("pi"):
@@ -261,7 +261,7 @@ class Line:
         return found
 
     def bare_argument(self, token: Token) -> Node:
-        """One letter, a number before it and a ``t`` directly behind it."""
+        """One symbol, a number before it and a ``t`` directly behind it."""
         sign = self.accept("-")
         if self.now.kind not in ("number", "letter", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
@@ -294,7 +294,7 @@ class Line:
         return Partial(*found, span=self.span(start))
 
     def changing(self) -> Sym:
-        """The letter behind a ∂."""
+        """The symbol behind a ∂."""
         self.expect("∂")
         token = self.expect("letter")
         return Sym(token.text, token.dots, span=token.span)
@@ -302,13 +302,13 @@ class Line:
     # --- units ---------------------------------------------------------------------------------
 
     def unit(self, before: Node) -> Unit | None:
-        """A unit behind a number or a bracket: words that are units, not all of them letters that are known."""
+        """A unit behind a number or a bracket: words that are units, not all of them symbols that are known."""
         after_bracket = self.row[self.at - 1].kind in (")", "]")
         if not (isinstance(before, Num) or after_bracket) or not (self.names.known or self.now.text == "°"):
             return None
         start = self.row[self.at - 1].span[1]
         if upright := _UPRIGHT.match(self.text, start):
-            # A word with a subscript, or one that is a letter here, is printed upright as well.
+            # A word with a subscript, or one that is a symbol here, is printed upright as well.
             named = self.text.startswith("_", upright.end()) or (len(upright[1]) > 1 and self.names.find(folded(upright[1])))
             return None if named else self.unit_of(upright[1].replace(r"\cdot", "·"), start, upright.end())
         for end in reversed(self.unit_ends(start)):
@@ -317,9 +317,9 @@ class Line:
         return None
 
     def unit_ends(self, start: int) -> list[int]:
-        """Where a unit that starts here can end: where tokens do, and some word of it is no letter that is known.
+        """Where a unit that starts here can end: where tokens do, and some word of it is no symbol that is known.
 
-        A known letter goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``.
+        A known symbol goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``.
         """
         ends, at, some_unknown = [], start, False
         stops = {t.span[1] for t in self.row}

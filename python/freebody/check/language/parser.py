@@ -5,12 +5,12 @@ Rules of reading:
 - Side by side is times, like ``*``; ``*``, ``/`` and side by side go from left to right, so ``/`` takes the next factor only:
   ``a/b c`` is (a/b)·c, and ``m l/(M+m) (…)`` is (m l/(M+m))·(…).
 - ``×`` binds looser than these and ``·`` looser still: ``k·r×m a`` is k·(r×(m a)).
-- A function without brackets takes one letter, with a number before it and a ``t`` directly behind it: ``cosθ θ̈`` is
+- A function without brackets takes one symbol, with a number before it and a ``t`` directly behind it: ``cosθ θ̈`` is
   (cos θ) θ̈, ``sin 2ωt`` is sin(2ωt).
 - ``(a, b)`` is a column, ``[a, b; c, d]`` a matrix; brackets without commas only group.
 - Lines end at line ends, at ``;`` and ``,`` outside brackets, and at the words *where*, *with*, *and*. A line that starts with
   ``=``, ``+``, ``*``, ``/``, follows an operator, or starts with ``-`` where one of the two has no ``=``, goes on.
-- A lone letter on the left that is not known and stands in another line, too, gets its meaning there; so does one on the right
+- A lone symbol on the left that is not known and stands in another line, too, gets its meaning there; so does one on the right
   (``x' = v``) that no line begins with. Its rates follow.
 """
 
@@ -31,8 +31,8 @@ from .tokens import Names, Token, tokens
 
 
 def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units: bool = False) -> Program:
-    """The lines of a statement. ``names`` are the letters that are known, of which those in ``still`` do not change with time;
-    unknown ones stay as they are written. ``units``: a unit behind a number goes before a letter of that name.
+    """The lines of a statement. ``names`` are the symbols that are known, of which those in ``still`` do not change with time;
+    unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
@@ -65,7 +65,7 @@ def parse_expression(text: str, names: Iterable[str] = (), still: Iterable[str] 
 
 
 def _assigned(row: Sequence[Token], names: Names) -> list[str]:
-    """Unknown letters that stand alone on the left of a line, or on its right; not the rate of one that does."""
+    """Unknown symbols that stand alone on the left of a line, or on its right; not the rate of one that does."""
     ends = ("line", ",", ";", "end")
     out = []
     for before, token, after in zip([None, *row], row, row[1:], strict=False):

@@ -27,7 +27,7 @@ from freebody.symbolic.tree import (
 
 @dataclass(frozen=True)
 class Partial(Node):
-    """∂L/∂θ̇: how a name that a line gives changes with one letter; written out once all lines are read."""
+    """∂L/∂θ̇: how a name that a line gives changes with one symbol; written out once all lines are read."""
 
     of: Sym
     by: Sym
@@ -75,8 +75,8 @@ class Program(Node):
         return tuple(line for line in self.lines if isinstance(line, Equation))
 
 
-def letters(node: Node) -> list[Sym]:
-    """The letters in it, each once, in the order of the text."""
+def symbols_in(node: Node) -> list[Sym]:
+    """The symbols in it, each once, in the order of the text."""
     return list(dict.fromkeys(n for n in walk(node) if isinstance(n, Sym)))
 
 
