@@ -297,7 +297,6 @@ class Moving:
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
-        from freebody.core import Settings
         from freebody.model.errors import ModelFileError, Problem
         from freebody.model.start import evaluate
 
@@ -310,8 +309,6 @@ class Moving:
         if end is None:
             hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
             raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
-        steps = {"step": asked.step, "max_step": asked.max_step, "every": asked.every}
-        plain = Settings(end, asked.method, asked.rtol, **steps, impacts=asked.impacts, painleve=asked.painleve)
         words = ("method", "route", "impacts", "painleve")
         numbers = {k: v if k in words or v is None else evaluate(v, {}) for k, v in overrules.items()}
-        return replace(plain, **numbers)
+        return replace(asked, until=end, **numbers)

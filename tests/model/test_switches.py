@@ -241,8 +241,8 @@ def test_repetition_makes_contacts():
 
 def test_run_and_start():
     made = lowered(("events:", "run: {until: 1, impacts: poisson, painleve: impact}\ninitial: {equilibrium: true}\nevents:"))
-    assert (made.run.impacts, made.run.painleve, made.start.equilibrium) == ("poisson", "impact", True)
-    assert (lowered().run.impacts, lowered().run.painleve, lowered().start.equilibrium) == ("stop", "stop", False)
+    assert (made.run["impacts"], made.run["painleve"], made.start.equilibrium) == ("poisson", "impact", True)
+    assert (lowered().run["impacts"], lowered().run["painleve"], lowered().start.equilibrium) == ("stop", "stop", False)
 
 
 # -- the builder -----------------------------------------------------------------------------------

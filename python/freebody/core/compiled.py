@@ -31,9 +31,9 @@ def quote(name: str) -> str:
 @dataclass(frozen=True)
 class Settings:
     """How a run is made; times in s. ``every`` is the spacing of the output grid, ``impacts`` and ``painleve`` are the laws
-    of impacts and of friction that jams."""
+    of impacts and of friction that jams. ``until`` may be left to whoever starts the run."""
 
-    until: float
+    until: float | None = None
     method: str = next(iter(methods()))
     rtol: float = 1e-9
     step: float | None = None
@@ -48,15 +48,16 @@ class Settings:
 class ReportItem:
     """A quantity that the model asks for.
 
-    ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an
-    event's name, ``before`` and an event's name, or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI.
+    ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an event's name, ``before``
+    and an event's name, or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI. In a model without
+    numbers a time may be an expression of parameters, marked by ``=``.
     """
 
     label: str
     value: str
     how: str = "at"
     at: str | float = "end"
-    over: tuple[float, float] | None = None
+    over: tuple[Any, Any] | None = None
     unit: str = ""
 
 

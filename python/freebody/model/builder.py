@@ -8,10 +8,10 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from freebody.core import CompiledModel, ReportItem
+from freebody.core import CompiledModel, ReportItem, Settings
 
 from . import file, reading, schema
-from .answers import Run
+from .answers import timed
 from .errors import ModelFileError, ModelProblem, Path, Problem
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
@@ -20,7 +20,7 @@ from .names import spell, suggestion
 from .scope import Folder
 from .source import Source
 from .source_locations import SourceLocations, called, caller
-from .start import Assembly, Start, initial_state, parameter_values
+from .start import Assembly, Start, evaluate, initial_state, parameter_values
 
 
 def plain(value: Any) -> Any:
@@ -356,14 +356,15 @@ class Builder:
         except ModelProblem as complaint:
             raise self.error((), complaint.what, complaint.hint, caller()) from None
 
-    def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Run:
+    def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Settings:
         """The settings of ``run`` as numbers, for these parameters (the model's by default)."""
-        return self.lowered().run.with_parameters(self._values(parameters))
+        values, words = self._values(parameters), ("method", "impacts", "painleve")
+        return Settings(**{k: v if k in words else evaluate(v, values) for k, v in self.lowered().run.items()})
 
     def report_items(self, parameters: Mapping[str, float] | None = None) -> list[ReportItem]:
         """The quantities to report, for these parameters (the model's by default)."""
         values = self._values(parameters)
-        return [item.with_parameters(values) for item in self.lowered().report]
+        return [timed(item, values) for item in self.lowered().report]
 
     def _values(self, parameters: Mapping[str, float] | None) -> Mapping[str, float]:
         return parameter_values(self.compile(), self.compile().bind({})) if parameters is None else parameters

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
 
-from freebody.core import CompiledModel, ModelError, cards
+from freebody.core import CompiledModel, ModelError, ReportItem, cards
 from freebody.symbolic.dimensions import TIME
 
 from . import elements, meanings, scope, units
-from .answers import AnswerWriter, Asked, Run
+from .answers import AnswerWriter
 from .bodies import BodyWriter
 from .errors import ModelFileError, ModelProblem, Path, Problem, Where
 from .events import EventWriter
@@ -41,8 +41,8 @@ class Lowered:
 
     spec: Spec
     start: Start
-    run: Run
-    report: list[Asked]
+    run: dict[str, Any]
+    report: list[ReportItem]
     root: Scope
     hand_over: dict[str, str] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field, model_validator
 
-from freebody.core import cards
+from freebody.core import Settings, cards
 
 from .elements import Force, Joint
 from .switches import Contact, Event, Stop, String
@@ -213,16 +213,16 @@ class Run(Section):
     """How far and how the motion is computed."""
 
     until: Time = Field(None, description="Time of the end.")
-    method: Literal[tuple(cards.methods())] = next(iter(cards.methods()))
-    rtol: Number = Field(1e-9, description="Relative tolerance.")
+    method: Literal[tuple(cards.methods())] = Settings.method
+    rtol: Number = Field(Settings.rtol, description="Relative tolerance.")
     every: Time = Field(None, description="Time between rows of the output.")
     max_step: Time = Field(None, description="Longest step.")
     step: Time = Field(None, description="The step of methods with fixed steps.")
     impacts: Literal["newton", "poisson", "sequential", "stop"] = Field(
-        "stop", description="The law of impacts that restitution alone does not decide; `stop` ends the run there."
+        Settings.impacts, description="The law of impacts that restitution alone does not decide; `stop` ends the run there."
     )
     painleve: Literal["stop", "impact"] = Field(
-        "stop", description="What happens where friction lets no motion go on: the run ends, or an impact."
+        Settings.painleve, description="What happens where friction lets no motion go on: the run ends, or an impact."
     )
 
 
