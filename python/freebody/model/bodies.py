@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from freebody.core import Spec
+
 from .arithmetic import Number, half
 from .errors import ModelProblem, Path
 from .meanings import EVERY_BODY, SHAPE_POINTS
@@ -13,15 +15,13 @@ from .writer import Writer
 
 _CORE_SHAPES = {"particle": "point", "triangle": "polygon", "general": "given"}
 _SIZES = ("length", "radius", "width", "height")
-Spec = dict[str, Any]
 
 
 class BodyWriter:
     """Writes the bodies and the ground of one scope into the spec of the core."""
 
-    def __init__(self, write: Writer, spec: Spec) -> None:
-        self.write = write
-        self.spec = spec
+    def __init__(self, write: Writer) -> None:
+        self.write, self.spec = write, write.spec
         self.places: dict[str, list[Number]] = {"ground.O": [0.0, 0.0]}
         self.tracks: dict[str, Spec] = {}
 
@@ -29,8 +29,12 @@ class BodyWriter:
         """Bodies and their points; lines and curves come when all points of the model are known."""
         for name, body in self.write.scope.model.bodies.items():
             path: Path = ("bodies", name)
-            full = self.write.scope.prefix + name
-            self._points(full, body, path, self._shape_points(path, body))
+            full = self.write.prefix + name
+            usual: dict[str, list[Number]] = {"origin": [0.0, 0.0]} | {n: [0.0, 0.0] for n in SHAPE_POINTS.get(body.shape, ())}
+            if body.shape == "rod":
+                length = self.write.number((*path, "length"), body.length, "m", "a length")
+                usual |= {"start": [half(length, -1), 0.0], "end": [half(length), 0.0]}
+            self._points(full, body, path, usual)
             self.spec["bodies"].append(
                 {"name": full, "particle": body.shape == "particle", "pieces": self._pieces(path, full, body)}
             )
@@ -38,45 +42,27 @@ class BodyWriter:
             self._points("ground", self.write.scope.model.ground, ("ground",), {"O": [0.0, 0.0], "origin": [0.0, 0.0]})
 
     def all_lines(self) -> None:
-        """Lines and curves."""
-        for full, marked, path in self._marked():
+        """Lines and curves; last the lines that only rename another."""
+        model = self.write.scope.model
+        marked: list[tuple[str, Marked, Path]] = [("ground", model.ground, ("ground",))] if model.ground else []
+        marked += [(self.write.prefix + name, body, ("bodies", name)) for name, body in model.bodies.items()]
+        for full, body, path in marked:
             owner = self._owner(full)
-            for name, line in marked.lines.items():
-                if not isinstance(line, str):
-                    place = self.write.line((*path, "lines", name), line, full)
-                    self.write.lines[owner + name] = place
-                    self.spec["lines"].append({"name": owner + name, "line": place})
-            for name, curve in marked.curves.items():
+            for name, line in sorted(body.lines.items(), key=lambda item: isinstance(item[1], str)):
+                place = self.write.line((*path, "lines", name), line, full)
+                self.write.lines[owner + name] = place
+                self.spec["lines"].append({"name": owner + name, "line": place})
+            for name, curve in body.curves.items():
                 here = (*path, "curves", name)
                 x, y = self._curve(here, full, curve)
                 self.spec["curves"].append({"name": owner + name, "body": full, "x": x, "y": y})
                 if isinstance(curve, list) and curve:
                     self.tracks[owner + name] = self._track(here, full, curve)
-            self._renamed_lines(full, marked, path)
-
-    def _renamed_lines(self, full: str, marked: Marked, path: Path) -> None:
-        for name, line in marked.lines.items():
-            if isinstance(line, str):
-                place = self.write.line((*path, "lines", name), line, full)
-                self.write.lines[self._owner(full) + name] = place
-                self.spec["lines"].append({"name": self._owner(full) + name, "line": place})
-
-    def _marked(self) -> list[tuple[str, Marked, Path]]:
-        model = self.write.scope.model
-        found: list[tuple[str, Marked, Path]] = [("ground", model.ground, ("ground",))] if model.ground else []
-        return found + [(self.write.scope.prefix + name, body, ("bodies", name)) for name, body in model.bodies.items()]
 
     def _owner(self, full: str) -> str:
-        return f"ground.{self.write.scope.prefix}" if full == "ground" else f"{full}."
+        return f"ground.{self.write.prefix}" if full == "ground" else f"{full}."
 
     # -- points
-
-    def _shape_points(self, path: Path, body: Body) -> dict[str, list[Number]]:
-        found: dict[str, list[Number]] = {"origin": [0.0, 0.0]} | {name: [0.0, 0.0] for name in SHAPE_POINTS.get(body.shape, ())}
-        if body.shape == "rod":
-            length = self.write.number((*path, "length"), body.length, "m", "a length")
-            found |= {"start": [half(length, -1), 0.0], "end": [half(length), 0.0]}
-        return found
 
     def _points(self, full: str, marked: Marked, path: Path, usual: dict[str, list[Number]]) -> None:
         owner = self._owner(full)
@@ -103,7 +89,7 @@ class BodyWriter:
             passed.append(name)
             at = marked.points.get(name)
             if isinstance(at, list):
-                return self.write.pair((*path[:-1], name), at)
+                return self.write.numbers((*path[:-1], name), at)
             if at is None and (name in usual or name == "G"):
                 return usual.get(name, name)
             if at is None or at in passed:
@@ -133,7 +119,7 @@ class BodyWriter:
 
     def _placed(self, path: Path, piece: Piece) -> Spec:
         written = self._piece(path, piece, None)
-        at = self.write.pair((*path, "at"), piece.at)
+        at = self.write.numbers((*path, "at"), piece.at)
         return written | {"at": at, "angle": self.write.number((*path, "angle"), piece.angle, "rad")}
 
     def _piece(self, path: Path, shaped: Shaped, centre: list[Any] | None) -> Spec:
@@ -144,14 +130,14 @@ class BodyWriter:
         if sizes:
             out["sizes"] = {s: number((*path, s), getattr(shaped, s), "m", f"a {s}") for s in sizes}
         if shaped.corners:
-            out["corners"] = [self.write.pair((*path, "corners", i), corner) for i, corner in enumerate(shaped.corners)]
+            out["corners"] = [self.write.numbers((*path, "corners", i), corner) for i, corner in enumerate(shaped.corners)]
         if shaped.inertia is not None:
             out["inertia"] = number((*path, "inertia"), shaped.inertia, "kg*m^2", "an inertia")
         return out if centre is None else self._moved((*path, "centre"), centre, out)
 
     def _moved(self, path: Path, centre: list[Any], piece: Spec) -> Spec:
         """The piece with its mass centre elsewhere; its inertia about the mass centre stays."""
-        at = self.write.pair(path, centre)
+        at = self.write.numbers(path, centre)
         if "inertia" in piece:
             return {"shape": "given", "mass": piece["mass"], "inertia": piece["inertia"], "at": at}
         if "corners" in piece:
@@ -162,7 +148,7 @@ class BodyWriter:
 
     def _place(self, path: Path, full: str, at: Any) -> list[Number]:
         if isinstance(at, list):
-            return self.write.pair(path, at)
+            return self.write.numbers(path, at)
         point = self.write.point(path, at, full)
         if point not in self.places:
             self.write.scope.complain(path, f"a mass cannot be added at `{at}`", "write its coordinates `[x, y]`")
@@ -175,9 +161,9 @@ class BodyWriter:
             return tuple(self.write.expression((*path, axis), getattr(curve, axis), "m", local="s") for axis in "xy")  # type: ignore[return-value]
         try:
             if isinstance(curve, CurveShape):
-                centre = self._at((*path, "arc", "centre"), full, curve.arc.centre)
+                centre = self._place((*path, "arc", "centre"), full, curve.arc.centre)
                 return circle(centre, self.write.number((*path, "arc", "radius"), curve.arc.radius, "m", "a radius"))
-            return track(curve, lambda i, name: self._at((*path, i), full, name))
+            return track(curve, lambda i, name: self._place((*path, i), full, name))
         except ModelProblem as complaint:
             self.write.scope.complain(path, complaint.what, complaint.hint)
             return "s", "0"
@@ -191,6 +177,3 @@ class BodyWriter:
             stated.append({"to": point(i, to), "centre": centre})
         first = stretches[0].line
         return {"start": point(0, first[0]) if first else "ground.O", "stretches": stated}
-
-    def _at(self, path: Path, full: str, name: str) -> list[Number]:
-        return self._place(path, full, name)

@@ -5,46 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from freebody.core import cards
+from freebody.core import Spec, cards
 from freebody.symbolic.dimensions import TIME
 
 from . import syntax
 from .arithmetic import text
 from .errors import ModelProblem, Path
 from .names import suggestion
-from .scope import Folder, Scope
+from .scope import Folder
 from .switches import Deeds, Event, listed
 from .writer import Writer
 
-Spec = dict[str, Any]
 _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 _PARTS = ("joints", "forces", "motions", "contacts", "strings", "stops")
 
 
 class EventWriter:
-    """Writes the events of one scope into the spec of the core, when all that they can name has been written.
+    """Writes the events of one scope, when all that they can name has been written.
 
-    ``items`` learns where what is made was written, ``hand_over`` which event goes on as which file; ``folder`` is that of
-    the model, None for a part.
+    ``hand_over`` learns which event goes on as which file; ``folder`` is that of the model, None for a part; ``others`` are files that
+    need not be there.
     """
 
-    def __init__(
-        self,
-        write: Writer,
-        spec: Spec,
-        items: dict[str, tuple[Scope, Path]],
-        hand_over: dict[str, str],
-        folder: Folder | None,
-        others: Iterable[str] = (),
-    ) -> None:
-        self.write = write
-        self.spec = spec
-        self.scope = write.scope
-        self.prefix = write.scope.prefix
-        self.items = items
-        self.hand_over = hand_over
-        self.folder = folder
-        self.others = others
+    def __init__(self, write: Writer, hand_over: dict[str, str], folder: Folder | None, others: Iterable[str] = ()) -> None:
+        self.write, self.spec, self.scope, self.prefix = write, write.spec, write.scope, write.prefix
+        self.hand_over, self.folder, self.others = hand_over, folder, others
 
     def welds(self) -> None:
         """The joints that events put in place."""
@@ -54,7 +39,7 @@ class EventWriter:
                 of = [self.write.point(path, f"{body}.origin") for body in bodies]
                 made = {"name": self.prefix + weld, "type": "weld", "with": {"of": of}, "coordinates": [], "engaged": False}
                 self.spec["joints"].append(made)
-                self.items[f"joints.{made['name']}"] = (self.scope, path)
+                self.write.items[f"joints.{made['name']}"] = (self.scope, path)
 
     def all(self) -> None:
         """The events."""
@@ -62,25 +47,23 @@ class EventWriter:
 
     def _event(self, name: str, event: Event) -> Spec:
         path: Path = ("events", name)
-        opening = event.at == "start"
-        direction = 0 if opening else 1 if event.at is not None else _DIRECTIONS[event.direction]
+        opening, when = event.at == "start", "1"
+        if event.at is None:
+            when = self.write.expression((*path, "when"), event.when)
+        elif not opening:
+            time = self.write.number((*path, "at"), event.at, "s")
+            when = f"t - {text(time)}"
+            if time == 0.0:
+                self.scope.complain((*path, "at"), "an event at time 0 cannot be met by the motion", "write `at: start`")
         return {
             "name": self.prefix + name,
-            "when": "1" if opening else self._when(path, event),
-            "direction": direction,
+            "when": when,
+            "direction": 0 if opening else 1 if event.at is not None else _DIRECTIONS[event.direction],
             "condition": None if event.condition is None else self.write.expression((*path, "if"), event.condition),
             "opening": opening,
             "guard": False,
             "then": self._then((*path, "then"), name, event),
         }
-
-    def _when(self, path: Path, event: Event) -> str:
-        if event.at is None:
-            return self.write.expression((*path, "when"), event.when)
-        time = self.write.number((*path, "at"), event.at, "s")
-        if time == 0.0:
-            self.scope.complain((*path, "at"), "an event at time 0 cannot be met by the motion", "write `at: start`")
-        return f"t - {text(time)}"
 
     def _then(self, path: Path, name: str, event: Event) -> list[str | Spec]:
         welds = [self.prefix + weld for weld, _, _ in event.welds(name)]
@@ -96,7 +79,8 @@ class EventWriter:
         return found
 
     def _deeds(self, path: Path, name: str, deeds: Deeds, welds: list[str]) -> list[str | Spec]:
-        gone = self._parts(path, "release", deeds.release) + self._strings(path, deeds.cut) + self._removed(path, deeds.remove)
+        gone = self._parts(path, "release", deeds.release) + self._parts(path, "cut", deeds.cut, "string")
+        gone += self._removed(path, deeds.remove)
         actions: dict[str, Any] = {
             "release": list(dict.fromkeys(gone)),
             "unlock": self._gauges(path, "unlock", deeds.unlock),
@@ -129,13 +113,10 @@ class EventWriter:
                 found += self.write.meanings.several.get(full, [full])
         return found
 
-    def _strings(self, path: Path, names: str | list[str] | None) -> list[str]:
-        return self._parts(path, "cut", names, "string")
-
     def _removed(self, path: Path, names: str | list[str] | None) -> list[str]:
         found: list[str] = []
         for i, name in enumerate(listed(names)):
-            body = self.write.body((*path, "remove") if isinstance(names, str) else (*path, "remove", i), name)
+            body = self.write.place((*path, "remove") if isinstance(names, str) else (*path, "remove", i), name, "body")
             if body == "ground":
                 self.scope.complain((*path, "remove"), "the ground cannot be removed", "name a body")
             else:
@@ -170,8 +151,8 @@ class EventWriter:
         return [
             item["name"]
             for section, item in items
-            if not (section == "joints" and _holds_nothing(item))
-            and named({word: value for word, value in item.items() if word not in stated})
+            if section != "joints" or item["type"] == "coupling" or cards.joints()[item["type"]].rows
+            if named({word: value for word, value in item.items() if word not in stated})
         ]
 
     # -- numbers
@@ -216,10 +197,6 @@ class EventWriter:
 
 
 _DONE = {"release": "released", "engage": "engaged", "cut": "cut"}
-
-
-def _holds_nothing(joint: Spec) -> bool:
-    return joint["type"] != "coupling" and not cards.joints()[joint["type"]].rows
 
 
 def _names(value: str) -> list[str]:

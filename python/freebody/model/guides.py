@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from freebody.core import cards
+from freebody.core import Spec, cards
 
 from . import elements, scope
 from .arithmetic import Number, distance, text
@@ -14,8 +15,6 @@ from .names import spell
 
 if TYPE_CHECKING:
     from .writer import Writer
-
-Spec = dict[str, Any]
 
 
 def leaving(joint: str) -> list[str]:
@@ -37,23 +36,13 @@ def release(name: str, when: str, released: Sequence[str]) -> Spec:
     return {"name": name, "when": when} | plain | {"then": [{"release": list(released)}]}
 
 
+@dataclass
 class GuideWriter:
-    """Writes what the ends and the one side of the joints of a scope come to.
+    """Writes what the ends and the one side of the joints of a scope come to. ``places`` are the coordinates of all named points in
+    their bodies."""
 
-    ``places`` are the coordinates of all named points in their bodies; ``items`` learns where what is made was written.
-    """
-
-    def __init__(
-        self,
-        write: Writer,
-        spec: Spec,
-        places: Mapping[str, list[Number]],
-        items: dict[str, tuple[scope.Scope, Path]],
-    ) -> None:
-        self.write = write
-        self.spec = spec
-        self.places = places
-        self.items = items
+    write: Writer
+    places: Mapping[str, list[Number]]
 
     def joint(self, name: str, joint: elements.Element, written: Spec) -> None:
         """The stops and events of one joint, which has been written."""
@@ -88,13 +77,13 @@ class GuideWriter:
         restitution = self.write.fraction((*path[:-1], "end_restitution"), 0 if given is None else given, "a restitution")
         for side, gap in zip(("start", "end"), gaps, strict=True):
             stop = f"{written['name']}.{side}"
-            self.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
-            self.items[f"stops.{stop}"] = (self.write.scope, path)
+            self.write.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
+            self.write.items[f"stops.{stop}"] = (self.write.scope, path)
 
     def _place(self, name: str, joint: elements.Element, written: Spec) -> str:
         """How far along its line the joint is, by its first coordinate."""
         (own, _), *_ = scope.coordinate_names(name, joint)
-        coordinate = spell(self.write.scope.prefix + own)
+        coordinate = spell(self.write.prefix + own)
         given = written["coordinates"][0] if written["coordinates"] else {}
         zero, sign = given.get("zero", 0.0), "-" if given.get("sense") == -1 else "+"
         if zero == 0.0:
@@ -102,6 +91,6 @@ class GuideWriter:
         return f"{text(zero)} {sign} {coordinate}"
 
     def _event(self, name: str, when: str, joint: str, path: Path) -> None:
-        full = self.write.scope.prefix + name
-        self.spec["events"].append(release(full, when, [joint]))
-        self.items[f"events.{full}"] = (self.write.scope, path)
+        full = self.write.prefix + name
+        self.write.spec["events"].append(release(full, when, [joint]))
+        self.write.items[f"events.{full}"] = (self.write.scope, path)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+
+from freebody.core import Spec
 
 from .arithmetic import text
 from .errors import ModelProblem, Path
@@ -12,34 +14,29 @@ from .outlines import Outlines
 from .switches import Contact, Drum, Pulley, Stop, String, SurfaceShape
 from .writer import Writer, body_of
 
-Spec = dict[str, Any]
 _SENSES = {"ccw": 1, "clockwise": -1}
 
 
+@dataclass
 class LimitWriter:
-    """Writes the contacts, strings and stops of one scope into the spec of the core."""
+    """Writes the contacts, strings and stops of one scope."""
 
-    def __init__(self, write: Writer, spec: Spec, outlines: Outlines, tracks: Mapping[str, Spec]) -> None:
-        self.write = write
-        self.spec = spec
-        self.outlines = outlines
-        self.tracks = tracks
-        self.prefix = write.scope.prefix
+    write: Writer
+    outlines: Outlines
+    tracks: Mapping[str, Spec]
 
     def all(self) -> None:
         """Everything of this scope that can only push or only pull."""
-        model = self.write.scope.model
-        self.spec["contacts"] += [self._contact(name, contact) for name, contact in model.contacts.items()]
-        self.spec["strings"] += [self._string(name, string) for name, string in model.strings.items()]
-        self.spec["stops"] += [made for name, stop in model.stops.items() for made in self._stops(name, stop)]
+        model, spec = self.write.scope.model, self.write.spec
+        spec["contacts"] += [self._contact(name, contact) for name, contact in model.contacts.items()]
+        spec["strings"] += [self._string(name, string) for name, string in model.strings.items()]
+        spec["stops"] += [made for name, stop in model.stops.items() for made in self._stops(name, stop)]
 
     def _soft(self, path: Path, limit: Contact | String | Stop) -> Spec:
         """Spring and damper that stand for it, if it has them."""
-        units = {"stiffness": "N/m", "damping": "N*s/m"}
+        # Of a stop they may be couples by rad.
+        units = {"stiffness": "N/m", "damping": "N*s/m"} if not isinstance(limit, Stop) else {"stiffness": None, "damping": None}
         given = {word: getattr(limit, word) for word in units if getattr(limit, word) is not None}
-        if isinstance(limit, Stop):
-            # Of an angle they are couples by rad.
-            units = dict.fromkeys(units)
         return {word: self.write.number((*path, word), value, units[word]) for word, value in given.items()}
 
     # -- contacts
@@ -56,7 +53,7 @@ class LimitWriter:
                 what = f"friction at rest is {resting:g}, below that of sliding, {sliding:g}"
                 self.write.scope.complain((*path, "static_friction"), what, "leave it out to have them equal")
         return {
-            "name": self.prefix + name,
+            "name": self.write.prefix + name,
             "of": [self._surface((*path, "of", i), surface) for i, surface in enumerate(contact.of)],
             "friction": friction,
             "static_friction": fixed,
@@ -72,18 +69,14 @@ class LimitWriter:
         if isinstance(surface, list) or surface.through is not None:
             return {"line": self.write.line(path, surface)}
         if surface.centre is not None:
-            return {"circle": self.write.circle(path, surface) | {"hollow": surface.hollow} | self._arc(path, surface)}
+            ends = {"ends": self.write.numbers((*path, "ends"), surface.ends, "rad")} if surface.ends is not None else {}
+            return {"circle": self.write.circle(path, surface) | {"hollow": surface.hollow} | ends}
         kind = "polyline" if surface.polyline is not None else "polygon"
         corners = getattr(surface, kind)
         found = [self.write.point((*path, kind, i), corner) for i, corner in enumerate(corners)]
         if len({body_of(point) for point in found}) > 1:
             self.write.scope.complain((*path, kind), f"the corners of a {kind} belong to several bodies", "take those of one")
         return {kind: found}
-
-    def _arc(self, path: Path, circle: SurfaceShape) -> Spec:
-        if circle.ends is None:
-            return {}
-        return {"ends": [self.write.number((*path, "ends", i), end, "rad") for i, end in enumerate(circle.ends)]}
 
     def _named(self, path: Path, name: str) -> Spec:
         """A body, a point or a line by its name."""
@@ -117,7 +110,7 @@ class LimitWriter:
         path: Path = ("strings", name)
         length = None if string.length is None else self.write.number((*path, "length"), string.length, "m", "a length")
         return {
-            "name": self.prefix + name,
+            "name": self.write.prefix + name,
             "ends": [self._end((*path, "ends", i), end) for i, end in enumerate(string.ends)],
             "over": [self._guide((*path, "over", i), guide) for i, guide in enumerate(string.over)],
             "length": length,
@@ -132,16 +125,18 @@ class LimitWriter:
         number = self.write.number
         attached = None if end.attached is None else number((*path, "attached"), end.attached, "rad")
         wound = None if end.wound is None else number((*path, "wound"), end.wound, "m", "a length")
-        return {"drum": self._wheel(path, end.drum, "drum", end) | {"attached": attached, "wound": wound}}
+        return {"drum": self._wheel(path, "drum", end) | {"attached": attached, "wound": wound}}
 
     def _guide(self, path: Path, guide: str | Pulley) -> Spec:
-        if isinstance(guide, str):
-            return {"eyelet": self.write.point(path, guide)}
-        return {"pulley": self._wheel(path, guide.pulley, "pulley", guide)}
+        return (
+            {"eyelet": self.write.point(path, guide)}
+            if isinstance(guide, str)
+            else {"pulley": self._wheel(path, "pulley", guide)}
+        )
 
-    def _wheel(self, path: Path, centre: str, word: str, wheel: Drum | Pulley) -> Spec:
+    def _wheel(self, path: Path, word: str, wheel: Drum | Pulley) -> Spec:
         return {
-            "centre": self.write.point((*path, word), centre),
+            "centre": self.write.point((*path, word), getattr(wheel, word)),
             "radius": self.write.number((*path, "radius"), wheel.radius, "m", "a radius"),
             "sense": _SENSES[wheel.sense],
         }
@@ -164,14 +159,6 @@ class LimitWriter:
         if least is not None and most is not None and least >= most:
             what = f"the least ({least:g}) is not below the most ({most:g})"
             self.write.scope.complain((*path, "least"), what, "exchange the two, or hold the quantity with a motion")
-        full = self.prefix + name
-        return [
-            {
-                "name": full if len(gaps) == 1 else f"{full}.{side}",
-                "gap": gap,
-                "restitution": restitution,
-                **soft,
-                "engaged": stop.engaged,
-            }
-            for side, gap in gaps.items()
-        ]
+        full = self.write.prefix + name
+        plain = {"restitution": restitution, **soft, "engaged": stop.engaged}
+        return [{"name": full if len(gaps) == 1 else f"{full}.{side}", "gap": gap, **plain} for side, gap in gaps.items()]

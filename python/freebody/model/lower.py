@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
 
-from freebody.core import CompiledModel, ModelError, ReportItem, cards
+from freebody.core import CompiledModel, ModelError, ReportItem, Spec, cards
 from freebody.symbolic.dimensions import TIME
 
 from . import elements, meanings, scope, units
@@ -19,12 +19,11 @@ from .events import EventWriter
 from .guides import GuideWriter
 from .limits import LimitWriter
 from .outlines import Outlines
-from .schema import Model, Motion
+from .schema import Model
 from .scope import Folder, Places, Scope
 from .start import Start, StartWriter
 from .writer import Writer
 
-Spec = dict[str, Any]
 _ITEMS = ("parameters", "tables", "bodies", "gauges", "joints", "forces", "motions", "contacts", "strings", "stops", "events")
 _SECTIONS = (*_ITEMS, "points", "lines", "curves")
 _ZEROS = {"right": "0", "up": "pi/2", "left": "pi", "down": "-pi/2"}
@@ -77,100 +76,85 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
     problems: list[Problem] = []
     folder = Folder.of(file)
     root = scope.open_scope(model, places, folder, problems)
-    lowering = _Lowering(root, folder, others)
-    lowered = lowering.all()
+    spec: Spec = {"name": root.model.name, "gravity": None} | {section: [] for section in _SECTIONS}
+    known, items, lines = meanings.meanings(root), {}, {}
+    writers = [Writer(each, known, spec, lines, items) for each in root.all()]
+    bodies, sections = [BodyWriter(write) for write in writers], [_Sections(write) for write in writers]
+    for step in (BodyWriter.all_points, BodyWriter.all_lines):
+        for writer in bodies:
+            step(writer)
+    for section in sections:
+        section.values()
+    places_of_points = {name: at for writer in bodies for name, at in writer.places.items()}
+    for section in sections:
+        section.elements(GuideWriter(section.write, places_of_points))
+    tracks = {name: track for writer in bodies for name, track in writer.tracks.items()}
+    outlines, hand_over = Outlines(writers, spec), {}
+    for write in writers:
+        LimitWriter(write, outlines, tracks).all()
+    events = [EventWriter(write, hand_over, folder if write is writers[0] else None, others) for write in writers]
+    # Welds first: events may name anything.
+    for step in (EventWriter.welds, EventWriter.all):
+        for writer in events:
+            step(writer)
+    spec["gravity"] = _gravity(writers[0])
+    start = Start()
+    for write in reversed(writers):  # what the whole says of a part's coordinates overrules what the part says
+        StartWriter(write, start).all()
+    answers = AnswerWriter(writers[0])
+    lowered = Lowered(spec, start, answers.run(), answers.report(), root, hand_over, items | _items(root))
     if problems:
         raise ModelFileError(problems)
     return lowered
 
 
-class _Lowering:
-    def __init__(self, root: Scope, folder: Folder, others: Iterable[str]) -> None:
-        self.root = root
-        self.folder = folder
-        self.others = others
-        self.made: dict[str, tuple[Scope, Path]] = {}
-        self.hand_over: dict[str, str] = {}
-        self.meanings = meanings.meanings(root)
-        self.spec: Spec = {"name": root.model.name, "gravity": None} | {section: [] for section in _SECTIONS}
-        lines: dict[str, Any] = {}
-        self.writers = [Writer(s, self.meanings, lines) for s in root.all()]
+def _gravity(write: Writer) -> list[Any] | None:
+    value = write.scope.model.gravity
+    if value == "none":
+        return None
+    if isinstance(value, list):
+        return write.numbers(("gravity",), value, "m/s^2")
+    size = write.number(("gravity",), value, "m/s^2")
+    return [0.0, -size if isinstance(size, float) else f"-({size})"]
 
-    def all(self) -> Lowered:
-        bodies = [BodyWriter(write, self.spec) for write in self.writers]
-        for writer in bodies:
-            writer.all_points()
-        for writer in bodies:
-            writer.all_lines()
-        sections = [_Sections(write, self.spec) for write in self.writers]
-        for section in sections:
-            section.values()
-        places = {name: at for writer in bodies for name, at in writer.places.items()}
-        for section in sections:
-            section.items(GuideWriter(section.write, self.spec, places, self.made))
-        self._switches({name: track for writer in bodies for name, track in writer.tracks.items()})
-        self.spec["gravity"] = self._gravity()
-        start = Start()
-        for write in reversed(self.writers):  # what the whole says of a part's coordinates overrules what the part says
-            StartWriter(write, start).all()
-        answers = AnswerWriter(self.writers[0])
-        return Lowered(self.spec, start, answers.run(), answers.report(), self.root, self.hand_over, self._items())
 
-    def _switches(self, tracks: dict[str, Spec]) -> None:
-        """Contacts, strings and stops; then events, which may name anything."""
-        outlines = Outlines(self.writers, self.spec)
-        for write in self.writers:
-            LimitWriter(write, self.spec, outlines, tracks).all()
-        events = [
-            EventWriter(
-                write, self.spec, self.made, self.hand_over, self.folder if write is self.writers[0] else None, self.others
-            )
-            for write in self.writers
-        ]
-        for writer in events:
-            writer.welds()
-        for writer in events:
-            writer.all()
-
-    def _gravity(self) -> list[Any] | None:
-        value = self.root.model.gravity
-        if value == "none":
-            return None
-        if isinstance(value, list):
-            return self.writers[0].pair(("gravity",), value, "m/s^2")
-        size = self.writers[0].number(("gravity",), value, "m/s^2")
-        return [0.0, -size if isinstance(size, float) else f"-({size})"]
-
-    def _items(self) -> dict[str, tuple[Scope, Path]]:
-        found = dict(self.made)
-        for s in self.root.all():
-            for section in _ITEMS:
-                found |= {f"{section}.{s.prefix}{name}": (s, (section, name)) for name in getattr(s.model, section)}
-            marked = [("bodies", name, f"{s.prefix}{name}.", body) for name, body in s.model.bodies.items()]
-            if s.model.ground:
-                marked.append(("ground", "", f"ground.{s.prefix}", s.model.ground))
-            for first, name, owner, body in marked:
-                path: Path = (first, name) if name else (first,)
-                for section in ("points", "lines", "curves"):
-                    found[f"{section}.{owner}".rstrip(".")] = (s, path)
-                    found |= {f"{section}.{owner}{mark}": (s, (*path, section, mark)) for mark in getattr(body, section)}
-        return found
+def _items(root: Scope) -> dict[str, tuple[Scope, Path]]:
+    """Where each item of the spec was written."""
+    found = {}
+    for s in root.all():
+        for section in _ITEMS:
+            found |= {f"{section}.{s.prefix}{name}": (s, (section, name)) for name in getattr(s.model, section)}
+        marked = [("bodies", name, f"{s.prefix}{name}.", body) for name, body in s.model.bodies.items()]
+        if s.model.ground:
+            marked.append(("ground", "", f"ground.{s.prefix}", s.model.ground))
+        for first, name, owner, body in marked:
+            path: Path = (first, name) if name else (first,)
+            for section in ("points", "lines", "curves"):
+                found[f"{section}.{owner}".rstrip(".")] = (s, path)
+                found |= {f"{section}.{owner}{mark}": (s, (*path, section, mark)) for mark in getattr(body, section)}
+    return found
 
 
 class _Sections:
     """Everything but the bodies of one scope."""
 
-    def __init__(self, write: Writer, spec: Spec) -> None:
-        self.write = write
-        self.spec = spec
-        self.scope = write.scope
+    def __init__(self, write: Writer) -> None:
+        self.write, self.spec, self.scope, self.prefix = write, write.spec, write.scope, write.prefix
         self.model = write.scope.model
-        self.prefix = write.scope.prefix
 
     def values(self) -> None:
         """Parameters, tables and gauges."""
+        parameters = self.scope.parameters
         for name, value in self.model.parameters.items():
-            self.spec["parameters"].append(self._parameter(name, value))
+            written: Spec = {"name": self.prefix + name, "value": 0.0}
+            if name not in parameters.faults:
+                if name in parameters.overruled:
+                    written["value"] = parameters.overruled[name][0]
+                else:
+                    written["value"] = self.write.number(("parameters", name), value)
+                dimension = parameters.dimension(name)
+                written["unit"] = dimension.unit() if dimension else ""
+            self.spec["parameters"].append(written)
         for name, table in self.model.tables.items():
             x, y = (self._numbers(("tables", name, axis), getattr(table, axis)) for axis in "xy")
             if len(x) != len(y) or len(x) < 2:
@@ -186,7 +170,7 @@ class _Sections:
             self.spec["gauges"].append({"name": self.prefix + name, "value": self.write.expression(("gauges", name), text)})
             self.write.meanings.values[self.prefix + name] = ("gauge", self.write.dimension(text))
 
-    def items(self, guides: GuideWriter) -> None:
+    def elements(self, guides: GuideWriter) -> None:
         """Joints, forces and motions."""
         for name, joint in self.model.joints.items():
             written = self._element(("joints", name), joint, cards.joints()[joint.type]) | self._friction(name, joint)
@@ -196,17 +180,14 @@ class _Sections:
         for name, force in self.model.forces.items():
             self.spec["forces"].append(self._element(("forces", name), force, cards.forces()[force.type]))
         for name, motion in self.model.motions.items():
-            self.spec["motions"].append(self._motion(name, motion))
-
-    def _parameter(self, name: str, value: Any) -> Spec:
-        full, parameters = self.prefix + name, self.scope.parameters
-        if name in parameters.faults:
-            return {"name": full, "value": 0.0}
-        dimension = parameters.dimension(name)
-        unit = dimension.unit() if dimension else ""
-        overruled = parameters.overruled.get(name)
-        written = overruled[0] if overruled else self.write.number(("parameters", name), value)
-        return {"name": full, "value": written, "unit": unit}
+            path: Path = ("motions", name)
+            power = ("position", "velocity", "acceleration").index(motion.level)
+            of = self.write.expression((*path, "of"), motion.of)
+            dimension = self.write.dimension(motion.of)
+            law = self.write.expression((*path, "is"), motion.law, dimension and dimension.times(TIME, -power))
+            by = self.write.expression((*path, "by"), motion.by) if motion.by is not None else None
+            stated = {"of": of, "is": law, "level": motion.level, "by": by, "engaged": motion.engaged}
+            self.spec["motions"].append({"name": self.prefix + name} | stated)
 
     def _numbers(self, path: Path, values: list[Any]) -> list[float]:
         found: list[float] = []
@@ -239,18 +220,14 @@ class _Sections:
                 return write.point(path, value)
             case "points":
                 return [write.point((*path, i), name) for i, name in enumerate(value)]
-            case "line":
-                return write.line(path, value)
-            case "circle":
-                return write.circle(path, value)
-            case "curve":
-                return write.curve(path, value)
-            case "body":
-                return write.body(path, value)
+            case "line" | "circle":
+                return getattr(write, kind)(path, value)
+            case "curve" | "body":
+                return write.place(path, value, kind)
             case "number":
                 return write.number(path, value, unit)
             case "numbers":
-                return [write.number((*path, i), number, unit) for i, number in enumerate(value)]
+                return write.numbers(path, value, unit)
             case "law" | "gauge":
                 return write.expression(path, value, unit)
         return value
@@ -263,10 +240,11 @@ class _Sections:
         if "kinetic" not in given:
             word = min(given.values())
             self.scope.complain(("joints", name, word), f"`{word}` goes with `friction`", "give the coefficient of sliding, too")
-        return {"friction": {key: self._share(name, joint, word) for key, word in given.items()}}
-
-    def _share(self, name: str, joint: elements.Element, word: str) -> Any:
-        return self.write.number(("joints", name, word), elements.given(joint, word), "m" if word == "bearing_radius" else "")
+        written = {
+            key: self.write.number(("joints", name, word), elements.given(joint, word), "m" if key == "radius" else "")
+            for key, word in given.items()
+        }
+        return {"friction": written}
 
     def _coordinates(self, name: str, joint: elements.Element) -> list[Spec]:
         named = scope.coordinate_names(name, joint)
@@ -296,14 +274,3 @@ class _Sections:
             "sense": sense,
             "absolute": given.absolute,
         }
-
-    # -- motions
-
-    def _motion(self, name: str, motion: Motion) -> Spec:
-        path: Path = ("motions", name)
-        power = ("position", "velocity", "acceleration").index(motion.level)
-        of = self.write.expression((*path, "of"), motion.of)
-        dimension = self.write.dimension(motion.of)
-        law = self.write.expression((*path, "is"), motion.law, dimension and dimension.times(TIME, -power))
-        by = self.write.expression((*path, "by"), motion.by) if motion.by is not None else None
-        return {"name": self.prefix + name, "of": of, "is": law, "level": motion.level, "by": by, "engaged": motion.engaged}

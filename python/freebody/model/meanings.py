@@ -39,6 +39,12 @@ class Meanings:
     tables: set[str] = field(default_factory=set)
     events: set[str] = field(default_factory=set)
 
+    def called(self, kind: str) -> set[str]:
+        """The full names of all points, lines, curves, bodies or strings."""
+        if kind == "string":
+            return {name for name, owner in self.owners.items() if owner == kind}
+        return {"point": self.points, "line": self.lines, "curve": self.curves, "body": self.bodies}[kind]
+
     def dimension(self, name: str, scope: Scope) -> Dimension | None:
         """The dimension of a full name in an expression. Raises ``ModelProblem`` when it means nothing."""
         if name in self.values:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+
+from freebody.core import Spec
 
 from .arithmetic import Number, half, placed
 from .errors import ModelProblem, Path
 from .schema import Body, Shaped
 from .writer import Writer
 
-Spec = dict[str, Any]
 HIDDEN = "outline"
 """Points that only surfaces know are called ``body.outline[1]`` and so on."""
 
@@ -21,7 +21,7 @@ class Outlines:
     def __init__(self, writers: Sequence[Writer], spec: Spec) -> None:
         self.spec = spec
         self.bodies: dict[str, tuple[Writer, Path, Body]] = {
-            write.scope.prefix + name: (write, ("bodies", name), body)
+            write.prefix + name: (write, ("bodies", name), body)
             for write in writers
             for name, body in write.scope.model.bodies.items()
         }
@@ -43,7 +43,7 @@ class Outlines:
             raise ModelProblem(f"`{full}` is of several pieces", "name the surface that is touched, e.g. `{polygon: [P, Q, R]}`")
         key, piece = next(iter(body.pieces.items() if isinstance(body.pieces, dict) else enumerate(body.pieces)))
         here = (*path, "pieces", key)
-        at = write.pair((*here, "at"), piece.at)
+        at = write.numbers((*here, "at"), piece.at)
         return self._surface(full, write, here, piece, (at, write.number((*here, "angle"), piece.angle, "rad")))
 
     def _surface(self, full: str, write: Writer, path: Path, shaped: Shaped, frame: tuple[list[Number], Number] | None) -> Spec:
@@ -62,7 +62,7 @@ class Outlines:
                 w, h = (write.number((*path, size), getattr(shaped, size), "m") for size in ("width", "height"))
                 corners = [[half(w, x), half(h, y)] for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             case "triangle" | "polygon":
-                corners = [write.pair((*path, "corners", i), corner) for i, corner in enumerate(shaped.corners)]
+                corners = [write.numbers((*path, "corners", i), corner) for i, corner in enumerate(shaped.corners)]
             case "rod":
                 ends = f"`{full}.start` and `{full}.end`"
                 raise ModelProblem(f"a rod like `{full}` has no outline", f"name the end that touches; {ends} are two contacts")

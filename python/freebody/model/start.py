@@ -74,7 +74,7 @@ class StartWriter:
         start.rates |= self._values((*path, "rates"), initial.rates, 1)
         for name, at in initial.points.items():
             here = (*path, "points", name)
-            start.points[self.write.point(here, name)] = self.write.pair(here, at)
+            start.points[self.write.point(here, name)] = self.write.numbers(here, at)
         if "equilibrium" in initial.model_fields_set:
             start.equilibrium = initial.equilibrium
         for text, sign in initial.branch.items():

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
-from freebody.core import cards
+from freebody.core import Spec, cards
 from freebody.symbolic.dimensions import Dimension
 from freebody.symbolic.tree import Fn, Node, Sym, walk
 
@@ -21,13 +21,21 @@ from .values import Circle, Through
 Unit = str | Dimension | None
 
 
+@dataclass
 class Writer:
-    """Writes what one scope says. Every method takes the path of the item; what is wrong is noted there."""
+    """Writes what one scope says into the ``spec`` of the core. Every method takes the path of the item; what is wrong is noted there.
+    ``lines`` are those of the whole model, ``items`` leads from what is made beside the items of the file to where it was written."""
 
-    def __init__(self, scope: Scope, meanings: Meanings, lines: dict[str, dict[str, Any]]) -> None:
-        self.scope = scope
-        self.meanings = meanings
-        self.lines = lines
+    scope: Scope
+    meanings: Meanings
+    spec: Spec = field(default_factory=dict)
+    lines: dict[str, Spec] = field(default_factory=dict)
+    items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
+
+    @property
+    def prefix(self) -> str:
+        """What stands before the names of this scope in the whole model."""
+        return self.scope.prefix
 
     # -- numbers and expressions
 
@@ -59,8 +67,8 @@ class Writer:
         except ModelProblem:
             return None
 
-    def pair(self, path: Path, values: list[Any], unit: str = "m") -> list[Number]:
-        """Two numbers."""
+    def numbers(self, path: Path, values: list[Any], unit: Unit = "m") -> list[Number]:
+        """Several numbers of one unit."""
         return [self.number((*path, i), value, unit) for i, value in enumerate(values)]
 
     def expression(self, path: Path, text: Any, unit: Unit = None, local: str = "") -> str:
@@ -132,53 +140,42 @@ class Writer:
         raise ModelProblem(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
 
     def _check_arguments(self, tree: Node) -> None:
-        for call in walk(tree):
-            if isinstance(call, Fn) and call.name in cards.functions() and call.name not in self.meanings.tables:
-                self._check_call(call.name, call.args)
-
-    def _check_call(self, name: str, arguments: Sequence[Node]) -> None:
-        function = cards.functions()[name]
-        kinds = function.takes
-        if len(arguments) != len(kinds) and not (function.optional and not arguments):
-            count = f"{len(kinds) or 'no'} argument{'s'[: len(kinds) != 1]}"
-            raise ModelProblem(f"`{name}` takes {count}, not {len(arguments)}", f"write `{name}({', '.join(kinds)})`")
-        for kind, argument in zip(kinds, arguments, strict=False):
-            if not isinstance(argument, Sym):
-                raise ModelProblem(f"`{name}` reads a {kind}, not a number", "write its name")
-            self._known(argument.name, kind)
+        calls = (call for call in walk(tree) if isinstance(call, Fn) and call.name not in self.meanings.tables)
+        for name, arguments in ((call.name, call.args) for call in calls if call.name in cards.functions()):
+            function = cards.functions()[name]
+            kinds = function.takes
+            if len(arguments) != len(kinds) and not (function.optional and not arguments):
+                count = f"{len(kinds) or 'no'} argument{'s'[: len(kinds) != 1]}"
+                raise ModelProblem(f"`{name}` takes {count}, not {len(arguments)}", f"write `{name}({', '.join(kinds)})`")
+            for kind, argument in zip(kinds, arguments, strict=False):
+                if not isinstance(argument, Sym):
+                    raise ModelProblem(f"`{name}` reads a {kind}, not a number", "write its name")
+                self._known(argument.name, kind)
 
     def _in_full(self, text: str) -> str:
-        return replace_names(text, self._full_token)
+        def token(text: str, is_call: bool) -> str:
+            name = unquote(text)
+            if is_call:
+                return spell(self.prefix + name) if self.prefix + name in self.meanings.tables else text
+            full = self.full(name)
+            return text if full == name and "'" not in text else spell(full)
 
-    def _full_token(self, token: str, is_call: bool) -> str:
-        name = unquote(token)
-        if is_call:
-            return spell(self.scope.prefix + name) if self.scope.prefix + name in self.meanings.tables else token
-        full = self.full(name)
-        return token if full == name and "'" not in token else spell(full)
+        return replace_names(text, token)
 
     def full(self, name: str) -> str:
         """The name under which the whole model knows what this file calls ``name``."""
         head, _, rest = name.partition(".")
         if head == "ground" and rest:
-            own = name if rest in ("O", "origin") else f"ground.{self.scope.prefix}{rest}"
+            own = name if rest in ("O", "origin") else f"ground.{self.prefix}{rest}"
         else:
-            own = self.scope.prefix + name if head in self.scope.heads else name
+            own = self.prefix + name if head in self.scope.heads else name
         return self.meanings.alias.get(own, own)
 
     # -- places
 
     def point(self, path: Path, name: str, body: str = "") -> str:
         """The full name of a point; within a ``body``, its own points need not name it."""
-        return self._place(path, name, "point", body)
-
-    def body(self, path: Path, name: str) -> str:
-        """The full name of a body."""
-        return self._place(path, name, "body")
-
-    def curve(self, path: Path, name: str) -> str:
-        """The full name of a curve."""
-        return self._place(path, name, "curve")
+        return self.place(path, name, "point", body)
 
     def line(self, path: Path, line: Any, body: str = "") -> dict[str, Any]:
         """A point with a direction."""
@@ -193,7 +190,7 @@ class Writer:
                 "point": self.point((*path, "through"), line.through, body),
                 "angle": self.number((*path, "angle"), line.angle, "rad"),
             }
-        return dict(self.lines.get(self._place(path, line, "line", body), {"point": "ground.O", "angle": 0.0}))
+        return dict(self.lines.get(self.place(path, line, "line", body), {"point": "ground.O", "angle": 0.0}))
 
     def circle(self, path: Path, circle: Circle | SurfaceShape) -> dict[str, Any]:
         """A centre and a radius."""
@@ -202,40 +199,31 @@ class Writer:
             "radius": self.number((*path, "radius"), circle.radius, "m", "a radius"),
         }
 
-    def _place(self, path: Path, name: str, kind: str, body: str = "") -> str:
+    def place(self, path: Path, name: str, kind: str, body: str = "") -> str:
+        """The full name of a point, line, curve or body."""
         name = unquote(name).strip()
         own = f"{body}.{name}"
         try:
-            if body and self._is(self.meanings.alias.get(own, own), kind):
-                return self.meanings.alias.get(own, own)
-            return self._known(self.full(name if "." in name or not body else own.removeprefix(self.scope.prefix)), kind)
+            if body and (known := self.meanings.alias.get(own, own)) in self.meanings.called(kind):
+                return known
+            return self._known(self.full(name if "." in name or not body else own.removeprefix(self.prefix)), kind)
         except ModelProblem as complaint:
             self.scope.complain(path, complaint.what, complaint.hint)
             return "ground" if kind == "body" else "ground.O"
 
-    def _is(self, name: str, kind: str) -> bool:
-        return name in self._all(kind)
-
     def _known(self, name: str, kind: str) -> str:
-        if self._is(name, kind):
+        meanings, short = self.meanings, name.removeprefix(self.prefix)
+        known = meanings.called(kind)
+        if name in known:
             return name
         if kind == "body":
-            short = name.removeprefix(self.scope.prefix)
-            what = (
-                f"`{short}` is a point, and a body is needed" if name in self.meanings.points else f"there is no body `{short}`"
+            what = f"`{short}` is a point, and a body is needed" if name in meanings.points else f"there is no body `{short}`"
+            raise ModelProblem(what, suggestion(short.split(".")[0], meanings.seen_from(self.scope, known)))
+        if kind == "string":
+            raise ModelProblem(
+                f"there is no string `{short}`", suggestion(short, meanings.seen_from(self.scope, known), "strings")
             )
-            raise ModelProblem(what, suggestion(short.split(".")[0], self.meanings.seen_from(self.scope, self.meanings.bodies)))
-        if kind == "string":
-            short = name.removeprefix(self.scope.prefix)
-            known = self.meanings.seen_from(self.scope, self._all(kind))
-            raise ModelProblem(f"there is no string `{short}`", suggestion(short, known, "strings"))
-        raise self.meanings.place(name, kind, self._all(kind), self.scope)
-
-    def _all(self, kind: str) -> Any:
-        m = self.meanings
-        if kind == "string":
-            return {name for name, owner in m.owners.items() if owner == "string"}
-        return {"point": m.points, "line": m.lines, "curve": m.curves, "body": m.bodies}[kind]
+        raise meanings.place(name, kind, known, self.scope)
 
 
 def body_of(point: str) -> str:
