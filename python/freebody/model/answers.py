@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from freebody.core import BEFORE, ReportItem, Settings, cards
-from freebody.symbolic.dimensions import Dimension
 
 from . import start, units
 from .errors import ModelProblem, Path
@@ -30,16 +29,15 @@ def timed(item: ReportItem, values: Mapping[str, float]) -> ReportItem:
     return replace(item, at=time(item.at), over=item.over and (float(time(item.over[0])), float(time(item.over[1]))))
 
 
+@dataclass
 class AnswerWriter:
     """Reads ``run`` and ``report`` of the whole model."""
 
-    def __init__(self, write: Writer) -> None:
-        self.write = write
-        self.model = write.scope.model
+    write: Writer
 
     def run(self) -> dict[str, Any]:
         """What the model says of ``Settings``; some may be expressions of parameters."""
-        run, write = self.model.run or Run(), self.write
+        run, write = self.write.scope.model.run or Run(), self.write
         units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
         given = run.model_dump(exclude_none=True)
         if cards.methods()[run.method].fixed_step and run.step is None:
@@ -50,7 +48,7 @@ class AnswerWriter:
     def report(self) -> list[ReportItem]:
         """The quantities to report, in order."""
         found: list[ReportItem] = []
-        for label, asked in self.model.report.items():
+        for label, asked in self.write.scope.model.report.items():
             path: Path = ("report", label)
             try:
                 found.append(self._mapping(path, asked) if isinstance(asked, Question) else self._text(path, asked))
@@ -79,26 +77,20 @@ class AnswerWriter:
         expression, dimension = self.write.measured(text.strip())
         moment = "end" if at is None else self._moment(at)
         window = None if over is None else (self._window_end(over[0]), self._window_end(over[1]))
-        if unit is not None:
-            self._check_unit(path, unit, self._dimension(kind, units.TIME if expression == "t" else dimension))
+        own = units.TIME if expression == "t" else dimension
+        own = own.times(units.TIME) if own and kind == "integral" else own
+        asked = None if unit is None else units.convert(unit)[1]
+        if asked is not None and own is not None and not own.fits(asked):
+            hint = f"write e.g. `unit: {own.unit()}`" if own.unit() else "leave the unit out"
+            what = f"the value is {own.words()}; `{unit}` is the unit of {asked.words()}"
+            self.write.scope.complain((*path, "unit"), what, hint)
         return ReportItem(str(path[1]), expression, "at" if kind == "value" else kind, moment, window, unit or "")
-
-    def _check_unit(self, path: Path, unit: str, own: Dimension | None) -> None:
-        _, dimension = units.convert(unit)
-        if own is not None and not own.fits(dimension):
-            what = f"the value is {own.words()}; `{unit}` is the unit of {dimension.words()}"
-            self.write.scope.complain(
-                (*path, "unit"), what, f"write e.g. `unit: {own.unit()}`" if own.unit() else "leave the unit out"
-            )
 
     def _window_end(self, moment: Any) -> Moment:
         found = self._moment(moment)
         if isinstance(found, str) and not found.startswith("="):
             raise ModelProblem(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
         return found
-
-    def _dimension(self, kind: str, dimension: Dimension | None) -> Dimension | None:
-        return dimension.times(units.TIME) if dimension and kind == "integral" else dimension
 
     def _moment(self, moment: Any) -> Moment:
         if not isinstance(moment, str):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partialmethod
 from typing import Any
 
 from .names import spell
@@ -16,35 +17,14 @@ class Expression(str):
         left, right = (other, self) if swapped else (self, other)
         return Expression(f"{_operand(left)} {sign} {_operand(right)}")
 
-    def __add__(self, other: Any) -> Expression:  # type: ignore[override]
-        return self._join("+", other)
-
-    def __radd__(self, other: Any) -> Expression:
-        return self._join("+", other, swapped=True)
-
-    def __sub__(self, other: Any) -> Expression:
-        return self._join("-", other)
-
-    def __rsub__(self, other: Any) -> Expression:
-        return self._join("-", other, swapped=True)
-
-    def __mul__(self, other: Any) -> Expression:  # type: ignore[override]
-        return self._join("*", other)
-
-    def __rmul__(self, other: Any) -> Expression:  # type: ignore[override]
-        return self._join("*", other, swapped=True)
-
-    def __truediv__(self, other: Any) -> Expression:
-        return self._join("/", other)
-
-    def __rtruediv__(self, other: Any) -> Expression:
-        return self._join("/", other, swapped=True)
-
-    def __pow__(self, other: Any) -> Expression:
-        return self._join("^", other)
-
     def __neg__(self) -> Expression:
         return Expression(f"-{_operand(self)}")
+
+
+for _word, _sign in {"add": "+", "sub": "-", "mul": "*", "truediv": "/", "pow": "^"}.items():
+    setattr(Expression, f"__{_word}__", partialmethod(Expression._join, _sign))
+    if _word != "pow":
+        setattr(Expression, f"__r{_word}__", partialmethod(Expression._join, _sign, swapped=True))
 
 
 def _operand(value: Any) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from itertools import count
 from typing import Any
 
 from freebody.analysis import Moving
@@ -20,7 +21,7 @@ class Mechanism(Moving, Builder):
     ``Moving`` solves, simulates and draws it."""
 
 
-_KEYWORD = inspect.Parameter.KEYWORD_ONLY
+_POSITIONAL, _KEYWORD = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY
 _PYTHON = {"from": "from_", "is": "is_", "in": "in_", "with": "with_", "as": "as_"}
 
 
@@ -37,11 +38,7 @@ def _shape_method(shape: str, sizes: tuple[str, ...]) -> Callable[..., Body]:
     parameters = [_keyword(s, True) for s in sizes] + [_keyword(w, w == "mass") for w in taken]
     article = "A uniform" if sizes else "A"
     described = "\n".join(f"    {s}: {schema.Shaped.model_fields[s].description}" for s in (*sizes, "mass"))
-    return _dressed(method, shape, f"{article} {shape}.\n\n{described}", [_positional("name"), *parameters], Body)
-
-
-def _positional(name: str) -> inspect.Parameter:
-    return inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    return _dressed(method, shape, f"{article} {shape}.\n\n{described}", [inspect.Parameter("name", _POSITIONAL), *parameters], Body)
 
 
 def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
@@ -53,7 +50,8 @@ def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
             raise TypeError(f"{card.type}() takes keywords only: {', '.join(f.name for f in card.fields)}")
         given = {back.get(key, key): value for key, value in words.items() if value is not None}
         given |= {several[0]: list(points)} if points else {}
-        name = name or _free_name(card.type, getattr(self.model, section))
+        taken = getattr(self.model, section)
+        name = name or next(free for i in count(1) if (free := f"{card.type}{i if i > 1 else ''}") not in taken)
         self.put(section, name, {"type": card.type} | given)
         made = getattr(self.model, section)[name]
         return Element(name, [c for c, _ in coordinate_names(name, made)] if section == "joints" else [])
@@ -66,27 +64,15 @@ def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
     return _dressed(method, card.type, f"{card.doc}\n\n{doc}", [*points, _keyword("name", False), *fields, *more], Element)
 
 
-def _free_name(word: str, taken: Mapping[str, Any]) -> str:
-    name, i = word, 1
-    while name in taken:
-        i += 1
-        name = f"{word}{i}"
-    return name
-
-
 def _dressed(method: Any, name: str, doc: str, parameters: list[inspect.Parameter], answer: Any) -> Any:
     method.__name__, method.__qualname__, method.__doc__ = name, f"Mechanism.{name}", doc
-    first = inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)
-    method.__signature__ = inspect.Signature([first, *parameters], return_annotation=answer)
+    method.__signature__ = inspect.Signature([inspect.Parameter("self", _POSITIONAL), *parameters], return_annotation=answer)
     return method
 
 
-def _methods() -> dict[str, Any]:
-    shapes = {shape: _shape_method(shape, sizes) for shape, sizes in schema.SHAPES.items() if shape != "general"}
-    joints = {word: _element_method("joints", card) for word, card in cards.joints().items()}
-    forces = {word: _element_method("forces", card) for word, card in cards.forces().items()}
-    return shapes | joints | forces
-
-
-for _word, _method in _methods().items():
-    setattr(Mechanism, _word, _method)
+for _word, _sizes in schema.SHAPES.items():
+    if _word != "general":
+        setattr(Mechanism, _word, _shape_method(_word, _sizes))
+for _section, _cards in (("joints", cards.joints()), ("forces", cards.forces())):
+    for _word, _card in _cards.items():
+        setattr(Mechanism, _word, _element_method(_section, _card))

@@ -32,7 +32,10 @@ class Parameters:
         self.children: dict[str, Parameters] = {}
         for name in self._order():
             if name in given and name not in self._values and name not in self.faults:
-                self._work_out(name)
+                try:
+                    self._values[name], self._dimensions[name] = self.measured(given[name])
+                except ModelProblem as complaint:
+                    self.faults[name] = complaint
 
     def __contains__(self, name: object) -> bool:
         return name in self.given or (isinstance(name, str) and self._child(name) is not None)
@@ -59,7 +62,11 @@ class Parameters:
             return float(text)
         if (found := units.quantity(text)) is not None:
             return found.value
-        return self._evaluated(text)
+        try:
+            return float(syntax.evaluate(syntax.parse(text).tree, self.value))
+        except (ArithmeticError, ValueError) as error:
+            hint = "check for a division by 0 or a root of a negative number"
+            raise ModelProblem(f"`{text}` has no value: {error}", hint) from None
 
     def whole(self, text: str) -> int:
         """The value of a whole number, for repetitions and indices. Raises ``ModelProblem``."""
@@ -72,7 +79,12 @@ class Parameters:
 
     def measured(self, text: Number) -> tuple[float, Dimension | None]:
         """Value and dimension of a number of the model. Raises ``ModelProblem``."""
-        return self.number(text), self._dimension_of(text)
+        if not isinstance(text, str):
+            return float(text), None
+        if (found := units.quantity(text)) is not None:
+            return found.value, found.dimension
+        expression = syntax.parse(text)
+        return self.number(text), syntax.Measure(expression, self.dimension).of(expression.tree)
 
     def _order(self) -> list[str]:
         uses: dict[str, list[str]] = {}
@@ -82,7 +94,8 @@ class Parameters:
                     raise ModelProblem(
                         what or f"`{name}` has a meaning of its own in expressions", "give the parameter another name"
                     )
-                uses[name] = self._uses(text)
+                is_expression = isinstance(text, str) and units.quantity(text) is None
+                uses[name] = syntax.names(syntax.parse(text).tree) if is_expression else []
             except ModelProblem as complaint:
                 self.faults[name] = complaint
                 uses[name] = []
@@ -97,33 +110,6 @@ class Parameters:
                         f"parameters are defined by one another in a circle: {shown}", "give one of them a number"
                     )
                     uses[name] = []
-
-    def _uses(self, text: Number) -> list[str]:
-        if not isinstance(text, str) or units.quantity(text) is not None:
-            return []
-        return syntax.names(syntax.parse(text).tree)
-
-    def _work_out(self, name: str) -> None:
-        try:
-            self._values[name], self._dimensions[name] = self.measured(self.given[name])
-        except ModelProblem as complaint:
-            self.faults[name] = complaint
-
-    def _dimension_of(self, text: Number) -> Dimension | None:
-        if not isinstance(text, str):
-            return None
-        if (found := units.quantity(text)) is not None:
-            return found.dimension
-        expression = syntax.parse(text)
-        return syntax.Measure(expression, self.dimension).of(expression.tree)
-
-    def _evaluated(self, text: str) -> float:
-        try:
-            return float(syntax.evaluate(syntax.parse(text).tree, self.value))
-        except (ArithmeticError, ValueError) as error:
-            raise ModelProblem(
-                f"`{text}` has no value: {error}", "check for a division by 0 or a root of a negative number"
-            ) from None
 
     def _child(self, name: str) -> tuple[Parameters, str] | None:
         head, dot, rest = name.partition(".")

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from . import source
-from .errors import ModelFileError, Path, Problem
+from .errors import ModelFileError, Path
 from .names import suggestion
 from .schema import VERSION, Model
 from .source import Source
@@ -67,10 +67,7 @@ def _check_version(origin: Source) -> None:
         origin.data["freebody"] = VERSION
 
 
-ModelProblem = tuple[Path, str, str, bool]
-
-
-def complaints(error: ValidationError) -> Iterable[ModelProblem]:
+def complaints(error: ValidationError) -> Iterable[tuple[Path, str, str, bool]]:
     """What the schema says, as path, sentence, hint, and whether the key itself is meant."""
     for line in error.errors(include_url=False):
         path = place(line["loc"])
@@ -93,22 +90,14 @@ def _sentence(line: Any, path: Path) -> tuple[str, str]:
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         what = "joint" if path[0] == "joints" else "force"
         if kind == "union_tag_not_found":
-            return (
-                f"the {what} `{path[-1]}` has no `type`",
-                f"add `type:`, e.g. `type: {'hinge' if what == 'joint' else 'spring'}`",
-            )
+            example = "hinge" if what == "joint" else "spring"
+            return f"the {what} `{path[-1]}` has no `type`", f"add `type:`, e.g. `type: {example}`"
         return f"there is no {what} `{context['tag']}`", suggestion(context["tag"], _QUOTED.findall(context["expected_tags"]))
     if kind == "literal_error":
         known = _QUOTED.findall(context["expected"]) or [context["expected"]]
-        return f"`{line['input']}` is none of {', '.join(f'`{k}`' for k in known)}", _did_you_mean(str(line["input"]), known)
+        hint = suggestion(str(line["input"]), known)
+        what = f"`{line['input']}` is none of {', '.join(f'`{k}`' for k in known)}"
+        return what, hint if hint.startswith("did you mean") else "choose one of them"
     if line["input"] is None:
         return f"`{path[-1]}` is empty" if path else "the model is empty", "give it a value, or leave the key out"
     return _WORDS.get(kind, (line["msg"][:1].lower() + line["msg"][1:], ""))
-
-
-def _did_you_mean(word: str, known: list[str]) -> str:
-    hint = suggestion(word, known)
-    return hint if hint.startswith("did you mean") else "choose one of them"
-
-
-__all__ = ["Problem", "complaints", "model_of", "place", "read", "reads"]

@@ -47,12 +47,12 @@ class Assembly(TypedDict):
     branch: dict[str, int]
 
 
+@dataclass
 class StartWriter:
     """Adds what one scope says to the start."""
 
-    def __init__(self, write: Writer, start: Start) -> None:
-        self.write = write
-        self.start = start
+    write: Writer
+    start: Start
 
     def all(self) -> None:
         """Notes the coordinates and parameters of the model, and the section ``initial`` of this scope."""
@@ -84,11 +84,10 @@ class StartWriter:
         found: dict[str, Number] = {}
         for name, value in given.items():
             full = self.write.full(name)
-            if full not in self.start.coordinates:
+            if full in self.start.coordinates:
+                found[full] = self.write.number((*path, name), value, _dimension(self.start, full, order))
+            else:
                 self._unknown((*path, name), full, name)
-                continue
-            dimension = self.start.coordinates[full]
-            found[full] = self.write.number((*path, name), value, dimension and dimension.times(TIME, -order))
         return found
 
     def _unknown(self, path: Path, full: str, name: str) -> None:
@@ -117,17 +116,17 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
         raise ModelProblem(*_RESTLESS)
     p = core.bind({n: _plain(n, v, start.parameters[n], {}) for n, v in given.items() if n in start.parameters})
     values = parameter_values(core, p)
-    fixed = dict(start.fixed) | {n: v for n, v in given.items() if n in start.coordinates}
-    rates = {} if words.get("at_rest") else dict(start.rates) | dict(words.get("rates", {}))
+
+    def plain(stated: Mapping[str, Any], order: int = 0) -> dict[str, float]:
+        return {n: _plain(n, v, _dimension(start, n, order), values) for n, v in stated.items()}
+
+    points = start.points | dict(words.get("points", {}))
     return {
         "p": p,
-        "fixed": {n: _plain(n, v, _dimension(start, n), values) for n, v in fixed.items()},
-        "guess": {n: _plain(n, v, _dimension(start, n), values) for n, v in (start.guess | dict(words.get("guess", {}))).items()},
-        "rates": {n: _plain(n, v, _rate(_dimension(start, n)), values) for n, v in rates.items()},
-        "points": {
-            n: [_plain(n, v, units.LENGTH, values) for v in at]
-            for n, at in (start.points | dict(words.get("points", {}))).items()
-        },
+        "fixed": plain(start.fixed | {n: v for n, v in given.items() if n in start.coordinates}),
+        "guess": plain(start.guess | dict(words.get("guess", {}))),
+        "rates": {} if words.get("at_rest") else plain(start.rates | dict(words.get("rates", {})), 1),
+        "points": {n: [_plain(n, v, units.LENGTH, values) for v in at] for n, at in points.items()},
         "branch": start.branch | {text: _sign(sign) for text, sign in dict(words.get("branch", {})).items()},
     }
 
@@ -153,26 +152,24 @@ def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[
         return float(number)
     quantity = units.quantity(number)
     if quantity is None:
-        return float(syntax.evaluate(syntax.parse(number).tree, lambda n: _value(n, values)))
+
+        def value(parameter: str) -> float:
+            if parameter not in values:
+                raise ModelProblem(f"there is no parameter `{parameter}`", suggestion(parameter, values))
+            return values[parameter]
+
+        return float(syntax.evaluate(syntax.parse(number).tree, value))
     if dimension is not None and not quantity.dimension.fits(dimension):
         raise ModelProblem(f"`{name}` is {dimension.words()}; `{number}` is {quantity.dimension.words()}")
     return quantity.value
 
 
-def _value(name: str, values: Mapping[str, float]) -> float:
-    if name not in values:
-        raise ModelProblem(f"there is no parameter `{name}`", suggestion(name, values))
-    return values[name]
-
-
-def _dimension(start: Start, name: str) -> Dimension | None:
+def _dimension(start: Start, name: str, order: int) -> Dimension | None:
+    """The dimension of a coordinate, or of its rate."""
     if name not in start.coordinates:
         raise ModelProblem(f"there is no coordinate `{name}`", suggestion(name, start.coordinates))
-    return start.coordinates[name]
-
-
-def _rate(dimension: Dimension | None) -> Dimension | None:
-    return None if dimension is None else dimension.times(TIME, -1)
+    dimension = start.coordinates[name]
+    return dimension and dimension.times(TIME, -order)
 
 
 def _sign(sign: Any) -> int:
