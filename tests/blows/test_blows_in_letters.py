@@ -130,7 +130,7 @@ def test_what_is_too_long_is_refused(name):
 def test_friction_says_its_law():
     slides, rolls = (topic(mechanism(name), "impact").text() for name in ("slides", "rolls"))
     assert "slides throughout the impact" in slides and "Coulomb's law" in slides
-    assert "does not slide any more after the impact" in rolls
+    assert "sticks after the impact" in rolls
 
 
 def test_slip_that_turns_is_refused_with_its_reason():
@@ -146,7 +146,7 @@ initial: {points: {stick.start: [0, 1e-3]}, stick.angle: 50 deg, rates: {stick.x
 run: {until: 2 ms, impacts: poisson}
 """
     said = topic(Mechanism.loads(text, "stick"), "impact").text()
-    assert "neither all the impulse" in said
+    assert "neither the largest in one direction nor what sticking takes" in " ".join(said.split())
 
 
 def test_a_document_has_its_drawings_even_where_the_state_alone_jams():

@@ -157,7 +157,7 @@ def blocks(found: Ratios, wanted: Sequence[str], shown: Put) -> list[Block]:
     made: list[Block] = [Paragraph(said)]
     made += [Equation(Sym(name, 1), shown(mul(k, rate))) for name, k in found.rates.items() if name != found.free]
     made += [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(found.named.items())]
-    stated = "Lagrange's equations, added up with these factors, hold no load of what closes the loops: the inertia that is felt is"
+    stated = "Lagrange's equations, added up with these factors, contain no load that closes a loop: the reduced inertia is"
     made += [Paragraph(stated), Equation(Written.of(Name("J")), shown(found.inertia))]
     made.append(Equation(mul(Sym("J"), acceleration), shown(found.load), "And with it"))
     others = [name for name in wanted if name != found.free]

@@ -76,9 +76,9 @@ class Impulsive(ABC):
         idle = [x["name"] for x in about["limits"] if x["name"] in closed and x["name"] in here and x["name"] not in spared]
         has_friction = [x["name"] for x in self.source.spec["joints"] if x.get("friction") and x["name"] in here]
         stated = [f"{', '.join(names)}: finite, so no impulse in a time that goes to 0"] if names else []
-        stated += [f"{name}, which lets go: its impulse would have to be negative" for name in spared]
-        stated += [f"{name}: nothing drives it closed in the impact, so it has no impulse" for name in idle]
-        return stated + [f"friction of {name}: left out, joints pass impulses on without it" for name in has_friction]
+        stated += [f"{name}, which opens: its impulse would have to be negative" for name in spared]
+        stated += [f"{name}, which is closed, but not pressed by the impact" for name in idle]
+        return stated + [f"friction of {name}, which is neglected in impacts" for name in has_friction]
 
     @cached_property
     def impulses(self) -> FreeBodies:

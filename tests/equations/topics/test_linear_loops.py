@@ -292,4 +292,4 @@ forces: {spring: {type: torsion_spring, on: rod, stiffness: k, damping: c}}
 initial: {theta: 0, at_rest: true}
 """
     said = topic(fb.Mechanism.loads(text), "linear").text()
-    assert "small perturbations die out if" in said and "k − m g l > 0" in said and "m l² θ̈ + c θ̇" in said
+    assert "Small perturbations decay if" in said and "k − m g l > 0" in said and "m l² θ̈ + c θ̇" in said

@@ -45,8 +45,8 @@ def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
     """s² (s² + (M + m) g/(M l)) = 0: the mass centre keeps its speed. Meirovitch, Elements of Vibration Analysis, ch. 4, of semidefinite systems."""
     stated = said(CART)
     assert "s² (s² + (M + m) g/(M l)) = 0" in stated and "± √((M + m) g/(M l)) i" in stated
-    assert "Nothing brings back x: with any small constant speed it drifts on" in stated
-    assert "Apart from that small perturbations of x, θ stay small and oscillate" in stated
+    assert "No load restores x: at any small constant speed it drifts away." in stated
+    assert "Apart from that, small perturbations of x, θ stay small and oscillate" in stated
     run = fb.Mechanism.loads(CART).simulate(50.0, initial={"rates": {"x": 1e-3, "theta": 0}}, t_eval=[50.0])
     assert run["x"][-1] > 0.02 and abs(run["theta"][-1]) < 1e-3
 
@@ -54,8 +54,8 @@ def test_a_free_cart_drifts_while_its_pendulum_swings() -> None:
 def test_a_cart_that_rubs_stays_where_it_comes_to_rest() -> None:
     """With −c ẋ the root 0 is single: nothing drifts, and the rest dies out, as the cart takes part in all of it."""
     stated = said(CART + DRAG)
-    assert "Nothing brings back x: a small perturbation stays as it is." in stated and "drift" not in stated
-    assert "Apart from that small perturbations of x, θ die out for all values" in stated
+    assert "No load restores x: a small perturbation stays as it is." in stated and "drift" not in stated
+    assert "Apart from that, small perturbations of x, θ decay for all values" in stated
 
 
 def test_matrices_do_not_take_letters_of_the_model() -> None:
@@ -68,9 +68,9 @@ def test_matrices_do_not_take_letters_of_the_model() -> None:
 
 # Two equal pendulums: what else acts, and what then becomes of small perturbations.
 EQUAL = {
-    "equal frequencies, each with a direction of its own": ("", "small perturbations stay small and oscillate for all values"),
-    "one is pulled by the other's angle and so at its own frequency": (PULL, "Equal eigenvalues share one direction"),
-    "one of them is damped": (BEARING, "small perturbations stay small: some die out, others oscillate for all values"),
+    "equal frequencies, each with a direction of its own": ("", "Small perturbations stay small and oscillate for all values"),
+    "one is pulled by the other's angle and so at its own frequency": (PULL, "A repeated eigenvalue has one eigenvector only"),
+    "one of them is damped": (BEARING, "Small perturbations stay small: some decay, others oscillate for all values"),
 }
 
 

@@ -102,7 +102,7 @@ def test_linear_needs_an_equilibrium() -> None:
     """A block slides off its slope wherever it is; a rod beside its equilibrium has one near by."""
     with pytest.raises(NotHere, match="no equilibrium"):
         topic(system("EX-BLOCK"), "linear")
-    assert "The nearest found: at rest with x = 0, θ = π/2" in topic(system("19.3.15"), "linear", theta="80 deg").text()
+    assert "The nearest equilibrium found is at x = 0, θ = π/2." in topic(system("19.3.15"), "linear", theta="80 deg").text()
 
 
 @pytest.mark.parametrize("name", ["19.3.10", "19.3.28", "EX-ARM", "S19.17", "S19.20", "S19.21"])

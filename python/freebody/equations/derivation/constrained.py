@@ -25,7 +25,7 @@ _LEGEND = (
 )
 _INTRODUCTION = (
     "Each body is placed by itself, by x and y of its mass centre and its angle φ (a particle by x and y): "
-    "{} coordinates. What the joints hold is told by constraints."
+    "{} coordinates. The joints stand as constraints."
 )
 _CAPTION = "Every body by itself: its mass centre from the origin, its angle from the x axis. What is 0 now is drawn a little further on."
 

@@ -30,7 +30,7 @@ FORMS = tuple(_TITLES)
 _ELSEWHERE = "it is among the equations as data and in the generated code"
 _SAME = 1e-9
 """Part of the largest entry of a matrix by which two are no longer equal."""
-_LOPSIDED = "That it is not symmetric is no slip: its rows are these balances, not Lagrange's equations."
+_LOPSIDED = "It is not symmetric, as its rows are these balances, not Lagrange's equations."
 
 
 @dataclass(frozen=True)

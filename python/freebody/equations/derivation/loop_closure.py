@@ -90,8 +90,8 @@ def _why(rows: Sequence[Row], everywhere: bool) -> str:
     if rates and any(row.value is not None for row in rows):
         said += f" Of these {clause(rates, 'has', 'have')} none for the positions."
     if idle := [row.name for row in rows if row.says_nothing]:
-        counts = [f"{'one' if (n := idle.count(name)) == 1 else n} more at {name}" for name in dict.fromkeys(idle)]
-        said += f" What would be {joined(counts)} holds by itself: other joints see to it."
+        counts = [f"{'one' if (n := idle.count(name)) == 1 else n} at {name}" for name in dict.fromkeys(idle)]
+        said += f" Further ones, {joined(counts)}, are redundant: they follow from the other joints."
     return said
 
 

@@ -66,7 +66,7 @@ def virtual_power(subject: SymbolicState) -> list[VirtualPower]:
 
 def section(subject: SymbolicState, wanted: int) -> list[Block]:
     """The equations, or why there are none; ``wanted``: how many would be enough."""
-    said = "The principle of virtual power does without: the bodies move all at once, so that what is closed stays closed, and no reaction has power"
+    said = "The principle of virtual power needs no reactions: the bodies move all at once, so that what is closed stays closed, and no reaction has power"
     head = Heading("Virtual power", 3)
     try:
         found = virtual_power(subject)
@@ -77,7 +77,7 @@ def section(subject: SymbolicState, wanted: int) -> list[Block]:
     driving = {load.symbol for load in subject.free.loads if load.kind == "motion"}
     if working := list(dict.fromkeys(name for each in found for name in each.reactions if name not in driving)):
         power = f"{clause(working, 'has', 'have')} power, by friction or by a law of the force."
-        return [head, Paragraph(f"The principle of virtual power does not do without either: {power}")]
+        return [head, Paragraph(f"The principle of virtual power needs reactions as well: {power}")]
     count = "is one such equation" if wanted == 1 else f"are {wanted} such equations, one for each degree of freedom"
     made: list[Block] = [head, Paragraph(f"{said}. There {count}.")]
     for each in found:

@@ -67,10 +67,10 @@ def impact(
 def _what(found: Impact) -> list[Block]:
     from freebody.views.diagram.impulses import Impulses
 
-    said = "During the short impact the configuration stays the same, and the rates jump. Impulses are the integrals of forces over it."
+    said = "During the short impact the configuration does not change, and the velocities jump. Impulses are the integrals of forces over it."
     if found.subject.blow.given:
         said += " Before it everything is at rest."
-        said += "" if found.subject.source.about["limits"] else " Were there rates, they would stay, and the jumps add to them."
+        said += "" if found.subject.source.about["limits"] else " If the mechanism moved, the jumps would add to its rates."
     made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
@@ -79,24 +79,24 @@ def _what(found: Impact) -> list[Block]:
     drawn = Impulses(f"blow of {found.subject.source.name}", found.subject.blow)
     made.append(Figure(drawn, "Impulses, and the jumps of momentum.", "impulses"))
     missing = found.subject.blow.absent()
-    return [*made, Paragraph("Absent:"), Bullets(missing)] if missing else made
+    return [*made, Paragraph("No impulse comes from:"), Bullets(missing)] if missing else made
 
 
 def _named(found: Impact, load: Load, body: str) -> str:
     """A pair of equal pushes or pulls is told as that on the body, what has a sign as it is counted."""
     words = load_words(load, [body] if load.kind in ("contact", "string") else ())
-    return "which strikes" if load.name in found.subject.blow.given else f"of the {words.removeprefix('the ')}"
+    return "the applied impulse" if load.name in found.subject.blow.given else f"of the {words.removeprefix('the ')}"
 
 
 def _equations(found: Impact) -> list[Block]:
     free = found.conserved()
     made: list[Block] = [Heading("Impulse and momentum")]
     if free:
-        constant = "No impulse has a part in these, in the configuration of the impact, so the momenta are the same before and after:"
+        constant = "In the configuration of the impact no impulse enters these balances, so the momenta are the same before and after:"
         made.append(Paragraph(constant))
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
     before = ", everything was at rest before" if found.subject.blow.given else " − momentum before"
-    made.append(Paragraph(f"With the impulses in them, one for each coordinate, impulse = momentum after{before}:"))
+    made.append(Paragraph(f"With impulses, one equation for each coordinate, impulse = momentum after{before}:"))
     stated = found.of_coordinates()
     made += [_with_impulses(found, each) for each in stated]
     # the balances of the bodies on which impulses act that those of the coordinates do not have
@@ -104,7 +104,7 @@ def _equations(found: Impact) -> list[Block]:
     there = {c.load for each in stated for c in each.balance.contributions if not c.absent}
     kept_out = {load.symbol for i, load in enumerate(loads.loads) if load in found.forces and i not in there}
     if bodies := [body for body in loads.bodies if any(load.symbol in kept_out for load in loads.on(body))]:
-        made.append(Paragraph(f"Of {joined(bodies)} alone, on which impulses of joints act that are not in those:"))
+        made.append(Paragraph(f"For {joined(bodies)} alone, on which impulses of joints act that do not enter those:"))
         more = [each for each in found.of_bodies() if each.balance.bodies[0] in bodies and each.title not in said]
         made += [_with_impulses(found, each) for each in more]
     return made
@@ -117,7 +117,7 @@ def _with_impulses(found: Impact, each: Stated) -> Equation:
     right = presented(found.jump(each.balance), unknowns=unknown)
     said: list[str | Side] = []
     for why, loads in dropped(found.subject, each).items():
-        said += ["; " if said else "Not in it: ", *listed(map(found.letter, loads)), f" ({agree(why, len(loads))})"]
+        said += ["; " if said else "Not in this equation: ", *listed(map(found.letter, loads)), f" ({agree(why, len(loads))})"]
     return Equation(left, right, _title(each.title), note=[*said, "."] if said else "")
 
 
@@ -135,23 +135,23 @@ def _restitution(found: Impact) -> list[Block]:
         if not found.holds(each):
             made.append(Paragraph(f"At {each.name}: {found.otherwise()}."))
             continue
-        back = f"At {each.name} nothing comes back" if each.name in found.restitution else f"{each.name} holds"
-        made.append(Equation(left, right, back if is_zero(right) else f"{each.name} throws back"))
+        back = f"{each.name} does not rebound" if each.name in found.restitution else f"Constraint {each.name}"
+        made.append(Equation(left, right, back if is_zero(right) else f"{each.name} rebounds"))
     made += _friction(found)
-    return [Heading("What holds" if found.subject.blow.given else "Restitution, and what holds"), *made] if made else []
+    return [Heading("Constraints" if found.subject.blow.given else "Restitution and constraints"), *made] if made else []
 
 
 def _friction(found: Impact) -> list[Block]:
     """What friction does: of what slides its law, of what sticks that it could."""
     sizes = found.sizes()
-    note = "Coulomb's law, integrated over the impact: friction has all the impulse that it can, against the sliding."
+    note = "Coulomb's law, integrated over the impact: the impulse of friction has its largest size, against the sliding."
     words = "{} slides throughout the impact"
     made: list[Block] = [Equation(found.letter(x), found.law(x), words.format(x.name), note=note) for x in found.slides]
     stuck = all(found.holds(each) for each in found.conditions())
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
             n, f = found.letter(normal), found.letter(load)
-            words = f"{load.name} does not slide any more after the impact, for friction can give what that takes"
+            words = f"{load.name} sticks after the impact: the impulse of friction that this takes is within Coulomb's limit"
             share = [": ", f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]
             made.append(Paragraph([words, *(["."] if np.isnan(sizes[f] + sizes[n]) else share)]))
     return made
@@ -166,11 +166,11 @@ def _answers(found: Impact) -> list[Block]:
     except ArithmeticError as error:
         return [*made, Paragraph(f"No more is given symbolically: {error}.")]
     made += _given(found)
-    made += _stated(solved.known, "What held before the impact gives of the rates then")
+    made += _stated(solved.known, "From the constraints before the impact, the rates then")
     made += _stated(solved.names, "With")
     own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
-    made += _stated(own, "So" if made[1:] else "") + _stated(solved.joints, "and in the joints")
-    return made + [Paragraph(f"Of the joints no more is said: {solved.untold}.")] * bool(solved.untold)
+    made += _stated(own, "So" if made[1:] else "") + _stated(solved.joints, "and for the joints")
+    return made + [Paragraph(f"The impulses of joints are not given: {solved.untold}.")] * bool(solved.untold)
 
 
 def _stated(solution: Solution, name: str) -> list[Block]:
@@ -192,7 +192,7 @@ def _matrix(found: Impact) -> list[Block]:
     unknowns = [Sym(after(name), 1) for name in found.subject.names] + rows.impulses
     matrix, right = rows.matrix(found)
     table = [[ZERO if abs(x) < _NOTHING else Num(float(f"{x:.5g}")) for x in row] for row in (*matrix, right)]
-    name = "The balances of the coordinates, then what holds, in numbers (SI) at this impact"
+    name = "The balances of the coordinates, then the constraints, in numbers (SI) at this impact"
     return [MatrixEquation(table[:-1], unknowns, table[-1], name)]
 
 
@@ -202,13 +202,13 @@ def _numbers(found: Impact) -> list[Block]:
     small = _ROUND_OFF * max(map(abs, (*change.before.u.values(), *change.after.u.values())), default=0.0)
     before, now = ({name: u if abs(u) > small else 0.0 for name, u in each.u.items()} for each in (change.before, change.after))
     rows: list[Words] = [[Sym(name, 1), f": {before[name]:.6g} before, {u:.6g} after"] for name, u in now.items()]
-    unknown = " is not determined: more is held than it takes"
+    unknown = " is not determined: constraints are redundant"
     impulses: list[Words] = [[x, unknown if np.isnan(size) else f" = {size:.6g}"] for x, size in found.sizes().items()]
     where: Words = f"At t = {change.t:.6g} s, rates in m/s or rad/s:"
     if given:
         where = ["With ", given[0], f" = {found.values[given[0]]:.6g} N·s, rates in m/s or rad/s:"]
-    took = f"gives {-change.lost:.6g}" if given else f"takes {change.lost:.6g}"
+    took = f"The impulse does {-change.lost:.6g} J of work." if given else f"The impact takes {change.lost:.6g} J."
     made: list[Block] = [Heading("In numbers" if given else "In the run"), Paragraph(where), Bullets(rows)]
     if impulses:
         made += [Paragraph("Impulses in N·s, of couples in N·m·s:"), Bullets(impulses)]
-    return [*made, Paragraph(f"The impact {took} J." + f" {change.note}" * bool(change.note))]
+    return [*made, Paragraph(took + f" {change.note}" * bool(change.note))]

@@ -211,7 +211,7 @@ class Impact:
         made = [Letter(after(n), "coordinate", known[n].unit, f"{n}, rate after the impact") for n in self.subject.names]
         for load in self.subject.blow.acting:
             if load.name in self.subject.blow.given:
-                made.append(Letter(self.letter(load).name, "parameter", "N*s", "the impulse that strikes"))
+                made.append(Letter(self.letter(load).name, "parameter", "N*s", "the applied impulse"))
             else:
                 words = f"impulse of the {load_words(load).removeprefix('the ')}"
                 made.append(Letter(impulse(load), "unknown", "N*s", words, written[load.symbol]))
@@ -255,8 +255,8 @@ class Impact:
         """Why an impact is not what its equations say."""
         if any(load.kind == "friction" for load in self.forces):
             return (
-                "what slides reverses or stops sliding during the impact, so that friction has neither all the impulse that it can, "
-                "nor what it takes to stick; that is decided stage by stage, see the run"
+                "sliding reverses or stops during the impact, so that the impulse of friction is neither the largest in one direction "
+                "nor what sticking takes; the run resolves that stage by stage"
             )
         return f"the run takes another law of impact. {self.change.note}".strip()
 

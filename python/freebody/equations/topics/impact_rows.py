@@ -48,7 +48,7 @@ class Rows:
     def require_small(self) -> None:
         """Raises ``TooLarge`` where no answer symbolically is sought."""
         if len(self.impulses) != len(self.conditions):
-            raise TooLarge(f"{len(self.conditions)} equations for {len(self.impulses)} unknowns: more is held than it takes")
+            raise TooLarge(f"{len(self.conditions)} equations for {len(self.impulses)} unknowns: constraints are redundant")
         rows = [*self.mass, *(row for row, _ in self.gives), *(row for _, (row, _) in self.conditions)]
         require_brief([entry for row in rows for entry in row])
 

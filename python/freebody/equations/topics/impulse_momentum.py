@@ -230,7 +230,7 @@ class _System:
         if not wanted:
             return {}
         if any(np.isnan(sizes[x]) for x in wanted):
-            raise Singular("the impulses in the joints are not determined: more is held than it takes")
+            raise Singular("they are not determined, as constraints are redundant")
         balances = [(self.found.acting(each.balance), self.found.jump(each.balance)) for each in self.found.of_bodies()]
         staged = self._one_by_one([(self._put(left), self._put(right)) for left, right in self._enough(balances, wanted)], wanted)
         return {x: self._stated(tree, replace(replace(tree, self.known), solution)) for x, tree in staged.items()}

@@ -12,7 +12,7 @@ from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragra
 from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
 from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.derivation.sentences import joined
+from freebody.equations.derivation.sentences import clause, joined
 from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.solve import TooLarge
 from freebody.equations.substitutions import Substitutions, given
@@ -82,13 +82,13 @@ def _require_regular(subject: SymbolicState) -> None:
     """Raises ``NotHere`` for motions that are going on, and where loops hold less than beside it."""
     for row in subject.rows:
         if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
-            raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; set it to stand still")
+            raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; prescribe that it stands still")
     states = [free.rows for free in nearby(subject.source, subject.state) if free.rows]
     ranks = [len(independent(np.array([[row.coefficients[name] for name in subject.names] for row in rows]))) for rows in states]
     if ranks and ranks[0] < max(ranks):
         raise NotHere(
-            "in this place loops lose their independence: more can move for an instant than elsewhere, and what moves there is not "
-            "told by linear equations; give a place beside it"
+            "this configuration is singular: loops lose their independence, and linear equations do not describe what moves there; "
+            "give a configuration beside it"
         )
 
 
@@ -128,7 +128,7 @@ def _equations(subject: SymbolicState, found: Linearised) -> list[Block]:
     for i, (name, letter) in enumerate(pairs):
         said += ["," * bool(i) + " ", Sym(letter), " of ", Sym(name)]
     said.append(f"{'' if pairs else ' of the coordinates'} from there")
-    right = "what the loads that hold it change by, these loads being in 𝐊 as they are at rest" if subject.rows else ""
+    right = "changes of the constraint loads, which are in 𝐊 as they are in equilibrium" if subject.rows else ""
     return [Heading("Linear equations"), *_stated(found, letters, said, right)]
 
 
@@ -149,31 +149,31 @@ def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> li
     letters = _letters_of(subject)
     free = [Sym(letters[name].name) for name in left.equations.coordinates]
     names = list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws))
-    made: list[Block] = [Heading("What is left free")]
+    made: list[Block] = [Heading("Independent perturbations")]
     if numbers:
         made.append(Paragraph(["The symbolic form fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
-        made.append(Paragraph(f"To first order {joined(names)} make these follow:"))
+        made.append(Paragraph(f"To first order {clause(names, 'gives', 'give')} the others:"))
     made += [
         Equation(Sym(letters[name].name), shown(add(*(mul(entry, x) for entry, x in zip(ways, free, strict=True)))))
         for name, ways in left.follow.items()
     ]
     if not free:
-        return [*made, Paragraph("Nothing is left free to move.")]
+        return [*made, Paragraph("No perturbation is independent: nothing can move.")]
     if left.reactions:
         undecided = ", of which some are not determined and taken to be 0" * left.undecided
-        made.append(Paragraph(f"The loads at rest{undecided}:"))
+        made.append(Paragraph(f"The loads in equilibrium{undecided}:"))
     made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
     last = f", the law of {joined(list(left.laws))} last," if left.laws else ""
-    said = ["What they change by does no work there. What is left of ", *listed(free), f"{last} is"]
+    said = ["Their changes do no work in these perturbations. The equations of ", *listed(free), f"{last} are"]
     return made + _stated(left.equations, letters, said)
 
 
 def _place(subject: SymbolicState, chosen: Substitutions, near: bool) -> Words:
-    said: list[str | Tree] = ["The nearest found: at rest with " if near else "At rest with "]
+    said: list[str | Tree] = ["The nearest equilibrium found is at " if near else "The equilibrium is at "]
     for i, (name, tree) in enumerate(place_of(subject).items()):
         said += [", " * bool(i), Sym(name), " = ", shown(chosen.trees.get(name, tree))]
-    return [*said, " everything stays at rest."]
+    return [*said, "."]
 
 
 def _matrix(name: Written, matrix: Matrix) -> Block:

@@ -86,7 +86,7 @@ def _stability(
     if not stated:
         return made
     if near.grows and not any(each.never for each in stated):
-        return [*made, Paragraph("Equal eigenvalues share one direction, in which perturbations grow with time: it is unstable.")]
+        return [*made, Paragraph("A repeated eigenvalue has one eigenvector only, so perturbations grow with time: it is unstable.")]
     conditions = list(dict.fromkeys(c for each in stated for c in each.conditions))
     never = any(each.never for each in stated)
     moving = listed(Sym(letters[name].name) for name in near.moving)
@@ -98,22 +98,22 @@ def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
     """What nothing brings back."""
     made: list[Block] = []
     if near.drifting:
-        drifts = "they drift on, and do not" if len(near.drifting) > 1 else "it drifts on, and does not"
+        drifts = "they drift" if len(near.drifting) > 1 else "it drifts"
         names = listed(Sym(letters[name].name) for name in near.drifting)
-        made.append(Paragraph(["Nothing brings back ", *names, f": with any small constant speed {drifts} stay near."]))
+        made.append(Paragraph(["No load restores ", *names, f": at any small constant speed {drifts} away."]))
     if rest := [name for name in near.free if name not in near.drifting]:
         names = listed(Sym(letters[name].name) for name in rest)
-        made.append(Paragraph(["Nothing brings back ", *names, ": a small perturbation stays as it is."]))
+        made.append(Paragraph(["No load restores ", *names, ": a small perturbation stays as it is."]))
     return made
 
 
 def _verdict(stated: Sequence[Stability], free: bool, conditions: bool, never: bool, moving: Sequence[str | Side]) -> Words:
     kinds = {each.kind for each in stated}
-    what: list[str | Side] = ["Apart from that small perturbations of ", *moving] if free else ["small perturbations"]
+    what: list[str | Side] = ["Apart from that, small perturbations of ", *moving] if free else ["Small perturbations"]
     if never:
         return [*what, " grow, whatever the values of the symbols: it is unstable."]
-    does = {"decays": "die out", "oscillates": "stay small and oscillate"}.get(*kinds) if len(kinds) == 1 else None
-    does = does or "stay small: some die out, others oscillate"
+    does = {"decays": "decay", "oscillates": "stay small and oscillate"}.get(*kinds) if len(kinds) == 1 else None
+    does = does or "stay small: some decay, others oscillate"
     return [*what, f" {does}{' if' if conditions else ' for all values of the symbols (those of the model being positive).'}"]
 
 
